@@ -54,6 +54,8 @@ READ_AND_WRITTEN = {
     ("carom_match_continue", "shot"),
     ("carom_match_plan", "job"),
     ("carom_ball_kind_for", "kind"),
+    ("carom_ball_kind_resolve", "options"),
+    ("carom_ball_kind_resolve", "kind"),
     ("carom_condition_give", "kind"),
     ("carom_cushion_start", "kind"),
     ("carom_record_play", "shot"),

@@ -22,7 +22,7 @@ typedef struct break_job {
   shoot_flags flags;
   const char *plot;
   int racks;
-  bool csv, falls, nine_on_spot;
+  bool csv, json, falls, nine_on_spot;
 } break_job;
 
 static const option_row option_rules = {.name = "rules",
@@ -47,6 +47,9 @@ OPTION(break_job, option_racks, "racks", racks, 0, "N", set_racks, 1,
        "breaks of each speed, tip and gap", .usual = "500");
 OPTION(break_job, option_break_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write a row for each stroke and gap instead of words");
+OPTION(break_job, option_break_json, "json", json, 0, NULL, set_flag, 0,
+       "write each break as the line of its shot with its final states, for --from final of `carom "
+       "plan` and others");
 OPTION(break_job, option_falls, "falls", falls, 0, NULL, set_flag, 0,
        "report also which balls fall into which pockets, and how often. With --csv, each ball and "
        "pocket has a row, instead of the other rows");
@@ -221,6 +224,33 @@ static void write_row(FILE *out, const breaker *b, const shot_line *line, double
           share(c->wing, c), r[0], r[1], far);
 }
 
+/* Writes the breaks of a stroke and gap as lines with their final states. False after a
+ * complaint. */
+static bool write_breaks(FILE *out, const breaker *b, const shot_line *line, double gap) {
+  const carom_break_job job = job_of(b, line, gap);
+  carom_ball_state final[CAROM_BALLS_MOST];
+  carom_status status = CAROM_OK;
+  for (int k = 0; k < b->job->racks && status >= 0; k++) {
+    shot_line each = *line;
+    carom_shot shot = {.final = final};
+    status = carom_break_stroke(&job, k, each.ball, &each.cue);
+    if (status >= 0)
+      status = shot_line_play(&each, &b->options, &shot);
+    if (status >= 0) {
+      each.json = shot_line_json(&each, json_integer(k + 1), &each.cue);
+      shot_write(out, &each, &shot, status, EVENTS_NONE, NULL);
+      json_decref(each.json);
+    }
+    free(shot.events);
+    progress_show("racks", k + 1, b->job->racks);
+  }
+  progress_clear();
+  free(job.memory);
+  if (status < 0)
+    complain("the break cannot be played: %s", carom_status_string(status));
+  return status >= 0;
+}
+
 typedef struct drawn_break {
   played shot;
   const char *words;
@@ -264,29 +294,14 @@ static const command_form form = {
              "reports how often a ball falls, the player plays on, the cue ball falls and a wing "
              "ball falls, where the cue ball ends, and which ball falls where. Each stroke and gap "
              "has a row. The cue aims at the middle of the ball in front, or cuts it by --cut.\n",
-    .options = (const option_row *const[]){&option_rules,
-                                           &option_nine_on_spot,
-                                           &option_racks,
-                                           &option_gap,
-                                           &option_one_seed,
-                                           &option_table,
-                                           &option_cue,
-                                           &option_aim,
-                                           &option_shot_cut,
-                                           &option_shot_speed,
-                                           &option_ball_speed,
-                                           &option_tip,
-                                           &option_elevation,
-                                           &option_player,
-                                           &option_player_errors,
-                                           &options_of_motion,
-                                           &option_with_of_shots,
-                                           &option_falls,
-                                           &option_break_csv,
-                                           &option_break_plot,
-                                           &option_threads,
-                                           &option_output,
-                                           NULL},
+    .options =
+        (const option_row *const[]){
+            &option_rules,         &option_nine_on_spot, &option_racks,         &option_gap,
+            &option_one_seed,      &option_table,        &option_cue,           &option_aim,
+            &option_shot_cut,      &option_shot_speed,   &option_ball_speed,    &option_tip,
+            &option_elevation,     &option_player,       &option_player_errors, &options_of_motion,
+            &option_with_of_shots, &option_falls,        &option_break_csv,     &option_break_json,
+            &option_break_plot,    &option_threads,      &option_output,        NULL},
     .details = "speed if none is given: 9 m/s\n"
                "columns of --csv: "
                "rules,speed,aim,elevation,right,above,gap_mm,racks,makes,makes_error,balls,plays_"
@@ -318,6 +333,11 @@ static bool tell_all(breaker *b, const shot_line *first, const carom_cue *stroke
       shot_line line = *first;
       counts c;
       line.cue = stroke[k];
+      if (b->job->json) {
+        if (!write_breaks(out, b, &line, gap))
+          return false;
+        continue;
+      }
       if (!play(b, &line, gap, &c))
         return false;
       if (b->job->csv)
@@ -387,6 +407,11 @@ int command_break(int argc, char **argv) {
   if (!player_of(&f->shared.player, &b.player) || !svg_possible(job.plot))
     return EXIT_USAGE;
   without_bounds(&b.player);
+
+  if (job.json && (job.csv || job.falls || job.plot != NULL)) {
+    complain("--json writes lines alone: give it without --csv, --falls and --plot");
+    return EXIT_USAGE;
+  }
 
   /* the rack stands on the table of its game, and breaks have a speed of their own */
   if (job.nine_on_spot)

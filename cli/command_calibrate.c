@@ -157,7 +157,7 @@ int command_calibrate(int argc, char **argv) {
     return code;
   carom_table table;
   carom_table_make(tables[job.table], &table);
-  const carom_ball_kind kind = carom_ball_kind_of(game_of_table(tables[job.table]));
+  const carom_ball_kind kind = carom_ball_kind_of(carom_game_of_table(tables[job.table]));
 
   /* the usual table, and this one */
   carom_calibration usual, found;

@@ -29,7 +29,7 @@ typedef struct plan_job {
   shoot_flags flags;       /* --threads, --output; and a layout from words */
   carom_plan_options plan; /* --shots, --seed */
   plan_game game;
-  bool hand, csv, tries, value, why, run_out;
+  bool hand, csv, json, tries, value, why, run_out;
   const char *plot;
 } plan_job;
 
@@ -75,6 +75,8 @@ OPTION(plan_job, option_value, "value", value, 0, NULL, set_flag, 0,
        "shot");
 OPTION(plan_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write rows of CSV instead of words");
+OPTION(plan_job, option_plan_json, "json", json, 0, NULL, set_flag, 0,
+       "write each shot as the line of its stroke, for `carom shoot`");
 OPTION(plan_job, option_why, "why", why, 0, NULL, set_flag, 0,
        "explain each shot: how to aim it, what it leaves, how often it misses and what a miss "
        "leaves, and what errors cost");
@@ -174,6 +176,27 @@ static void write_rows(FILE *out, const shot_line *line, const carom_plan_stroke
   }
 }
 
+/* The strokes as lines; a cue ball in hand lies where the plan puts it. */
+static void write_lines(FILE *out, const plan_job *job, const shot_line *line,
+                        const carom_plan_stroke *choices, int n) {
+  for (int k = 0; k < n; k++) {
+    const carom_plan_stroke *c = &choices[k];
+    shot_line placed = *line;
+    if (job->hand)
+      placed.ball[0].state =
+          (carom_ball_state){.r = {c->place[0], c->place[1], line->ball[0].kind.radius},
+                             .label = CAROM_BALL_STATIONARY};
+    char text[200];
+    describe(line, c, text);
+    json_t *written = shot_line_json(&placed, json_string(text), &c->cue);
+    json_object_set_new(written, "plan",
+                        json_pack("{s: s, s: f, s: f, s: f, s: f}", "kind",
+                                  carom_plan_kind_name((carom_plan_kind)c->kind), "value", c->value,
+                                  "error", c->error, "keep", c->keep, "foul", c->foul));
+    shot_json_write(out, written);
+  }
+}
+
 /* Whether the options go together; complains where they do not. */
 static bool are_together(const plan_job *job) {
   carom_player player;
@@ -187,6 +210,8 @@ static bool are_together(const plan_job *job) {
   else if (job->value && is_carom(job))
     complain("--value: no estimate of a layout of %s is known; a plan reports chances",
              carom_rules_about_of((carom_rules_kind)job->game.rules)->text);
+  else if (job->json && (job->csv || job->value || job->why))
+    complain("--json writes strokes alone: give it without --csv, --value and --why");
   else if (job->why && (job->csv || job->value))
     complain("--why explains shots in words: give it without --csv and --value");
   else if (job->value && job->plot != NULL)
@@ -315,7 +340,9 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
 
   if (job->why && tried == 0)
     carom_plan_replay(&request, choices, n);
-  if (job->csv && !job->value)
+  if (job->json)
+    write_lines(out, job, line, choices, n);
+  else if (job->csv && !job->value)
     write_rows(out, line, choices, n);
   else
     tell(out, job, &request, line, choices, n);
@@ -358,7 +385,9 @@ static const command_form form = {
                                            &option_cue_ball,
                                            &options_of_plan,
                                            &options_of_motion,
+                                           &option_layout,
                                            &option_csv,
+                                           &option_plan_json,
                                            &option_why,
                                            &option_plan_plot,
                                            &option_threads,

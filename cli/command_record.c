@@ -5,6 +5,7 @@
 #include "game/judge_match.h"
 #include "program/program.h"
 #include "rows/number.h"
+#include "shots/shoot_flags.h"
 #include "shots/shot_file.h"
 #include "subcommands.h"
 
@@ -116,8 +117,8 @@ static const command_form record_form = {
     .about = "Plays the shots of a file as `carom shoot` does and writes a recording: the table, "
              "the balls, each stroke, and a hash of the bits in which its shot ended. IN may "
              "be -.\n",
-    .options =
-        (const option_row *const[]){&options_of_motion, &option_events, &option_output, NULL},
+    .options = (const option_row *const[]){&options_of_motion, &option_layout, &option_events,
+                                           &option_output, NULL},
     .details = "exit code: 0 if all shots were recorded and came to rest; 1 if some have errors, "
                "which carom names; 2 for bad usage or unreadable input\n",
     .example = "carom record -o game.jsonl shots.jsonl",
@@ -131,7 +132,7 @@ int command_record(int argc, char **argv) {
   int code = parse_arguments(&record_form, argc, argv, &job, &path);
   if (code >= 0)
     return code;
-  shot_file *file = shot_file_open(path, CAROM_SHOT_CUSHION_DEFAULT);
+  shot_file *file = shot_file_open(path, CAROM_SHOT_CUSHION_DEFAULT, played_again(&job.shared));
   FILE *out = NULL;
   if (file != NULL)
     out = output_open(job.shared.output);

@@ -369,41 +369,20 @@ static const command_form form = {
         "states. "
         "IN may be -. With options that describe a shot, carom plays this shot and describes it in "
         "words; several values with commas give several shots, drawn over each other.\n",
-    .options = (const option_row *const[]){&option_table,
-                                           &option_cue,
-                                           &option_balls,
-                                           &option_aim,
-                                           &option_to,
-                                           &option_at_ball,
-                                           &option_pocket,
-                                           &option_via,
-                                           &option_shot_cut,
-                                           &option_leave,
-                                           &option_player,
-                                           &option_player_errors,
-                                           &option_shot_speed,
-                                           &option_ball_speed,
-                                           &option_tip,
-                                           &option_elevation,
-                                           &option_tip_time,
-                                           &option_tip_restitution,
-                                           &option_gap,
-                                           &option_seed,
-                                           &option_json,
-                                           &option_story,
-                                           &options_of_shots,
-                                           &option_with_of_shots,
-                                           &option_cue_ball,
-                                           &option_events,
-                                           &option_threads,
-                                           &option_plot,
-                                           &option_spread,
-                                           &option_animate,
-                                           &option_shot_id,
-                                           &option_strict,
-                                           &option_cite,
-                                           &option_output,
-                                           NULL},
+    .options =
+        (const option_row *const[]){
+            &option_table,         &option_cue,        &option_balls,
+            &option_aim,           &option_to,         &option_at_ball,
+            &option_pocket,        &option_via,        &option_shot_cut,
+            &option_leave,         &option_player,     &option_player_errors,
+            &option_shot_speed,    &option_ball_speed, &option_tip,
+            &option_elevation,     &option_tip_time,   &option_tip_restitution,
+            &option_gap,           &option_seed,       &option_json,
+            &option_layout,        &option_story,      &options_of_shots,
+            &option_with_of_shots, &option_cue_ball,   &option_events,
+            &option_threads,       &option_plot,       &option_spread,
+            &option_animate,       &option_shot_id,    &option_strict,
+            &option_cite,          &option_output,     NULL},
     .details =
         "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and "
         "the error; carom plays the others); 2 for bad usage or unreadable input\n",
@@ -524,10 +503,8 @@ int command_shoot(int argc, char **argv) {
                "--speed 2");
     return usage_hint(&form);
   }
-  if (!job.together && job.flags.shared.with.lists > 0) {
-    complain(WITH_LISTS);
+  if (!job.together && !with_fits_file(&job.flags.shared.with))
     return EXIT_USAGE;
-  }
   if (!can_play(&job) || !chooses(&job, &options))
     return EXIT_USAGE;
 
@@ -535,7 +512,7 @@ int command_shoot(int argc, char **argv) {
   if (job.together)
     file = flags_open(&job.flags, &options, job.csv ? MOST_ROWS : MOST_SHOTS);
   else
-    file = shot_file_open(path, options.cushion_model);
+    file = shot_file_open(path, options.cushion_model, played_again(&job.flags.shared));
   int code = EXIT_USAGE;
   if (file != NULL) {
     code = shoot_file(&job, file);

@@ -102,21 +102,7 @@ static const char *cut_text(const way *w, char text[CUT_TEXT]) {
 /* The line of a way's stroke. */
 static json_t *way_line(const ways_search *s, const way *w) {
   char text[WAY_TEXT], parts[PARTS_TEXT];
-  json_t *cue = json_object();
-  const json_t *line_cue = json_object_get(s->line->json, "cue");
-  if (line_cue != NULL)
-    json_object_update(cue, (json_t *)line_cue);
-  const carom_number *n;
-  for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
-    double x = 0.0;
-    if (n->key[0] != '\0')
-      memcpy(&x, (const char *)&w->cue + n->offset, sizeof x);
-    if (n->offset <= (int32_t)offsetof(carom_cue, b))
-      json_object_set_new(cue, n->key, json_real(x + 0.0));
-  }
-  json_t *balls = json_deep_copy(json_object_get(s->line->json, "balls"));
-  json_t *written =
-      shot_json(json_string(way_text(s, w, text)), NULL, s->line->table->id, cue, balls);
+  json_t *written = shot_line_json(s->line, json_string(way_text(s, w, text)), &w->cue);
   json_t *about = json_pack("{s: s, s: s, s: f, s: f, s: [f, f]}", "kind", way_name(s, w), "by",
                             parts_text(s, w, parts), "chance", w->chance, "error", w->error,
                             "window", w->phi[0], w->phi[1]);
@@ -314,19 +300,17 @@ static const command_form form = {
              "given strokes has the best chance for a player: how often it succeeds with errors, "
              "and between which directions it succeeds without. LAYOUT has shots of one layout; "
              "carom tries the stroke of each of them in all directions.\n",
-    .options = (const option_row *const[]){&option_ball,          &option_to_pocket,
-                                           &option_rails,         &option_leave,
-                                           &option_each,          &option_scan,
-                                           &option_table,         &option_cue,
-                                           &option_balls,         &option_one_gap,
-                                           &option_one_seed,      &option_shot_speed,
-                                           &option_ball_speed,    &option_tip,
-                                           &option_elevation,     &option_player,
-                                           &option_player_errors, &options_of_motion,
-                                           &option_with_of_shots, &option_cue_ball,
-                                           &option_ways_csv,      &option_ways_json,
-                                           &option_ways_plot,     &option_threads,
-                                           &option_output,        NULL},
+    .options =
+        (const option_row *const[]){
+            &option_ball,          &option_to_pocket,     &option_rails,
+            &option_leave,         &option_each,          &option_scan,
+            &option_table,         &option_cue,           &option_balls,
+            &option_one_gap,       &option_one_seed,      &option_shot_speed,
+            &option_ball_speed,    &option_tip,           &option_elevation,
+            &option_player,        &option_player_errors, &options_of_motion,
+            &option_with_of_shots, &option_cue_ball,      &option_layout,
+            &option_ways_csv,      &option_ways_json,     &option_ways_plot,
+            &option_threads,       &option_output,        NULL},
     .details =
         "columns:\n"
         "  chance               share of 400 strokes with errors that succeed: the ball falls and "

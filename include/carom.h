@@ -218,7 +218,7 @@ typedef enum carom_status {
                                         layout, or a job has both balls and kinds. */
   CAROM_ERROR_BALLS = -44,           /* the number of balls is not 1 to CAROM_BALLS_MOST. */
   CAROM_ERROR_LABEL = -45,           /* the label of a ball is not one that a layout may have. */
-  CAROM_ERROR_OVERLAP = -46,         /* two balls overlap by more than 1e-6 m. */
+  CAROM_ERROR_OVERLAP = -46,         /* two balls overlap by more than 51 um. */
   CAROM_ERROR_OFF_TABLE = -47,       /* a ball is in or behind a cushion, in a pocket, or not at
                                         the height of its radius. */
   CAROM_ERROR_MU_MOTION = -48,       /* a friction of sliding, rolling or spinning is not above 0
@@ -307,8 +307,10 @@ typedef enum carom_status {
   CAROM_ERROR_POCKETS = -116,           /* a table has more than CAROM_POCKETS_MOST pockets. */
   CAROM_ERROR_JAWS = -117,              /* a table has more than CAROM_JAWS_MOST jaws. */
   CAROM_ERROR_RAILS = -118,             /* a table has more than CAROM_RAILS_MOST rails. */
-  CAROM_ERROR_ACT = -119                /* carom_match.h: match.fault says what the rules do not
+  CAROM_ERROR_ACT = -119,               /* carom_match.h: match.fault says what the rules do not
                                            allow, and what would be right. */
+  CAROM_ERROR_SLOPE = -120              /* the slope of a table is not below mu_roll and mu_slide of
+                                           every ball, or a number of it is not -1 to 1. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output; "unknown" for a value not

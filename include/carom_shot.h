@@ -320,8 +320,9 @@ typedef enum carom_game {
   CAROM_GAME_POOL = 0,              /* typical numbers, each within the published range. Those of
                                       the cushion are fitted to public systems of players; no table
                                       was measured */
-  CAROM_GAME_SNOOKER = 1,           /* cloth and straight rebounds measured on one table (Mathavan
-                                      and others, 2009 to 2014); the rest fitted or conventions */
+  CAROM_GAME_SNOOKER = 1,           /* rolling, impacts of balls and cushions from films of 17
+                                      broadcast shots; sliding friction measured on one table
+                                      (Mathavan and others, 2009); the rest conventions */
   CAROM_GAME_BILLIARD = 2,          /* three-cushion: measured on one table, from 182 recorded
                                       shots, with drag, loss of roll and the numbers of
                                       CAROM_CUSHION_SMOOTH */
@@ -392,6 +393,10 @@ typedef struct carom_table {
   double pocket_back; /* height of the backs of pockets, m: an airborne ball over a pocket falls
                          into it if its centre is at most this high above the cloth where it leaves
                          the circle; 0: the greatest height of a nose. */
+  /* Always read. */
+  double slope_x, slope_y; /* by how much the cloth rises for each metre along x and y, -1 to 1; 0:
+                              level. The size of this slope must be below mu_roll and mu_slide of
+                              every ball, so that balls come to rest. Contacts neglect it. */
 } carom_table;
 
 /* Built-in tables, with their playing areas. The pool tables have the pockets of the WPA's rules,
@@ -413,6 +418,9 @@ typedef enum carom_table_kind {
 /* The name of a table ("9ft", "threecushion"), as in files of `carom shoot`, or NULL for a value
  * not listed. */
 CAROM_API const char *carom_table_name(carom_table_kind kind);
+
+/* The game whose balls a table is for: CAROM_GAME_POOL unless it is that of another game. */
+CAROM_API carom_game carom_game_of_table(carom_table_kind table);
 
 /* Fills *table. Returns CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_TABLE if there is no such
  * kind. */
@@ -494,6 +502,7 @@ typedef struct carom_measures {
   double side_mouth, side_cut, side_shelf, side_jaw, side_hole;
   double facing_restitution, facing_friction; /* of facings and jaws, as restitution and mu_cushion
                            of a carom_rail, 0 to 1; 0: those of the ball. */
+  double slope_x, slope_y;                    /* of the cloth, as of a carom_table. */
 } carom_measures;
 
 /* The measures of a built-in table. Statuses are those of carom_table_make(). */
@@ -941,7 +950,8 @@ typedef struct carom_shot {
   carom_shot_state *state;  /* the state in which the shot stopped, for carom_shot_continue(); may
                                be NULL. */
   carom_facts *facts;       /* of the whole shot, also after carom_shot_continue(); may be NULL. */
-  uint64_t reserved[3];     /* not read or written yet. */
+  double slope_x, slope_y;  /* written: those of the table, for carom_shot_at() and the like. */
+  uint64_t reserved[1];     /* not read or written yet. */
 } carom_shot;
 
 /* The collision of two spheres in space along any line of centres: one impulse in closed form, for
@@ -1299,6 +1309,17 @@ typedef struct carom_calibration {
  * shots of one ball. docs/using/fit.md shows how to play the banks. */
 CAROM_API carom_status carom_calibrate(const carom_table *table, const carom_ball_kind *ball,
                                        const double *reading, carom_calibration *out);
+
+/* Writes into `kind` what a shot on the table by the options reads where a number is a default, and
+ * into `options` the models and the law of friction. law_a, law_b and law_c become the law of
+ * friction between balls, also one that is constant; smooth_q and what belongs to it, omega_ratio,
+ * restitution_table and modulus become the usual numbers that the models read; and nose_height
+ * becomes the height of the table's noses where all have one. A shot of the result has the same
+ * bits. NULL for the table leaves nose_height as it is; NULL for the options stands for all
+ * defaults. CAROM_OK, CAROM_ERROR_NULL without a kind, or what is wrong with options or table, and
+ * then nothing is written. */
+CAROM_API carom_status carom_ball_kind_resolve(const carom_table *table,
+                                               carom_shot_options *options, carom_ball_kind *kind);
 
 /* The start of a fit of recorded shots for a model of the cushion: writes the restitution_cushion,
  * mu_cushion and nose_height that the model needs for single impacts on the table of

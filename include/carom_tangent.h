@@ -90,7 +90,8 @@ typedef struct carom_tangent_seeds {
   const double *state;  /* [balls][9][m]: states at the start. Of the ball that the cue strikes,
                            only x and y count. */
   const double *table;  /* [3][m]: numbers of all rails and jaws together */
-  uint64_t reserved[4]; /* must be 0. */
+  const double *slope;  /* [2][m]: slope_x and slope_y of the table */
+  uint64_t reserved[3]; /* must be 0. */
 } carom_tangent_seeds;
 
 /* Results, per unit of the seeds. `final` is needed; each of the others may be NULL. */

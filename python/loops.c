@@ -86,6 +86,8 @@ static bool look_at_shot(looking *with, size_t k, const double *times, size_t m,
   const carom_shot_job *job = with->job;
   const size_t count = (size_t)job->count;
   carom_shot *source = &job->shots[k], shot = *source;
+  shot.slope_x = job->table->slope_x;
+  shot.slope_y = job->table->slope_y;
   carom_status played = (carom_status)job->status[k], look = CAROM_OK;
 
   /* The shot with all of its events; none of one whose arguments were refused. */
@@ -375,7 +377,7 @@ void carom_python_cuts(const double *samples, const double *weight, int n, int l
  * docs/reference/constants.md, and 2e-5 m at 5 m/s. */
 
 enum {
-  EVENTS_MOST = 400,
+  EVENTS_MOST = 1000, /* of a break of 15 balls some 500 */
   PIECES_MOST = 800,
   STRIKE = 6,
   KICKS = 5, /* of a contact */
@@ -427,23 +429,28 @@ static void roll(const carom_ball_kind *kind, double t, carom_ball_state *s) {
 }
 
 /* Appends the way from a state to an end, whose state may be NULL: then it follows from the
- * motion. */
-static bool go(way *w, const carom_shot_ball *ball, double start, double end,
-               const carom_ball_state *target) {
+ * motion. An end before the start, of a ball that is falling into its pocket, adds nothing. */
+static bool go(way *w, const carom_table *table, const carom_shot_ball *ball, double start,
+               double end, const carom_ball_state *target) {
+  if (end < start)
+    return true;
   carom_ball_state state = ball->state, next;
-  const bool cuts = ball->kind.drag > 0.0 && state.label == CAROM_BALL_ROLLING;
-  const int parts =
-      cuts && end - start > piece_most ? (int)fmin(ceil((end - start) / piece_most), 64.0) : 1;
+  const bool sloped = table->slope_x != 0.0 || table->slope_y != 0.0;
+  const bool rolls = state.label == CAROM_BALL_ROLLING, slides = state.label == CAROM_BALL_SLIDING;
+  const bool cuts = (rolls && ball->kind.drag > 0.0) || (sloped && (rolls || slides));
+  const double most = sloped ? 0.5 * piece_most : piece_most;
+  const int parts = cuts && end - start > most ? (int)fmin(ceil((end - start) / most), 64.0) : 1;
   for (int k = 1; k <= parts; k++) {
     const double elapsed = (end - start) * k / parts;
-    if (k < parts) {
-      next = state;
-      roll(&ball->kind, (end - start) / parts, &next);
-    } else if (target == NULL) {
-      if (carom_shot_at(ball, 1, &(carom_shot){.time = elapsed}, elapsed, &next) < 0)
+    const carom_shot shot = {.time = elapsed, .slope_x = table->slope_x, .slope_y = table->slope_y};
+    if (k == parts && target != NULL) {
+      next = *target;
+    } else if (k == parts || sloped) {
+      if (carom_shot_at(ball, 1, &shot, elapsed, &next) < 0)
         return false;
     } else {
-      next = *target;
+      next = state;
+      roll(&ball->kind, (end - start) / parts, &next);
     }
     if (w->pieces == PIECES_MOST)
       return false;
@@ -499,16 +506,35 @@ static void kick(const carom_table *table, const carom_event *e, const double k[
     b->w[2] += V / R * k[4];
 }
 
+/* A ball that falls goes on for the radius of the pocket and stays there, in the middle or nearby:
+ * so its place is continuous, and a descent sees samples on both sides of the fall. Returns when it
+ * stops. */
+static double fall(const carom_table *table, const carom_event *e, carom_ball_state *state,
+                   way *w) {
+  const carom_ball_state *before = &e->before[0];
+  const double speed = hypot(before->v[0], before->v[1]);
+  if (speed < 1e-3 || w->pieces == PIECES_MOST)
+    return e->time;
+  const double wait = table->pocket[e->b].radius / speed;
+  w->piece[w->pieces++] =
+      (piece){.start = e->time, .c = {{before->r[0], before->r[1]}, {before->v[0], before->v[1]}}};
+  for (int k = 0; k < 2; k++)
+    state->r[k] = before->r[k] + wait * before->v[k];
+  return e->time + wait;
+}
+
 /* Appends the ways up to some events of all balls, which are at `balls` at the times starts[]. */
-static bool follow(const carom_event *events, int many, carom_shot_ball *balls, double *starts,
-                   way *ways) {
+static bool follow(const carom_table *table, const carom_event *events, int many,
+                   carom_shot_ball *balls, double *starts, way *ways) {
   bool good = true;
   for (const carom_event *e = events; e < events + many; e++)
     for (int side = 0; side < (e->type == CAROM_EVENT_BALL_BALL ? 2 : 1); side++) {
       const int i = side == 0 ? e->a : e->b;
-      good = good && go(&ways[i], &balls[i], starts[i], e->time, &e->before[side]);
+      good = good && go(&ways[i], table, &balls[i], starts[i], e->time, &e->before[side]);
       starts[i] = e->time;
       balls[i].state = e->after[side];
+      if (e->type == CAROM_EVENT_POCKET)
+        starts[i] = fall(table, e, &balls[i].state, &ways[i]);
     }
   return good;
 }
@@ -523,11 +549,12 @@ static bool is_contact(const carom_event *e) {
 static carom_status play(const carom_python_tracks *tracks, int32_t shot, int variant,
                          const double *strike, double end, carom_event *events, int *many,
                          way *ways) {
-  const int count = tracks->count;
+  const int count = tracks->counts[shot];
+  const carom_table *table = &tracks->tables[variant];
   carom_shot_ball balls[CAROM_BALLS_MOST], current[CAROM_BALLS_MOST];
   carom_ball_state final[CAROM_BALLS_MOST];
   const size_t layout = (size_t)variant * (size_t)tracks->shots + (size_t)shot;
-  memcpy(balls, &tracks->balls[layout * (size_t)count], (size_t)count * sizeof *balls);
+  memcpy(balls, &tracks->balls[layout * (size_t)tracks->count], (size_t)count * sizeof *balls);
 
   /* The struck ball moves as it does just after the strike. */
   carom_shot_ball *struck = &balls[tracks->struck[shot]];
@@ -553,7 +580,7 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
     options.time_most = end - begin;
     carom_event *first = &events[*many];
     carom_shot played = {.events = first, .room = EVENTS_MOST - *many, .final = final};
-    const carom_status status = carom_shoot(tracks->table, current, count, NULL, &options, &played);
+    const carom_status status = carom_shoot(table, current, count, NULL, &options, &played);
     if (status < 0)
       return status;
     if (played.count > played.room)
@@ -563,7 +590,7 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
       contact += parts && is_contact(&first[e]);
     }
     *many += (int)played.count;
-    good = good && follow(first, (int)played.count, balls, starts, ways);
+    good = good && follow(table, first, (int)played.count, balls, starts, ways);
     begin += played.time;
     if (status != CAROM_STOPPED_AT_EVENT || begin >= end)
       break;
@@ -574,7 +601,7 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
     const carom_event *last = &events[*many - 1];
     if (contact > tracks->kicks)
       continue;
-    kick(tracks->table, last, &strike[STRIKE + KICKS * (contact - 1)], current);
+    kick(table, last, &strike[STRIKE + KICKS * (contact - 1)], current);
     balls[last->a].state = current[last->a].state;
     if (last->type == CAROM_EVENT_BALL_BALL)
       balls[last->b].state = current[last->b].state;
@@ -582,7 +609,7 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
 
   /* What follows a ball's last event goes to the end of the time. */
   for (int i = 0; i < count; i++)
-    good = good && go(&ways[i], &balls[i], starts[i], end, NULL);
+    good = good && go(&ways[i], table, &balls[i], starts[i], end, NULL);
   return good ? CAROM_OK : CAROM_ERROR_ROOM;
 }
 
@@ -607,11 +634,11 @@ static void place(const way *w, double time, int *index, double r[2]) {
 static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *ways,
                    const double *start, int plays, const double *step, const double *onset,
                    double end, double *sums) {
-  const int count = tracks->count;
+  const int count = tracks->count, in_play = tracks->counts[shot];
   const double c2 = tracks->huber * tracks->huber;
   double *gradient = &sums[3], *square = &gradient[plays - 1];
   memset(sums, 0, (size_t)(3 + (plays - 1) + (plays - 1) * plays / 2) * sizeof *sums);
-  for (int i = 0; i < count; i++) {
+  for (int i = 0; i < in_play; i++) {
     const int64_t *first = &tracks->first[(size_t)shot * (size_t)count + (size_t)i];
     int indices[PLAYS_MOST] = {0};
     for (int64_t m = first[0]; m < first[1]; m += tracks->stride) {
@@ -706,7 +733,7 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
         continue;
       if (d == STRIKE - 1) {
         /* struck later, the balls go the same way */
-        for (int i = 0; i < count; i++)
+        for (int i = 0; i < tracks->counts[shots[k]]; i++)
           copy(&ways[(d + 1) * count + i], &ways[i]);
         continue;
       }
@@ -730,7 +757,7 @@ carom_status carom_python_kicked(const carom_python_tracks *tracks, int32_t shot
   if (ways != NULL)
     status = play(tracks, shot, 0, strike, end - strike[5], events, &happened, ways);
   *many = happened;
-  for (int i = 0; i < tracks->count && status >= 0; i++) {
+  for (int i = 0; i < tracks->counts[shot] && status >= 0; i++) {
     int index = 0;
     for (size_t k = 0; k < n; k++)
       place(&ways[i], times[k] - strike[5], &index, &places[2 * ((size_t)i * n + k)]);

@@ -92,21 +92,22 @@ carom_status carom_python_look(const carom_shot_job *job, const double *times, s
 void carom_python_cuts(const double *samples, const double *weight, int n, int longest,
                        double penalty, double *best, int32_t *back);
 
-/* Recorded shots, and how they are played: for carom_python_misfit(). Shot s has `count` balls
- * at rest, balls[s * count ...], of which struck[s] is struck; the samples of its ball i are
- * samples[first[s * count + i]] up to, without it, samples[first[s
- * * count + i + 1]], each t, x, y (s, m), in the order of time. Constants are fields of the
- *   balls: `balls` has the `shots` layouts, and after them, for each of `constants` constants,
- *   the same layouts with that constant changed by steps[]. */
+/* Recorded shots, and how they are played: for carom_python_misfit(). Shot s has counts[s] balls at
+ * rest, balls[s * count ...], of which struck[s] is struck; the samples of its ball i are
+ * samples[first[s * count + i]] up to, without it, samples[first[s * count + i + 1]], each t, x, y
+ * (s, m), in the order of time. Constants are numbers of the balls or of the table: `balls` has the
+ * `shots` layouts and `tables` the table, and after them, for each of `constants` constants, the
+ * same with that constant changed by steps[]. */
 typedef struct carom_python_tracks {
-  const carom_table *table;
+  const carom_table *tables;         /* 1 + constants */
   const carom_shot_options *options; /* time_most and events_most are not read */
   const carom_shot_ball *balls;
-  const int32_t *struck;
+  const int32_t *struck, *counts;
   const double *samples;
   const int64_t *first;
   const double *steps; /* of the constants */
-  int32_t count, shots, constants;
+  int32_t count;       /* the most balls of a shot */
+  int32_t shots, constants;
   int32_t kicks;  /* contacts of a play, from its first on, that have kicks: at most 16 */
   int32_t stride; /* one of so many samples of a ball is compared, the first among them */
   double step;    /* of the differences by the strike, m/s and s */
@@ -136,7 +137,7 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
                                  const double *strikes, const double *ends, const double *most,
                                  double *sums);
 
-/* One such play: its events, 400 of them at most, whose states `after` are those before kicks,
+/* One such play: its events, 1000 of them at most, whose states `after` are those before kicks,
  * the number of them in *many, and the places places[(n ball + k) 2 ...] of the balls at the
  * times times[k], ascending, of the recording's clock. The status is that of the play;
  * CAROM_ERROR_ROOM: it has too many events. */

@@ -179,7 +179,10 @@
   X(ERROR_POCKETS, -116, "too_many_pockets", "a table has at most 8 pockets")                      \
   X(ERROR_JAWS, -117, "too_many_jaws", "a table has at most 32 jaws")                              \
   X(ERROR_RAILS, -118, "too_many_rails", "a table has at most 32 rails")                           \
-  X(ERROR_ACT, -119, "bad_act", "the rules do not allow this act")
+  X(ERROR_ACT, -119, "bad_act", "the rules do not allow this act")                                 \
+  X(ERROR_SLOPE, -120, "bad_slope",                                                                \
+    "the slope of the table, (slope_x, slope_y), must be below mu_roll and mu_slide of every "     \
+    "ball")
 
 #define AGREES(NAME, value, name, text) \
   _Static_assert(CAROM_##NAME == (value), "values are never renumbered");

@@ -16,19 +16,21 @@
 #include <string.h>
 
 enum { LAYOUT_BALLS = 16, NUMBERS = CAROM_STATE_NUMBERS, LAYOUT_DIRECTIONS = 24 };
+/* Numbers of a table: those of noses, then its slope along x and y. */
+enum { SLOPE = CAROM_NOSE_NUMBERS, TABLE_NUMBERS = SLOPE + 2 };
 
 /* All that a shot is played with. */
 typedef struct layout {
   int count;
   carom_shot_ball ball[LAYOUT_BALLS];
   carom_cue cue;
-  const carom_table *table;        /* NULL: of pool */
-  double nose[CAROM_NOSE_NUMBERS]; /* what its rails and jaws have more */
+  const carom_table *table;   /* NULL: of pool */
+  double nose[TABLE_NUMBERS]; /* what its rails and jaws have more, and its slope */
   carom_shot_options options;
 } layout;
 
 /* A number of a layout: of the cue, of the state of a ball, or a constant of a ball, -1 for all
- * of them, or of the noses of the table; its row among the seeds, and a typical size. */
+ * of them, or of the table; its row among the seeds, and a typical size. */
 typedef struct direction {
   enum { OF_CUE, OF_STATE, OF_KIND, OF_NOSES } of;
   int ball, row;
@@ -65,6 +67,8 @@ static inline const carom_table *table_of(const layout *l) {
     table.jaw[k].mu_cushion += l->nose[1];
     table.jaw[k].restitution += l->nose[2];
   }
+  table.slope_x = l->nose[SLOPE];
+  table.slope_y = l->nose[SLOPE + 1];
   return &table;
 }
 
@@ -92,7 +96,7 @@ static inline carom_tangent_seeds seeds_of(const direction *d, int m) {
   static double cue[CAROM_CUE_NUMBERS * LAYOUT_DIRECTIONS],
       state[LAYOUT_BALLS * NUMBERS * LAYOUT_DIRECTIONS],
       kind[LAYOUT_BALLS * sizeof(carom_ball_kind) / sizeof(double) * LAYOUT_DIRECTIONS],
-      noses[CAROM_NOSE_NUMBERS * LAYOUT_DIRECTIONS];
+      noses[TABLE_NUMBERS * LAYOUT_DIRECTIONS];
   memset(cue, 0, sizeof cue);
   memset(state, 0, sizeof state);
   memset(kind, 0, sizeof kind);
@@ -108,8 +112,12 @@ static inline carom_tangent_seeds seeds_of(const direction *d, int m) {
         state[(i * NUMBERS + d[j].row) * m + j] = 1.0;
       else
         kind[(i * CAROM_KIND_NUMBERS + d[j].row) * m + j] = 1.0;
-  return (carom_tangent_seeds){
-      .directions = m, .cue = cue, .kind = kind, .state = state, .table = noses};
+  return (carom_tangent_seeds){.directions = m,
+                               .cue = cue,
+                               .kind = kind,
+                               .state = state,
+                               .table = noses,
+                               .slope = noses + SLOPE * m};
 }
 
 static inline carom_status shoot(const layout *l, carom_shot *s) {

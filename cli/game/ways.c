@@ -16,7 +16,16 @@ bool player_of(const given_player *options, carom_player *player) {
   }
   if (options->rated)
     *player = carom_player_fargo(options->rating);
-  else
+  if (options->filmed) {
+    player->speed = 0.0;
+    player->speed_share = options->speed_share;
+    player->phi = options->phi;
+    player->theta = options->theta;
+    player->a = options->a;
+    player->b = options->b;
+    player->growth = options->growth;
+  }
+  if (!options->rated)
     *player = carom_player_of(options->errs ? options->scale : 1.0);
 
   /* a player who is advised thinks of all strokes */

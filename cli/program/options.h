@@ -111,6 +111,7 @@ typedef struct given_numbers {
   uint64_t of_balls, of_cue, of_fit;
   int bands; /* of the fit: from so many contacts on, m within which 68 and 95 % of places were */
   double band[8][3];
+  double slope[2]; /* of the fit's table */
   carom_shot_cushion fitted;
   carom_ball_kind kind;
   carom_cue cue;
@@ -140,10 +141,11 @@ typedef struct friction_law {
   carom_speed_law law;
 } friction_law;
 
-/* A player that --player or --errors gives. */
+/* A player that --player or --errors gives; one of a film has a rating and errors. */
 typedef struct given_player {
-  bool rated, errs;
+  bool rated, errs, filmed;
   double rating, scale;
+  double speed_share, phi, theta, a, b, growth; /* as of carom_player */
 } given_player;
 
 enum precision { ANY_PRECISION = -1, DOUBLE_PRECISION, SINGLE_PRECISION };
@@ -163,6 +165,7 @@ typedef struct shared_options {
   int precision;               /* enum precision */
   const char *folder, *output; /* --data, --output */
   bool summary, strict, derived;
+  int layout; /* --from: a layout_moment */
 } shared_options;
 
 /* Puts the numbers of --with into those of cushions, where the rows are impacts. Complains and

@@ -325,6 +325,10 @@ static bool give_fit(const char *path, given_numbers *numbers) {
   const char *name, *model = json_string_value(json_object_get(fit, "cushion_model"));
   bool good = json_is_object(constants);
   json_object_set(constants, "radius", json_object_get(fit, "radius"));
+  json_unpack(constants, "{s?: F, s?: F}", "slope_x", &numbers->slope[0], "slope_y",
+              &numbers->slope[1]);
+  json_object_del(constants, "slope_x");
+  json_object_del(constants, "slope_y");
   json_object_foreach(constants, name, x) good =
       good && give_named(numbers, name, json_is_number(x) ? json_number_value(x) : NAN);
   if (fit == NULL)
@@ -635,9 +639,29 @@ static OPTION_SET(set_law) {
   return false;
 }
 
+/* Takes the player of a fit with repeated strokes. */
+static bool take_filmed(const option_row *row, const char *path, given_player *player) {
+  json_error_t error;
+  json_t *fit = json_load_file(path, 0, &error), *found = json_object_get(fit, "player");
+  player->filmed = json_unpack(found, "{s: {s: F}, s: {s: F, s: F, s: F, s: F, s: F, s: F}}",
+                               "rating", "mean", &player->rating, "player", "speed_share",
+                               &player->speed_share, "phi", &player->phi, "theta", &player->theta,
+                               "a", &player->a, "b", &player->b, "growth", &player->growth) == 0;
+  if (fit == NULL)
+    complain("--%s %.200s: %s", row->name, path, error.text);
+  else if (!player->filmed)
+    complain("--%s %.200s: no player; `python -m carom.fit --player` finds one in repeated strokes",
+             row->name, path);
+  json_decref(fit);
+  return player->filmed;
+}
+
 static OPTION_SET(set_player) {
   given_player *player = field;
+  const char *end = strrchr(text, '.');
   player->rated = true;
+  if (end != NULL && strcmp(end, ".json") == 0)
+    return take_filmed(row, text, player);
   if (!set_number(row, text, &player->rating))
     return false;
   const bool good = player->rating >= 200.0 && player->rating <= 850.0;
@@ -711,7 +735,9 @@ ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
     "cushions, such as old_cushion");
 
 ROW(option_player, "player", player, 0, "RATING", set_player, 0, ANY_KIND,
-    "a player with this Fargo rating, 200 to 850, such as 500");
+    "a player with this Fargo rating, 200 to 850, such as 500; or FIT.json, the player of a film, "
+    "whom "
+    "`python -m carom.fit --player` writes");
 ROW(option_player_errors, "errors", player, 0, "SCALE", set_errors, 0, ANY_KIND,
     "a player with these errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE",
     .else_usual = "1, if there is no --player");

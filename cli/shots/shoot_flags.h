@@ -36,7 +36,7 @@ typedef struct shoot_flags {
 extern const option_row option_table, option_cue, option_cue_ball, option_balls, option_aim,
     option_to, option_at_ball, option_pocket, option_via, option_shot_cut, option_shot_speed,
     option_ball_speed, option_tip, option_elevation, option_tip_time, option_tip_restitution,
-    option_json, option_gap, option_seed, option_one_gap, option_one_seed;
+    option_json, option_layout, option_gap, option_seed, option_one_gap, option_one_seed;
 
 /* Whether one of them is given. */
 bool has_flags(const shoot_flags *f);
@@ -45,8 +45,8 @@ bool has_flags(const shoot_flags *f);
  * play by these options; NULL after a complaint. */
 json_t *flags_shots(shoot_flags *f, const carom_shot_options *options, int most);
 
-/* What is wrong with lists of numbers beside a file. */
-#define WITH_LISTS "--with: several values of a number are for shots by options, not for a file"
+/* Whether the numbers of --with are for the tables of a file; else a complaint. */
+bool with_fits_file(const given_numbers *with);
 
 /* The same lines as a file, of this name; NULL after a complaint. */
 #define SHOTS_GIVEN "the shot given"
@@ -56,6 +56,10 @@ shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int mos
  * NULL where both or none are given, or it cannot. */
 shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_options *options,
                        int most);
+
+/* The balls that a subcommand takes which plays the shots of a file again: by default those before
+ * each shot. */
+layout_moment played_again(const shared_options *shared);
 
 /* Reads all shots of the file with the numbers of --with, at most `most`, of which all must have
  * the layout of the first one; where `most` is 1, the first alone. *line is to be freed; how

@@ -21,6 +21,7 @@ struct shot_file {
   named_table **table; /* each stays where it is, for the shots that refer to it */
   size_t tables, room;
   char engine[64];
+  layout_moment moment;       /* of the shots, whose balls are read */
   carom_shot_cushion cushion; /* whose constants balls have by the name of their game */
 };
 
@@ -81,7 +82,9 @@ static bool read_game(shot_file *file, const json_t *params, const char *where,
                     words_of(CAROM_WORDS_GAME, true, (char[MOST_WORDS]){""}));
 }
 
-static bool read_ball(shot_file *file, const json_t *v, int k, shot_line *line, json_fault *f) {
+/* Ball k of a line; its state is that of `final`, if there is one, which the line then has too. */
+static bool read_ball(shot_file *file, json_t *v, int k, const json_t *final, shot_line *line,
+                      json_fault *f) {
   char where[64], key[80];
   snprintf(where, sizeof where, "balls[%d].", k);
   if (!json_get_id(v, where, &line->name[k], f))
@@ -99,6 +102,10 @@ static bool read_ball(shot_file *file, const json_t *v, int k, shot_line *line, 
     return false;
   if (json_object_get(params, "u_sp") == NULL && json_object_get(params, "game") == NULL)
     kind->mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind->radius;
+  if (final != NULL && json_object_get(final, line->name[k]) == NULL)
+    return json_wrong(f, "--from final: final.balls has no ball '%s'", line->name[k]);
+  if (final != NULL)
+    json_object_set(v, "state", json_object_get(final, line->name[k]));
   double state[10];
   snprintf(key, sizeof key, "%sstate", where);
   if (!json_get_numbers(json_object_get(v, "state"), key, 10, state, f))
@@ -141,9 +148,27 @@ static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
   return json_wrong(f, "cue.ball '%s' is no ball of the shot", json_string_value(ball));
 }
 
+/* The final states of a line, where they are to be read; NULL where the balls before the shot
+ * are. */
+static bool final_states(const shot_file *file, const json_t *json, const json_t **states,
+                         json_fault *f) {
+  const json_t *final = json_object_get(json, "final");
+  *states = NULL;
+  if (file->moment == LAYOUT_START || (file->moment == LAYOUT_DEFAULT && final == NULL))
+    return true;
+  if (file->moment == LAYOUT_DEFAULT)
+    return json_wrong(f, "this shot has been played, and its final states stand in the line: "
+                         "--from final takes these, --from start the balls before the shot");
+  *states = json_object_get(final, "balls");
+  return *states != NULL ||
+         json_wrong(f, "--from final: the line has no final states; `carom shoot --events none` "
+                       "plays the shot and writes them");
+}
+
 static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json_fault *f) {
   const json_t *id = json_object_get(json, "id"), *table = json_object_get(json, "table"), *balls,
-               *v;
+               *final;
+  json_t *v;
   size_t k;
   if (id != NULL)
     line->id = json_dumps(id, JSON_ENCODE_ANY);
@@ -153,8 +178,10 @@ static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json
     return false;
   if (json_array_size(balls) == 0)
     return json_wrong(f, "balls must be an array of 1 to %d balls", CAROM_BALLS_MOST);
+  if (!final_states(file, json, &final, f))
+    return false;
   json_array_foreach((json_t *)balls, k, v) {
-    if (!read_ball(file, v, (int)k, line, f))
+    if (!read_ball(file, v, (int)k, final, line, f))
       return false;
     line->count++;
   }
@@ -180,7 +207,7 @@ static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json
 
 /* ---- The file */
 
-shot_file *shot_file_open(const char *path, carom_shot_cushion cushion) {
+shot_file *shot_file_open(const char *path, carom_shot_cushion cushion, layout_moment moment) {
   FILE *in = input_open(path);
   if (in == NULL)
     return NULL;
@@ -189,6 +216,7 @@ shot_file *shot_file_open(const char *path, carom_shot_cushion cushion) {
   file->in = in;
   file->path = input_name(path);
   file->cushion = cushion;
+  file->moment = moment;
   return file;
 }
 

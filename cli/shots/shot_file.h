@@ -33,9 +33,14 @@ typedef struct shot_line {
 
 typedef struct shot_file shot_file;
 
+/* Which balls a line of a shot lays out: those before it, or those of its `final` states. By
+ * default a line with `final` states is in error, so that no layout before a break is planned for
+ * the one after it. */
+typedef enum layout_moment { LAYOUT_DEFAULT, LAYOUT_START, LAYOUT_FINAL } layout_moment;
+
 /* Opens a file, "-" for stdin, of which games have their constants for the model of the cushion.
  * Complains and returns NULL if that fails. */
-shot_file *shot_file_open(const char *path, carom_shot_cushion cushion);
+shot_file *shot_file_open(const char *path, carom_shot_cushion cushion, layout_moment moment);
 
 /* Shots that are no file but an array of lines of JSON, which it takes over; `name` is for
  * messages. */
@@ -88,6 +93,9 @@ enum { EVENTS_NONE, EVENTS_BRIEF, EVENTS_FULL };
 /* A line of a shot: its head, to which results may be added. Takes over the parts, and leaves out
  * those that are NULL. */
 json_t *shot_json(json_t *id, json_t *family, const char *table, json_t *cue, json_t *balls);
+
+/* The line with its balls as they lie, and with a cue: for shot_json_write(). */
+json_t *shot_line_json(const shot_line *line, json_t *id, const carom_cue *cue);
 
 /* Writes a line of JSON, and frees it. */
 void shot_json_write(FILE *out, json_t *line);

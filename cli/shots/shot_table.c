@@ -105,23 +105,6 @@ carom_table_kind table_of_rack(carom_rack_kind rack) {
   return CAROM_TABLE_POOL_9FT;
 }
 
-carom_game game_of_table(carom_table_kind kind) {
-  switch (kind) {
-  case CAROM_TABLE_SNOOKER:
-    return CAROM_GAME_SNOOKER;
-  case CAROM_TABLE_THREECUSHION:
-    return CAROM_GAME_BILLIARD;
-  case CAROM_TABLE_BLACKBALL:
-    return CAROM_GAME_BLACKBALL;
-  case CAROM_TABLE_PYRAMID:
-    return CAROM_GAME_PYRAMID;
-  case CAROM_TABLE_FOURBALL:
-    return CAROM_GAME_FOURBALL;
-  default:
-    return CAROM_GAME_POOL;
-  }
-}
-
 /* Changes measures by "corner=4.25in,side_cut=104", which it cuts up. */
 static bool give_measures(char *keys, carom_measures *m, json_fault *f) {
   char known[JSON_KEYS], hint[HINT_TEXT], range[100], *rest = NULL;
@@ -209,7 +192,7 @@ named_table *built_in_table(const char *id, json_fault *f) {
     bool good = give_measures(keys, &m, f);
     free(keys);
     if (good) {
-      const double R = carom_ball_kind_of(game_of_table((carom_table_kind)kind)).radius;
+      const double R = carom_ball_kind_of(carom_game_of_table((carom_table_kind)kind)).radius;
       const carom_status status = carom_table_measured(&m, R, &t->table, &fault);
       good = status == CAROM_OK || tell_measures(status, &fault, f);
     }

@@ -29,9 +29,6 @@ named_table *built_in_table(const char *id, json_fault *f);
 /* The table on which a rack stands where none is given: that of its name, or the 9ft table. */
 carom_table_kind table_of_rack(carom_rack_kind rack);
 
-/* The game whose balls a table is for. */
-carom_game game_of_table(carom_table_kind kind);
-
 void free_table(named_table *t);
 
 #endif

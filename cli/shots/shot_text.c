@@ -1,7 +1,11 @@
 /* Shots with their results as JSON Lines; numbers read back to the same doubles. */
 #include "shots/shot_file.h"
 
+#include "shots/json_values.h"
+
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 int shot_event_side(const carom_event *event, int ball) {
   if (event->a == ball)
@@ -112,6 +116,36 @@ json_t *shot_json(json_t *id, json_t *family, const char *table, json_t *cue, js
 /* What was read, as it was read; NULL where the line has no such key. */
 static json_t *line_value(const shot_line *line, const char *key) {
   return json_incref(json_object_get(line->json, key));
+}
+
+json_t *shot_line_json(const shot_line *line, json_t *id, const carom_cue *cue) {
+  /* the numbers of the stroke, of which a < 0 is right in the file */
+  json_t *stroke = json_object();
+  const json_t *line_cue = json_object_get(line->json, "cue");
+  if (line_cue != NULL)
+    json_object_update(stroke, (json_t *)line_cue);
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
+    double x = 0.0;
+    if (n->key[0] != '\0')
+      memcpy(&x, (const char *)cue + n->offset, sizeof x);
+    if (n->offset <= (int32_t)offsetof(carom_cue, b))
+      json_object_set_new(stroke, n->key, json_real(x + 0.0));
+  }
+
+  /* the balls in the order of the file, which a subcommand may have changed in its copy */
+  json_t *balls = json_deep_copy(json_object_get(line->json, "balls")), *ball;
+  size_t place;
+  json_array_foreach(balls, place, ball) {
+    char *ball_id;
+    json_fault fault;
+    json_get_id(ball, "", &ball_id, &fault);
+    for (int k = 0; k < line->count; k++)
+      if (strcmp(ball_id, line->name[k]) == 0)
+        json_object_set_new(ball, "state", state_of(&line->ball[k].state));
+    free(ball_id);
+  }
+  return shot_json(id, NULL, line->table->id, stroke, balls);
 }
 
 void shot_json_write(FILE *out, json_t *line) {

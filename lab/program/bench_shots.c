@@ -52,7 +52,7 @@ static bool verified(timed_shot *t) {
 }
 
 static bool read_shots(bench_job *job) {
-  if ((timed.file = shot_file_open(job->shots, CAROM_SHOT_CUSHION_DEFAULT)) == NULL)
+  if ((timed.file = shot_file_open(job->shots, CAROM_SHOT_CUSHION_DEFAULT, LAYOUT_START)) == NULL)
     return false;
   timed_shot t = {.options = job->shared.shot};
   t.options.threads = 1;

@@ -229,7 +229,7 @@ int command_parity(int argc, char **argv) {
   const int code = parse_arguments(&form, argc, argv, &job, &path);
   if (code >= 0)
     return code;
-  shot_file *file = shot_file_open(path, CAROM_SHOT_CUSHION_DEFAULT);
+  shot_file *file = shot_file_open(path, CAROM_SHOT_CUSHION_DEFAULT, LAYOUT_START);
   if (file == NULL)
     return EXIT_USAGE;
   shot_line line;

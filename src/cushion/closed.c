@@ -60,13 +60,11 @@ void carom_apply_speed(carom_contact *c, const carom_cushion_options *opt) {
 carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
   /* the constants of the caller, or those that were measured */
   const bool has_width = opt->smooth_q > 0;
-  const double q = carom_or_usual(opt->smooth_q, 0.35), k = opt->smooth_k,
-               C_x = opt->smooth_x + (has_width ? 0 : 1.3),
-               C_t = opt->smooth_t + (has_width ? 0 : 1.18),
-               a = opt->smooth_a + (has_width ? 0 : 0.25),
-               g = opt->smooth_g + (has_width ? 0 : 0.067),
-               g_log = opt->smooth_g_log + (has_width ? 0 : -0.059),
-               e_d = opt->smooth_e + (has_width ? 0 : 0.06);
+#define NUMBER(member, usual) const double member = opt->member + (has_width ? 0 : (usual));
+  CAROM_USUAL_SMOOTH(NUMBER)
+#undef NUMBER
+  const double q = smooth_q, k = smooth_k, C_x = smooth_x, C_t = smooth_t, a = smooth_a,
+               g = smooth_g, g_log = smooth_g_log, e_d = smooth_e;
 
   /* the slips, and restitution by how far the surface moves down the nose, -1 to 1 */
   const double s_x = carom_slip_x(c), s_t = carom_slip_t(c);

@@ -15,7 +15,7 @@
  * rows:   fewer rows of a batch than this, about 50 us of work, are not worth a thread.
  * start:  restitution, friction and height of the nose (m) that single impacts on the table of
  *         CAROM_GAME_BILLIARD tell by this model, with which a fit of another table begins
- *         (docs/reference/constants.md); or CAROM_NO_START, and fits refuse the model.
+ *         (docs/reference/constants.md); or CAROM_NO_START.
  * sources: the entries of shot/cite.c that it stands on, schema/sources.h.
  * text:   what help and pages say of it.
  *

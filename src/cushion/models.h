@@ -9,6 +9,7 @@
 #include "cushion/list.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
+#include "schema/numbers.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -36,7 +36,6 @@
 #include <stdbool.h>
 
 static const double BETA = 3.5, HALF_PI = 1.57079632679489661923;
-static const double USUAL_RATIO = 1.8; /* that of pooltool */
 static const double ROOT_WIDTH = 1e-10;
 /* how pooltool tells that rho is at a limit */
 static const double LIMIT_ABSOLUTE = 1e-8, LIMIT_RELATIVE = 1e-5;
@@ -134,7 +133,7 @@ static double slip_after(double rho, double mu, double e, double ratio, bool poo
 static double friction_share(const carom_contact *c, double v_n, double slip,
                              const carom_cushion_options *opt) {
   const bool pooltool = opt->convention == CAROM_CONVENTION_POOLTOOL;
-  const double ratio = carom_or_usual(opt->omega_ratio, USUAL_RATIO);
+  const double ratio = carom_or_usual(opt->omega_ratio, CAROM_USUAL_OMEGA_RATIO);
   const double rho = slip / v_n;
   return slip > 0 ? (1 - slip_after(rho, c->mu_w, c->e, ratio, pooltool) / rho) / BETA : 0;
 }

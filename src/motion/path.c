@@ -5,6 +5,8 @@
 #include <stdint.h>
 #include <string.h>
 
+enum { RUNGE_STEPS = 4 }; /* of a pair on a slope */
+
 carom_ball_rates carom_rates_of(const carom_ball_kind *kind) {
   return (carom_ball_rates){.radius = kind->radius,
                             .slide = kind->mu_slide * kind->gravity,
@@ -12,6 +14,13 @@ carom_ball_rates carom_rates_of(const carom_ball_kind *kind) {
                             .gravity = kind->gravity,
                             .drag = kind->drag,
                             .spin = 5.0 * kind->mu_spin * kind->gravity / (2.0 * kind->radius)};
+}
+
+carom_ball_rates carom_rates_on_slope(const carom_ball_kind *kind, double slope_x, double slope_y) {
+  carom_ball_rates rates = carom_rates_of(kind);
+  rates.downhill[0] = -kind->gravity * slope_x;
+  rates.downhill[1] = -kind->gravity * slope_y;
+  return rates;
 }
 
 /* The cube root of x > 0, to 1e-3 of it, by the same operations everywhere: a third of the
@@ -28,11 +37,11 @@ static double rough_cube_root(double x) {
   return y;
 }
 
-/* The first piece of a pair, of a ball that rolls at v against drag: its deceleration. DRAG in
- * path.h has the equations. Apart and cold, so that balls without drag do not pay for it:
- * inlined, it costs their shots 1 to 2 % (carom-lab bench --shots). */
-__attribute__((noinline, cold)) static double begin_pair(carom_path *path,
-                                                         const carom_ball_rates *rates, double v) {
+/* A pair of a ball that rolls at v against drag. DRAG in path.h has the equations. Apart and cold,
+ * so that balls without drag do not pay for it: inlined, it costs their shots 1 to 2 % (carom-lab
+ * bench --shots). */
+__attribute__((noinline, cold)) static void begin_pair(carom_path *path,
+                                                       const carom_ball_rates *rates, double v) {
   /* J0 T^3 / 324 = 1e-5 m with T = fall / (A + k v^2), and 0.6 of it, since T is longer than
    * that */
   static const double most = 324.0 * 1e-5 / 2.0 * 0.6;
@@ -55,10 +64,116 @@ __attribute__((noinline, cold)) static double begin_pair(carom_path *path,
       y *
       (1.0 + y2 * (1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (1.0 / 7.0 + y2 * (1.0 / 9.0 + y2 / 11.0)))));
   const double mean = fall_of_pair / T, first = 4.0 * (v * T - S) / (T * T) - mean;
-  path->second[0] = 2.0 * mean - first;
-  path->second[1] = 0.5 * T;
+  for (int axis = 0; axis < 2; axis++) {
+    path->a[axis] = -0.5 * first * path->e[axis];
+    path->e[axis] *= -0.5 * (2.0 * mean - first);
+  }
+  path->second = 0.5 * T;
+  path->end = path->start + path->second;
   path->goes_on = true;
-  return first;
+}
+
+/* ---- SLOPE in path.h */
+
+/* What a velocity u obeys, u' = -(A + k u^2) u/|u| + c. */
+typedef struct curve {
+  double A, k, c[2];
+} curve;
+
+static double dot_product(const double a[2], const double b[2]) {
+  return a[0] * b[0] + a[1] * b[1];
+}
+
+static void turn_down(const curve *f, const double u[2], double rate[2]) {
+  const double q = sqrt(dot_product(u, u)), slowing = (f->A + f->k * q * q) / q;
+  for (int k = 0; k < 2; k++)
+    rate[k] = f->c[k] - slowing * u[k];
+}
+
+/* From u of size q to 0: the time, and the way. */
+static double run_out(const curve *f, const double u[2], double q, double way[2]) {
+  /* with drag: its exact time and way over those of A on a level cloth, as series in y < 0.04 */
+  const double y = f->k * q * q / f->A, A = f->A * (1.0 + 0.35 * y);
+  double power = 1.0 + 0.35 * y, longer = 0.0, farther = 0.0;
+  for (int n = 1; n <= 7; n++) {
+    longer += power / (2 * n - 1);
+    farther += power / n;
+    power *= -y;
+  }
+
+  const double c2 = dot_product(f->c, f->c), along = dot_product(f->c, u) / q;
+  const double D = A * A - c2, B = 4.0 * A * A - c2, part = (2.0 * A + along) / B;
+  for (int k = 0; k < 2; k++)
+    way[k] = farther * q * (u[k] * part + q * f->c[k] * (1.0 + 3.0 * along * part) / (4.0 * D));
+  return longer * q * (A + along) / D;
+}
+
+/* From u on for a time, by steps of order 4: u there, and the way. */
+static void run_on(const curve *f, double T, double u[2], double way[2]) {
+  const double h = T / RUNGE_STEPS;
+  way[0] = way[1] = 0.0;
+  for (int n = 0; n < RUNGE_STEPS; n++) {
+    double rate[4][2], v[2];
+    turn_down(f, u, rate[0]);
+    for (int stage = 1; stage < 4; stage++) {
+      const double part = stage < 3 ? 0.5 * h : h;
+      for (int k = 0; k < 2; k++)
+        v[k] = u[k] + part * rate[stage - 1][k];
+      turn_down(f, v, rate[stage]);
+    }
+    for (int k = 0; k < 2; k++) {
+      const double middle = rate[1][k] + rate[2][k];
+      way[k] += h * (u[k] + h / 6.0 * (rate[0][k] + middle));
+      u[k] += h / 6.0 * (rate[0][k] + 2.0 * middle + rate[3][k]);
+    }
+  }
+}
+
+/* A pair of a ball that slides with the slip (x, y), or rolls at that velocity. */
+__attribute__((noinline, cold)) static void
+begin_on_slope(carom_path *path, const carom_ball_rates *rates, double x, double y) {
+  static const double most = 8e-6; /* m, as both bounds below err by a fifth on steep slopes */
+  const double u0[2] = {x, y}, q = sqrt(dot_product(u0, u0));
+  const bool slides = path->from.label == CAROM_BALL_SLIDING;
+  const double share = slides ? 2.0 / 7.0 : (double)1.0; /* of u' in v' */
+  curve f = {rates->roll, rates->drag, {0.0, 0.0}};
+  if (slides) {
+    f.A = 3.5 * rates->slide;
+    f.k = 0.0;
+  }
+  for (int k = 0; k < 2; k++)
+    f.c[k] = (slides ? 1.0 : 5.0 / 7.0) * rates->downhill[k];
+  const double c2 = dot_product(f.c, f.c), A = f.A, slows = A + f.k * q * q;
+  /* less slope has the pieces of 1e-3, so that derivatives by it are as good */
+  const double least = carom_lesser(1e-3 * rates->gravity, 0.5 * A),
+               c = c2 > least * least ? sqrt(c2) : least;
+
+  /* to the end, if the place is good enough there; otherwise h, by J T^3 / 324 as with drag, where
+   * the part of J that turns grows like 1/(1 - h) */
+  const double turns = share * c, drags = 2.0 * f.k * q * q, square = q * q / (A * A);
+  double u[2] = {u0[0], u0[1]}, way[2], T;
+  path->last_pair = square * (0.035 * turns * A / (A - c) + drags / 324.0) < most &&
+                    c * f.k * square * q * q < most * A;
+  if (path->last_pair) {
+    T = run_out(&f, u0, q, way);
+    u[0] = u[1] = 0.0;
+  } else {
+    const double h =
+        rough_cube_root(0.9 * 324.0 * most * slows * slows / (q * q * (turns + drags)));
+    T = carom_lesser(h / (1.0 + 0.4 * h), 0.5) * q / slows;
+    run_on(&f, T, u, way);
+  }
+
+  /* the accelerations of both pieces */
+  for (int k = 0; k < 2; k++) {
+    const double mean = (u[k] - u0[k]) / T, first = 4.0 * (way[k] - u0[k] * T) / (T * T) - mean;
+    const double slope = (1.0 - share) * f.c[k];
+    path->a[k] = 0.5 * (share * first + slope);
+    path->e[k] = 0.5 * (share * (2.0 * mean - first) + slope);
+  }
+  path->second = 0.5 * T;
+  path->end = path->start + path->second;
+  path->goes_on = true;
 }
 
 void carom_path_go_on(carom_path *path, const carom_ball_rates *rates) {
@@ -77,9 +192,9 @@ void carom_path_second(carom_path *path, double start) {
   path->ends_pair = true;
   path->goes_on = !path->last_pair;
   path->start = start;
-  path->end = start + path->second[1];
+  path->end = start + path->second;
   for (int k = 0; k < 2; k++)
-    path->a[k] = -0.5 * path->second[0] * path->e[k];
+    path->a[k] = path->e[k];
 }
 
 bool carom_path_go_to(carom_path *path, const carom_ball_rates *rates, double time) {
@@ -105,7 +220,7 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double st
   case CAROM_BALL_ROLLING:
   case CAROM_BALL_SLIDING: {
     const bool slides = s->label == CAROM_BALL_SLIDING;
-    double friction = slides ? rates->slide : rates->roll;
+    const double friction = slides ? rates->slide : rates->roll;
     /* friction acts against the slip, or against the velocity */
     double x = s->v[0], y = s->v[1];
     if (slides) {
@@ -117,18 +232,23 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double st
       path->e[0] = x / size;
       path->e[1] = y / size;
     }
-    /* with drag the path begins with the first piece of a pair */
-    if (!slides && (rates->drag * size * size > 1e-16 * rates->roll || carom_varies(rates->drag)))
-      friction = begin_pair(path, rates, size);
-    path->a[0] = -0.5 * friction * path->e[0];
-    path->a[1] = -0.5 * friction * path->e[1];
-    if (slides)
-      path->end = start + 2.0 * size / (7.0 * friction);
-    else
-      path->end = start + (path->goes_on ? path->second[1] : size / friction);
+    if (carom_is_sloped(rates) && size > 0.0) {
+      begin_on_slope(path, rates, x, y);
+    } else if (!slides && (rates->drag * size * size > 1e-16 * rates->roll ||
+                           carom_varies(rates->drag))) {
+      begin_pair(path, rates, size);
+    } else {
+      path->a[0] = -0.5 * friction * path->e[0];
+      path->a[1] = -0.5 * friction * path->e[1];
+      path->end = start + (slides ? 2.0 * size / (7.0 * friction) : size / friction);
+    }
     break;
   }
   case CAROM_BALL_AIRBORNE:
+    if (carom_is_sloped(rates)) {
+      path->a[0] = 0.5 * rates->downhill[0];
+      path->a[1] = 0.5 * rates->downhill[1];
+    }
     path->a[2] = -0.5 * rates->gravity;
     path->end = start + carom_fall_time(carom_greater(s->r[2] - rates->radius, 0.0), s->v[2],
                                         rates->gravity);
@@ -179,6 +299,10 @@ void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double
   if (start->label == CAROM_BALL_ROLLING) {
     state->w[0] = -state->v[1] / rates->radius;
     state->w[1] = state->v[0] / rates->radius;
+  } else if (carom_is_sloped(rates)) { /* friction is what the slope leaves */
+    const double turn = 2.5 * tau / rates->radius;
+    state->w[0] = start->w[0] - turn * (rates->downhill[1] - 2.0 * path->a[1]);
+    state->w[1] = start->w[1] + turn * (rates->downhill[0] - 2.0 * path->a[0]);
   } else {
     const double turn = 2.5 * rates->slide * tau / rates->radius;
     state->w[0] = start->w[0] - turn * path->e[1];

@@ -8,6 +8,7 @@
  *   rolling    r = r0 + v0 tau - mu_r g/2 v0/|v0| tau^2   and so on, (w_x, w_y) = (-v_y, v_x)/R,
  *              until tau = |v0|/(mu_r g)
  *   drag       a rolling ball slows by mu_r g + k v^2: in pieces of constant deceleration, below
+ *   slope      a ball slides and rolls on a curve: in pieces of constant acceleration, below
  *   on the cloth |w_z| falls at 5 mu_sp g/(2R) down to 0
  *   airborne   r = r0 + v0 tau - g/2 tau^2 z, v = v0 - g tau z, w constant, no drag of the air,
  *              until the ball lands: with d = z - R >= 0 and q = sqrt(v_z^2 + 2 g d),
@@ -32,12 +33,35 @@
  * Errors do not accumulate from pair to pair. Within one, where J is v'' (J = 2 k v (A + k v^2),
  * largest at the start, and nearly constant), the place differs from the exact one by J T^3 /
  * 324 at most, at T/3 and 2T/3, and by nothing at T/2. The speed v0 - v1 that a pair takes is
- * chosen for an error of 1e-5 m. Where that is v0 the pair ends at rest. */
+ * chosen for an error of 1e-5 m. Where that is v0 the pair ends at rest.
+ *
+ * SLOPE. The cloth rises by s = (s_x, s_y) m for each m, so G = -g s is the part of gravity along
+ * it, to first order in s. With e = v/|v|, or e = u/|u| of a ball that slides,
+ *
+ *   sliding    v' = -mu_s g e + G,   u' = -7/2 mu_s g e + G,   so  v' = 2/7 u' + 5/7 G
+ *   rolling    v' = -(mu_r g + k v^2) e + 5/7 G
+ *   airborne   v' = G - g z
+ *
+ * So u, and v of a ball that rolls, obey u' = -(A + k u^2) u/|u| + c: the direction turns downhill.
+ * Without drag u comes to 0, and has gone W until then, where with q = |u0| and h = c . e0
+ *
+ *   T = (A q + c . u0) / (A^2 - c^2),
+ *   W = q^2 (e0 (2A + h) / (4A^2 - c^2) + c (1 + 3h (2A + h) / (4A^2 - c^2)) / (4 (A^2 - c^2))):
+ *
+ * by the rule of products |u| (A + h) falls at A^2 - c^2, and |u|^2 times a polynomial of e at the
+ * components of u. A slope below mu_r and mu_s leaves c < 5/7 A, so every ball comes to rest.
+ *
+ * A pair ends where u is 0, in that state, if the place within it is good to 1e-5 m, and otherwise
+ * after a part h of its speed, in the state of RUNGE_STEPS steps of Runge's and Kutta's method,
+ * which is good to 1e-6 m. Its two accelerations are those of a pair with drag, as vectors.
+ * tests/physics/slope.c measures both errors. With drag the last pair has A (1 + 0.35 y), y = k
+ * q^2/A, and times that make it exact for c = 0; it comes when c k q^4/A^3 is below 1e-5 m. */
 #ifndef CAROM_SRC_MOTION_PATH_H
 #define CAROM_SRC_MOTION_PATH_H
 
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
+#include "platform/dependence.h"
 #include "platform/ranges.h"
 
 #include <stdbool.h>
@@ -48,20 +72,29 @@ typedef struct carom_ball_rates {
   double gravity;             /* g */
   double drag;                /* k, 1/m */
   double spin;                /* 5 mu_sp g/(2R), rad/s^2 */
+  double downhill[2];         /* G, m/s^2: 0 on a level cloth */
 } carom_ball_rates;
 
+/* Those of a level cloth; and the same of a slope. */
 carom_ball_rates carom_rates_of(const carom_ball_kind *kind);
+carom_ball_rates carom_rates_on_slope(const carom_ball_kind *kind, double slope_x, double slope_y);
+
+/* Whether the cloth slopes, or derivatives by its slope are asked for. */
+static inline bool carom_is_sloped(const carom_ball_rates *rates) {
+  return !carom_absent(rates->downhill[0]) || !carom_absent(rates->downhill[1]);
+}
 
 typedef struct carom_path {
-  double start, end;     /* of the phase, on the clock; end is infinite where nothing changes */
-  double a[3];           /* half the acceleration: r(tau) = r0 + v0 tau + a tau^2; a[2] is 0 but
+  double start, end; /* of the phase, on the clock; end is infinite where nothing changes */
+  double a[3];       /* half the acceleration: r(tau) = r0 + v0 tau + a tau^2; a[2] is 0 but
                             for an airborne ball */
-  double e[2];           /* direction of the friction: of the slip, or of v */
+  double e[2];       /* on a level cloth, the direction of the friction: of the slip, or of v; in
+                            a pair, a[0] and a[1] of its second piece */
   carom_ball_state from; /* at the start; its label is that of the phase */
   bool goes_on;          /* at the end another piece of the same phase begins: carom_path_go_on() */
   bool ends_pair;        /* the piece is the second of its pair */
   bool last_pair;        /* which ends at rest */
-  double second[2];      /* deceleration, m/s^2, and duration, s, of the second piece of the pair */
+  double second;         /* duration of the second piece of the pair, s */
 } carom_path;
 
 /* Whether the centre moves in the phase. */

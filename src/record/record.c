@@ -55,6 +55,8 @@ static const carom_field table[] = {
     LISTED("rails", CAROM_RAILS_MOST, table.rail, table.rails, rail_fields),
     LISTED("jaws", CAROM_JAWS_MOST, table.jaw, table.jaws, jaw_fields),
     LISTED("pockets", CAROM_POCKETS_MOST, table.pocket, table.pockets, pocket_fields),
+    CAROM_RECORD_FIELD("slope_x", DOUBLE, false, 1, table.slope_x),
+    CAROM_RECORD_FIELD("slope_y", DOUBLE, false, 1, table.slope_y),
     CAROM_NO_FIELD};
 static const carom_field models[] = {CAROM_MOTION_OPTIONS(OPTION_KEY) CAROM_NO_FIELD};
 static const carom_field layout[] = {LISTED("list", CAROM_BALLS_MOST, balls, count, ball_fields),

@@ -123,7 +123,9 @@
   ROW(rail_width, "rail_width", "m", 0, DBL_MAX, NAN, TABLE,                             \
       "width of the tops of rails; 0: 0.12")                                             \
   ROW(pocket_back, "pocket_back", "m", 0, DBL_MAX, NAN, TABLE,                           \
-      "height of the backs of pockets; 0: that of the highest nose")
+      "height of the backs of pockets; 0: that of the highest nose")                     \
+  ROW(slope_x, "slope_x", "", -1, 1, NAN, SLOPE, "rise of the cloth along x")            \
+  ROW(slope_y, "slope_y", "", -1, 1, NAN, SLOPE, "rise of the cloth along y")
 
 #define CAROM_MEASURES_NUMBERS(ROW, LATER)                                                         \
   LATER(width, "width", "m", 0.1, 100, NAN, TABLE, "width of the playing area, between the noses") \
@@ -145,7 +147,9 @@
   LATER(facing_restitution, "facing_restitution", "", 0, 1, NAN, TABLE,                            \
         "restitution of ball and facing or jaw; 0: that of the ball")                              \
   LATER(facing_friction, "facing_friction", "", 0, 1, NAN, TABLE,                                  \
-        "friction of ball and facing or jaw; 0: that of the ball")
+        "friction of ball and facing or jaw; 0: that of the ball")                                 \
+  LATER(slope_x, "slope_x", "", -1, 1, NAN, TABLE, "rise of the cloth along x")                    \
+  LATER(slope_y, "slope_y", "", -1, 1, NAN, TABLE, "rise of the cloth along y")
 
 #define CAROM_RAIL_NUMBERS(ROW, LATER)                                                           \
   ROW(p, "", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "one end")                                      \
@@ -177,6 +181,22 @@
   LATER(v, "", "m/s", -1e4, 1e4, NAN, VELOCITY, "velocity")       \
   LATER(w, "", "rad/s", -1e6, 1e6, NAN, SPIN, "angular velocity") \
   LATER(label, "", "", 0, 6, NAN, LABEL, "how it moves, a carom_label")
+
+/* What a number of a ball stands for where it is 0 and 0 is a default: carom_ball_kind_resolve()
+ * writes these, and whoever reads a number takes them from here. That of the law of friction is
+ * carom_alciatore(). */
+#define CAROM_USUAL_OMEGA_RATIO 1.8
+#define CAROM_USUAL_RESTITUTION_TABLE 0.5
+#define CAROM_USUAL_MODULUS 6.6e9 /* phenolic resin, docs/understanding/clusters.md */
+#define CAROM_USUAL_SMOOTH(X) \
+  X(smooth_q, 0.35)           \
+  X(smooth_x, 1.3)            \
+  X(smooth_t, 1.18)           \
+  X(smooth_a, 0.25)           \
+  X(smooth_k, 0.0)            \
+  X(smooth_g, 0.067)          \
+  X(smooth_g_log, -0.059)     \
+  X(smooth_e, 0.06)
 
 /* For the rows that are not wanted. */
 #define CAROM_NO_ROW(...)

@@ -88,7 +88,7 @@ static inline double height_of(const carom_ball_state *state, double R) {
 static inline bool overlaps(const double r[3], double R, const carom_ball_state *neighbor,
                             double R_other, double z) {
   const double along[3] = {r[0] - neighbor->r[0], r[1] - neighbor->r[1], r[2] - z};
-  const double reach = R + R_other - CAROM_MOST_OVERLAP;
+  const double reach = R + R_other - CAROM_MOST_BALL_OVERLAP;
   return !carom_is_out(neighbor->label) &&
          along[0] * along[0] + along[1] * along[1] + along[2] * along[2] < reach * reach;
 }
@@ -173,6 +173,10 @@ static carom_status check_alone(const carom_prepared *p, const row_rules *rules,
     const carom_status status = check_kind(kind);
     if (status != CAROM_OK)
       return status;
+    const double x = p->table->slope_x, y = p->table->slope_y,
+                 grip = carom_lesser(kind->mu_roll, kind->mu_slide);
+    if (x * x + y * y >= grip * grip)
+      return CAROM_ERROR_SLOPE;
   }
   if (rules->flat && kind->radius != first->radius)
     return CAROM_ERROR_RADII_DIFFER;

@@ -7,11 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-static const double usual_modulus = 6.6e9; /* N/m^2: phenolic resin,
-                                              docs/understanding/clusters.md */
-static const double neighborhood = 0.01;   /* m; members.c looks closer */
-static const double simultaneous = 1e-9;   /* of a contact's duration: touches that are nearer in
-                                              time count as one */
+static const double neighborhood = 0.01; /* m; members.c looks closer */
+static const double simultaneous = 1e-9; /* of a contact's duration: touches that are nearer in
+                                            time count as one */
 
 /* The steps of a cluster in the duration of a contact, as asked or as usual. */
 static double steps_of(const carom_shot_options *opt) {
@@ -42,7 +40,7 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
   b.inverse_mass = 1.0 / kind->mass;
   b.mu_slide = kind->mu_slide;
   b.restitution = kind->restitution;
-  b.modulus = carom_or_usual(kind->modulus, usual_modulus);
+  b.modulus = carom_or_usual(kind->modulus, CAROM_USUAL_MODULUS);
   b.friction = (int8_t)opt->friction;
 
   /* a mirror has no friction with others: all numbers of the law 0 */

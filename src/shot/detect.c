@@ -389,7 +389,8 @@ void carom_take_rates(carom_sim *sim) {
   sim->unlike = false;
   sim->widest = 0.0;
   for (int i = 0; i < sim->count; i++) {
-    sim->rates[i] = carom_rates_of(sim->layout->kind[i]);
+    sim->rates[i] =
+        carom_rates_on_slope(sim->layout->kind[i], sim->table->slope_x, sim->table->slope_y);
     sim->widest = carom_greater(sim->widest, sim->rates[i].radius);
     sim->unlike |= sim->rates[i].radius != sim->features->reference;
   }

@@ -3,6 +3,7 @@
 #include "platform/arithmetic.h"
 #include "table/table.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -110,6 +111,16 @@ static void blame_beside_others(carom_fault *f, const carom_shot_ball *ball, int
   f->part = (carom_part){CAROM_PART_BALL, index};
 }
 
+/* A slope in its range, but too steep for a ball: the greater of its numbers. */
+static void blame_slope(carom_fault *f, const carom_table *t) {
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_TABLE, k)) != NULL; k++) {
+    const double x = value_of(n, t, 0);
+    if (n->error == CAROM_ERROR_SLOPE && fabs(x) >= fabs(f->value))
+      *f = (carom_fault){f->status, {CAROM_PART_TABLE, 0}, 0, n, x};
+  }
+}
+
 carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls, int count,
                               const carom_cue *cue, const carom_shot_options *opt,
                               carom_fault *fault, char *text, size_t room) {
@@ -144,6 +155,8 @@ carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls
     n = carom_ball_fault(&ball->kind, text, room);
   if (n != NULL)
     *fault = (carom_fault){n->error, {CAROM_PART_BALL, index}, 0, n, value_of(n, &ball->kind, 0)};
+  else if (fault->status == CAROM_ERROR_SLOPE)
+    blame_slope(fault, t);
   else
     blame_beside_others(fault, ball, index, cue);
   return fault->status;

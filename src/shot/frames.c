@@ -22,7 +22,7 @@ typedef struct replayed {
 
 /* A shot at a time. Where `turns`, balls turn; then each path is begun as its event comes. */
 typedef struct replay {
-  uint64_t balls_hash; /* fingerprint of the balls */
+  uint64_t balls_hash; /* fingerprint of the slope and the balls */
   uint64_t last_of;    /* and of the last event until then */
   int64_t count;       /* of balls; 0 before the first time */
   int64_t next, turns; /* next: the first event that is later */
@@ -33,7 +33,7 @@ typedef struct replay {
 /* What a caller keeps: the replay at the last time, and before. */
 typedef struct film {
   replay current;
-  uint64_t slots[14000];
+  uint64_t slots[13968];
 } film;
 _Static_assert(sizeof(film) <= sizeof(carom_frames), "a film fits in the words of callers");
 
@@ -63,14 +63,15 @@ static uint64_t last_of(const carom_shot *shot, int64_t next) {
 }
 
 /* As the shot begins: nothing has turned. */
-static void begin(replay *state, const carom_shot_ball *balls, int count, bool turns) {
+static void begin(replay *state, const carom_shot_ball *balls, int count, const carom_shot *shot,
+                  bool turns) {
   state->count = count;
   state->turns = turns;
   state->next = 0;
   state->time = 0.0;
   for (int i = 0; i < count; i++) {
     replayed *ball = &state->ball[i];
-    ball->rates = carom_rates_of(&balls[i].kind);
+    ball->rates = carom_rates_on_slope(&balls[i].kind, shot->slope_x, shot->slope_y);
     ball->path.from = balls[i].state;
     ball->path.start = 0.0;
     ball->begun = 0;
@@ -167,7 +168,7 @@ static void seek(replay *state, const keyframes *keep, const carom_shot_ball *ba
     best->count = 0;
   } while (best != NULL);
   if (time < state->time)
-    begin(state, balls, count, true);
+    begin(state, balls, count, shot, true);
 }
 
 /* Goes forward to a time, and keeps the replay at the begin of each cell on the way. */
@@ -237,7 +238,7 @@ static carom_status check_time(const shown_shot *shown, double time) {
 static bool show(replay *state, const shown_shot *shown, bool turns, double time, double *left) {
   const keyframes *keep = shown->keep;
   if (state->count == 0 || (keep == NULL && time < state->time))
-    begin(state, shown->balls, shown->count, turns);
+    begin(state, shown->balls, shown->count, shown->shot, turns);
   if (keep == NULL)
     return go_to(state, shown->shot, shown->known, time, left);
   if (!(time >= state->time && time <= state->time + keep->length))
@@ -321,7 +322,9 @@ carom_status carom_shot_frames(const carom_shot_ball *balls, int count, const ca
   if (sound) {
     /* frames of another shot begin anew */
     const int64_t known = carom_events_kept(shot);
-    const uint64_t balls_hash = carom_fingerprint(0, balls, (size_t)count * sizeof *balls);
+    const double slope[2] = {shot->slope_x, shot->slope_y};
+    const uint64_t balls_hash = carom_fingerprint(carom_fingerprint(0, slope, sizeof slope), balls,
+                                                  (size_t)count * sizeof *balls);
     memcpy(&state, &store->current, size_of(count));
     if (state.count != count || state.balls_hash != balls_hash || state.next < 0 ||
         state.next > known || state.turns != 1 || state.last_of != last_of(shot, state.next))

@@ -9,14 +9,14 @@ enum { MOST_DUE = 128 };
 
 static int type_of_end(const carom_sim *sim, int i) {
   const carom_path *path = &sim->path[i];
+  if (path->goes_on)
+    return CAROM_DUE_PIECE;
   if (path->from.label == CAROM_BALL_SLIDING)
     return CAROM_EVENT_SLIDING_ROLLING;
   if (path->from.label == CAROM_BALL_SPINNING)
     return CAROM_EVENT_SPINNING_STATIONARY;
   if (carom_flies(&path->from))
     return CAROM_EVENT_SLATE;
-  if (path->goes_on)
-    return CAROM_DUE_PIECE;
   carom_ball_state end;
   carom_path_end(path, &sim->rates[i], &end);
   return end.label == CAROM_BALL_SPINNING ? CAROM_EVENT_ROLLING_SPINNING

@@ -589,6 +589,8 @@ __attribute__((noinline)) static carom_status shoot(const carom_prepared *p, con
   sim->opt = p->opt;
   sim->cue = cue;
   sim->shot = shot;
+  shot->slope_x = p->table->slope_x;
+  shot->slope_y = p->table->slope_y;
 
   /* what belongs to the shot: as it begins, or as it was kept */
   carom_status status = CAROM_OK;

@@ -5,6 +5,7 @@
 
 #include "motion/path.h"
 #include "motion/strike.h"
+#include "schema/numbers.h"
 #include "table/table.h"
 
 /* A layout that has been checked, on its table, with its balls wherever they are. carom_prepare()
@@ -97,7 +98,7 @@ static inline carom_cushion_model carom_cushion_model_of(const carom_shot_option
 /* slate.c: the restitution of a ball with the slate, from restitution_table of its kind: 0 stands
  * for the default, -1 for none. */
 static inline double carom_slate_restitution(double value) {
-  return value >= 0.0 ? carom_or_usual(value, 0.5) : 0.0;
+  return value >= 0.0 ? carom_or_usual(value, CAROM_USUAL_RESTITUTION_TABLE) : 0.0;
 }
 /* The speed at which a ball that falls at v_n on the slate leaves it, for a restitution e. */
 double carom_rebound(double v_n, double e);

@@ -159,10 +159,13 @@ static bool restore_path(carom_sim *sim, int i) {
     carom_path_begin(path, &sim->rates[i], path->start);
     return true;
   }
-  /* the second piece has the direction of the first, and the state that was known there */
+  /* the second piece has what was known of it, and the state that was known there */
   carom_path_second(path, path->start);
-  return state->label == CAROM_BALL_ROLLING && sim->rates[i].drag > 0.0 && path->second[1] >= 0.0 &&
-         fabs(path->second[0]) <= 1e9 && fabs(path->e[0]) <= 2.0 && fabs(path->e[1]) <= 2.0;
+  const bool rolls = state->label == CAROM_BALL_ROLLING,
+             slides = state->label == CAROM_BALL_SLIDING;
+  const bool in_pairs =
+      (rolls && sim->rates[i].drag > 0.0) || ((rolls || slides) && carom_is_sloped(&sim->rates[i]));
+  return in_pairs && path->second >= 0.0 && fabs(path->e[0]) <= 1e9 && fabs(path->e[1]) <= 1e9;
 }
 
 /* Whether a number is `least` to `most`. */

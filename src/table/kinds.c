@@ -1,6 +1,7 @@
 /* Balls and cues of the games. docs/reference/constants.md has the source of each number. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
+#include "schema/numbers.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -21,20 +22,17 @@ carom_cue carom_cue_of(carom_game game) {
 
 /* What the smooth law has in every game: its form was read off one billiard table. */
 static void take_smooth_law(carom_ball_kind *kind) {
-  kind->smooth_q = 0.35;
-  kind->smooth_x = 1.3;
-  kind->smooth_t = 1.18;
-  kind->smooth_a = 0.25;
-  kind->smooth_g = 0.067;
-  kind->smooth_g_log = -0.059;
-  kind->smooth_e = 0.06;
+#define TAKE(member, usual) kind->member = (usual);
+  CAROM_USUAL_SMOOTH(TAKE)
+#undef TAKE
   kind->roll_loss_log = 0.034;
 }
 
 /* Takes away what the default's model of the cushion has beside friction and restitution. */
 static void drop_smooth_law(carom_ball_kind *kind) {
-  kind->smooth_q = kind->smooth_x = kind->smooth_t = kind->smooth_a = 0.0;
-  kind->smooth_g = kind->smooth_g_log = kind->smooth_e = 0.0;
+#define DROP(member, usual) kind->member = 0.0;
+  CAROM_USUAL_SMOOTH(DROP)
+#undef DROP
   kind->mu_log = kind->restitution_log = kind->restitution_log2 = 0.0;
   kind->roll_loss = kind->roll_loss_log = kind->nose_height = 0.0;
 }
@@ -47,16 +45,18 @@ static void take_pool(carom_ball_kind *kind) {
   kind->roll_loss = 0.09;
 }
 
-/* Measured on one table: m/s^2 over g, or the coefficient itself. */
+/* From filmed shots (carom-lab published --film); mu_slide was measured on one table. */
 static void take_snooker(carom_ball_kind *kind) {
   kind->mu_slide = 2.075 / 9.81;
-  kind->mu_roll = 0.125 / 9.81;
-  kind->restitution = 0.89;
+  kind->mu_roll = 0.0084;
+  kind->drag = 0.0107;
+  kind->restitution = 0.955;
 
-  /* rolling balls rebound as measured, at 0.5 to 2.5 m/s (physics/terms) */
+  /* the change with speed is that of measured straight rebounds, at 0.5 to 2.5 m/s */
   take_smooth_law(kind);
+  kind->smooth_x = 1.0;
   kind->mu_cushion = 0.28;
-  kind->restitution_cushion = 0.884;
+  kind->restitution_cushion = 0.85;
   kind->restitution_log = 0.017;
   kind->restitution_log2 = -0.0989;
   kind->nose_height = 0.0304;
@@ -109,6 +109,23 @@ static void resize(carom_ball_kind *kind, const struct sized *row) {
   kind->nose_height *= ratio;
 }
 
+carom_game carom_game_of_table(carom_table_kind table) {
+  switch (table) {
+  case CAROM_TABLE_SNOOKER:
+    return CAROM_GAME_SNOOKER;
+  case CAROM_TABLE_THREECUSHION:
+    return CAROM_GAME_BILLIARD;
+  case CAROM_TABLE_BLACKBALL:
+    return CAROM_GAME_BLACKBALL;
+  case CAROM_TABLE_PYRAMID:
+    return CAROM_GAME_PYRAMID;
+  case CAROM_TABLE_FOURBALL:
+    return CAROM_GAME_FOURBALL;
+  default:
+    return CAROM_GAME_POOL;
+  }
+}
+
 carom_ball_kind carom_ball_kind_of(carom_game game) {
   const struct sized *row = sized_of(game);
   if (row != NULL) {
@@ -131,7 +148,7 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
   /* snooker and carom */
   if (game == CAROM_GAME_SNOOKER || game == CAROM_GAME_POOLTOOL_SNOOKER) {
     kind.mass = 0.140;
-    kind.radius = 0.02619375;
+    kind.radius = game == CAROM_GAME_SNOOKER ? 0.02625 : 0.02619375;
     kind.mu_slide = kind.mu_cushion = 0.5;
   } else if (game == CAROM_GAME_BILLIARD || game == CAROM_GAME_POOLTOOL_BILLIARD) {
     kind.mass = 0.210;
@@ -164,8 +181,8 @@ static const struct model_numbers {
     {CAROM_GAME_POOL, CAROM_SHOT_CUSHION_EULER, 0.97, 0.3, 0.0, 0.0, 0.0, 0.0},
     {CAROM_GAME_POOL, CAROM_SHOT_CUSHION_MIRROR, 0.85, 0.0, 0.0, 0.0, 0.0, 0.0},
     {CAROM_GAME_SNOOKER, CAROM_SHOT_CUSHION_HAN, 0.948, 0.2, 0.03074, 0.0, 0.0079, -0.0948},
-    {CAROM_GAME_SNOOKER, CAROM_SHOT_CUSHION_MATHAVAN, 0.98, 0.14, 0.0, 0.0, 0.0, 0.0},
-    {CAROM_GAME_SNOOKER, CAROM_SHOT_CUSHION_EULER, 0.98, 0.14, 0.0, 0.0, 0.0, 0.0}};
+    {CAROM_GAME_SNOOKER, CAROM_SHOT_CUSHION_MATHAVAN, 0.9, 0.17, 0.0, 0.0, 0.0, 0.0},
+    {CAROM_GAME_SNOOKER, CAROM_SHOT_CUSHION_EULER, 0.9, 0.17, 0.0, 0.0, 0.0, 0.0}};
 
 /* Gives a kind the numbers of another model; false where the game has none for it. */
 static bool take_other(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind) {

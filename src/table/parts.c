@@ -42,6 +42,9 @@ static bool has_good_numbers(const carom_table *t) {
   return isfinite(t->width) && isfinite(t->length) && carom_is_not_negative(t->ball_radius) &&
          carom_is_not_negative(t->rail_width) && carom_is_not_negative(t->pocket_back);
 }
+static bool has_good_slope(const carom_table *t) {
+  return fabs(t->slope_x) <= 1.0 && fabs(t->slope_y) <= 1.0;
+}
 
 carom_status carom_check_table(const carom_table *t, int *where) {
   *where = -1;
@@ -55,6 +58,8 @@ carom_status carom_check_table(const carom_table *t, int *where) {
     return CAROM_ERROR_TABLE;
   if (!has_good_numbers(t))
     return CAROM_ERROR_TABLE;
+  if (!has_good_slope(t))
+    return CAROM_ERROR_SLOPE;
   for (int k = 0; k < t->rails; k++)
     if (!good_rail(&t->rail[k]))
       return place_fault(where, k, CAROM_ERROR_TABLE);

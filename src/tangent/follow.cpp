@@ -137,7 +137,10 @@ CAROM_APART void begin_ball(const carom_tangent_work *w, int i, int side, scene 
   const carom_tangent_ball *ball = &w->ball[i];
   text::carom_ball_kind *kind = &s->ball[side].kind;
   load_kind(w, i, kind);
-  s->sim.rates[side] = text::carom_rates_of(kind);
+  number slope[] = {w->table->slope_x, w->table->slope_y};
+  for (int k = 0; k < 2; k++)
+    load(w->pass, w->seeds->slope, k, &slope[k]);
+  s->sim.rates[side] = text::carom_rates_on_slope(kind, slope[0], slope[1]);
   text::carom_path *path = &s->sim.path[side];
   set(ball->origin, &path->from);
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)

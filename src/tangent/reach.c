@@ -33,7 +33,8 @@ enum { PARTS_OF_WAY = 6, BISECTIONS = 30 };
 
 void carom_reach_go_on(carom_tangent_work *work, int i) {
   carom_tangent_ball *ball = &work->ball[i];
-  const carom_ball_rates rates = carom_rates_of(ball->kind);
+  const carom_ball_rates rates =
+      carom_rates_on_slope(ball->kind, work->table->slope_x, work->table->slope_y);
   carom_path path = {.from = ball->origin};
   carom_path_begin(&path, &rates, ball->origin_time);
   memcpy(ball->a, path.a, sizeof ball->a);

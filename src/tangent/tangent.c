@@ -176,7 +176,8 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
 __attribute__((noinline)) static bool is_in_pile(const work *w, const carom_event *e) {
   static const double reach = 1e-3; /* m; gaps of racks are half of it at most */
   for (int i = 0; i < w->count && e->type == CAROM_EVENT_BALL_BALL; i++) {
-    const carom_ball_rates rates = carom_rates_of(w->ball[i].kind);
+    const carom_ball_rates rates =
+        carom_rates_on_slope(w->ball[i].kind, w->table->slope_x, w->table->slope_y);
     carom_path path = {.from = w->ball[i].origin};
     carom_ball_state s;
     carom_path_begin(&path, &rates, w->ball[i].origin_time);

@@ -1,5 +1,5 @@
-/* The derivative by every number of a ball, a cue and a nose, at its default, at 0 and at the ends
- * of its range: right, or with a flag.
+/* The derivative by every number of a ball, a cue, a nose and a slope, at its default, at 0 and at
+ * the ends of its range: right, or with a flag.
  *
  * Numbers are rows of schema/numbers.h, so one that is added is here too. Each scene, on the cloth
  * and in space, with pairs and clusters, is differentiated by it, and compared with differences of
@@ -34,7 +34,9 @@ static const number numbers[] = {
     CAROM_NUMBERS(OF_BALL, OF_BALL) CAROM_CUE_NUMBERS(OF_STICK, OF_STICK)
     {"nose.height", {OF_NOSES, 0, 0, 1}, 0.0, 0.05},
     {"nose.mu_cushion", {OF_NOSES, 0, 1, 1}, 0.0, 1.0},
-    {"nose.restitution", {OF_NOSES, 0, 2, 1}, 0.0, 1.0}};
+    {"nose.restitution", {OF_NOSES, 0, 2, 1}, 0.0, 1.0},
+    {"slope_x", {OF_NOSES, 0, SLOPE, 1}, -0.004, 0.004},
+    {"slope_y", {OF_NOSES, 0, SLOPE + 1, 1}, -0.004, 0.004}};
 /* clang-format on */
 enum { ALL = (int)(sizeof numbers / sizeof *numbers) };
 

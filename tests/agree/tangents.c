@@ -33,9 +33,15 @@ static const char *const directions =
 enum { SEED = 29 };
 static const double NOTHING = 1e-10; /* a derivative that is rounding errors */
 
-/* With the terms of measured tables, or without. */
-static layout draw_with(random_source *random, bool terms) {
+/* How shots start: level ones, without the terms of measured tables or with them, on a slope
+ * besides, and in space. */
+typedef enum { LEVEL, TERMS, SLOPED, ELEVATED, JUMPS, FLYING, UNLIKE, NOSES } start_kind;
+
+static layout draw_with(random_source *random, start_kind start) {
   layout l = draw(random, MOST_BALLS);
+  const bool terms = start != LEVEL;
+  if (start == SLOPED)
+    random_vector(random, 2, -3e-3, 3e-3, &l.nose[SLOPE]);
   for (int i = 0; i < l.count && terms; i++)
     l.ball[i].kind.nose_height = 1.25 * l.ball[i].kind.radius;
   if (terms)
@@ -53,9 +59,6 @@ static const char *const in_space =
     "all.mu_spin 0.1 all.restitution 1 all.mu_cushion 0.2 all.restitution_cushion 1 "
     "all.gravity 10 all.radius 0.03 all.nose_height 0.5 0.mass 0.2";
 
-/* How shots start: level ones, without the terms of measured tables or with them, and in space. */
-typedef enum { LEVEL, TERMS, ELEVATED, JUMPS, FLYING, UNLIKE, NOSES } start_kind;
-
 #define HAN .cushion_model = CAROM_SHOT_CUSHION_HAN
 #define STRONGE .cushion_model = CAROM_SHOT_CUSHION_STRONGE
 #define EXACT .cushion_model = CAROM_SHOT_CUSHION_MATHAVAN
@@ -69,6 +72,7 @@ static const struct {
     {"inelastic + Han", LEVEL, {INELASTIC, HAN}},
     {"mirror + Stronge", LEVEL, {MIRROR, STRONGE}},
     {"inelastic + Han, terms", TERMS, {INELASTIC, HAN}},
+    {"inelastic + Han, sloped", SLOPED, {INELASTIC, HAN}},
     {"exact + Han", LEVEL, {HAN}},
     {"exact + exact cushions", LEVEL, {EXACT}},
     {"elevated cues", ELEVATED, {INELASTIC, HAN}},
@@ -80,7 +84,7 @@ static const struct {
     {"noses, mirror", NOSES, {.cushion_model = CAROM_SHOT_CUSHION_MIRROR}},
     {"noses, exact", NOSES, {EXACT}},
 };
-enum { LEVEL_KINDS = 5, KINDS = sizeof kinds / sizeof kinds[0] };
+enum { LEVEL_KINDS = 6, KINDS = sizeof kinds / sizeof kinds[0] };
 
 /* Ball 0 flies. */
 static void fly(carom_ball_state *s, random_source *random, double height, double speed) {
@@ -154,15 +158,17 @@ START_TEST(shots_agree_with_differences) {
   const bool space = _i >= LEVEL_KINDS;
   const bool exact = has_exact_balls(_i);
   direction by[SPACE_DIRECTIONS];
-  const int m = read_directions(space ? in_space : directions, by),
-            draws = draws_of_each(FEWER(40)), most_shots = space ? draws * 4 / 5 : draws;
+  int m = read_directions(space ? in_space : directions, by);
+  for (int k = 0; k < 2 && kinds[_i].start == SLOPED; k++)
+    by[m++] = (direction){OF_NOSES, 0, SLOPE + k, 3e-3};
+  const int draws = draws_of_each(FEWER(40)), most_shots = space ? draws * 4 / 5 : draws;
   random_source random = {space ? 3 : SEED};
   double *const errors = malloc((size_t)(draws * SPACE_DIRECTIONS) * sizeof *errors);
   int pairs = 0, without = 0, wrong = 0, by_differences = 0, shots = 0;
   precisely = exact;
   for (int k = 0; k < (space ? 2 * most_shots : draws) && shots < most_shots; k++) {
-    layout l = space ? draw_in_space(&random, kinds[_i].start)
-                     : draw_with(&random, kinds[_i].start == TERMS);
+    layout l =
+        space ? draw_in_space(&random, kinds[_i].start) : draw_with(&random, kinds[_i].start);
     l.options = kinds[_i].options;
     shot = (carom_shot){.events = events, .room = ROOM, .final = final};
     if (shoot(&l, &shot) != CAROM_OK)
@@ -233,7 +239,7 @@ START_TEST(costs) {
     double *const ratio = malloc((size_t)(2 * draws) * sizeof *ratio);
     int n = 0;
     for (int s = 0; s < draws; s++) {
-      layout l = draw_with(&random, kinds[k].start == TERMS);
+      layout l = draw_with(&random, kinds[k].start);
       l.options = kinds[k].options;
       shot = (carom_shot){.events = events, .room = ROOM};
       if (shoot(&l, &shot) != CAROM_OK)

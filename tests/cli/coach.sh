@@ -59,7 +59,7 @@ for way in (("--pocket", "1:foot-left"), ("--at-ball", "1", "--cut", "half"), ("
 PYTHON
 python words.py
 echo "--- a red that moved is named in a picture, and one that is pushed along is met once"
-carom shoot --table snooker --balls snooker --pocket black:foot-left --cue 1.2,2.9 --plot reds.svg | grep -c 'meets red12'
+carom shoot --table snooker --balls snooker --pocket black:foot-left --cue 1.22,2.9 --plot reds.svg | grep -c 'meets red12'
 grep -o '>red[0-9]*<' reds.svg | sort -u | wc -l
 carom shoot --table snooker --cue 1.2,2.9 --balls red3=1,2.6:red4=1.5,0.4 --at-ball red3 --plot reds.svg > reds.txt
 grep -o '>red[0-9]*<' reds.svg
@@ -78,3 +78,18 @@ for elevation in 0 least 20; do
   carom shoot --cue 0.62,0.03 --balls 0.4,2.2 --pocket 1:foot-left --speed 3 --elevation $elevation | grep -E '^(9ft|butt)'
 done
 try_rows "coach, the cue over a ball"
+echo "--- the player of a film"
+cat > filmed.json << 'JSON'
+{"player": {"rating": {"mean": 500, "low": 460, "high": 540},
+  "player": {"speed_share": 0.07, "phi": 0.2, "theta": 0.25, "a": 0.03, "b": 0.03, "growth": 0.25}}}
+JSON
+echo '{"constants": {}}' > fitted.json
+one="plan --cue 0.6,0.8 --balls 0.5,1.6 --rules potting --shots 400 --csv"
+# shellcheck disable=SC2086
+carom $one --player filmed.json | cut -d, -f 2-4,12 | head -n 2
+# shellcheck disable=SC2086
+[ "$(carom $one --player filmed.json)" != "$(carom $one --player 500)" ] && echo "its errors count"
+for words in "--player fitted.json" "--player none.json" "--player filmed.json --errors 1"; do
+  # shellcheck disable=SC2086
+  try carom $one $words
+done

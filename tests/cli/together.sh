@@ -65,6 +65,34 @@ for words in "fit.json" "fit.json,u_s=0.4"; do carom shoot --cue 0.3,0.5 --with 
 carom shoot --cue 0.3,0.5 --with fit.json | tail -n 1
 carom shoot --speed 0.3 --with fit.json | tail -n 1
 [ "$(carom shoot --cue 0.3,0.5 --with fit.json | sed '$d')" = "$(carom shoot --cue 0.3,0.5 --with mu_slide=0.3,law_a=0.02,radius=0.03 --cushion mathavan)" ] && echo "its cushion"
+# the slope of a fit is one of its table
+sed 's/"law_a"/"slope_x": 0.001, "slope_y": -0.0005, "law_a"/' fit.json > sloped.json
+[ "$(carom shoot --cue 0.3,0.5 --with sloped.json)" = "$(carom shoot --cue 0.3,0.5 --with fit.json --table 9ft,slope_x=0.001,slope_y=-0.0005)" ] && echo "its slope"
+try carom shoot --with sloped.json line.jsonl
 echo '{"constants": {"mu_slide": "0.3"}}' > text.json
 echo '{"constants": [0.3]}' > other.json
 for file in text other no; do carom shoot --cue 0.3,0.5 --with $file.json 2>&1 | head -n 1; done
+echo "--- a result is a layout: a break goes to a plan, a plan to a shot, a shot to its ways"
+carom break --rules nineball --racks 2 --seed 3 --json > breaks.jsonl
+sed -n 2p breaks.jsonl | carom plan --rules nineball --from final --shots 200 --json - > plan.jsonl
+head -n 1 plan.jsonl | carom shoot --events none - > shot.jsonl
+# the plan's balls are those at rest after the break, and the shot's those of the plan, digit by digit
+states() { python3 -c 'import json, sys
+line = json.loads(sys.stdin.readline())
+states = line["final"]["balls"] if sys.argv[1] == "final" else {str(b["id"]): b["state"] for b in line["balls"]}
+print(json.dumps(states, sort_keys=True))' "$1" | cksum; }
+[ "$(sed -n 2p breaks.jsonl | states final)" = "$(states balls < plan.jsonl)" ] && echo "break to plan"
+[ "$(states balls < plan.jsonl)" = "$(states balls < shot.jsonl)" ] && echo "plan to shot"
+[ "$(states final < shot.jsonl)" = "$(carom ways --from final --json shot.jsonl | states balls)" ] && echo "shot to ways"
+[ "$(carom shoot --from final --events none shot.jsonl | states balls)" = "$(states final < shot.jsonl)" ] && echo "shot to shot"
+[ "$(carom shoot --events none shot.jsonl)" = "$(cat shot.jsonl)" ] && echo "again from the start"
+carom record --from final shot.jsonl | carom verify - | tail -n 1
+for words in plan ways "plan --from begin"; do
+  # shellcheck disable=SC2086
+  try carom $words shot.jsonl
+done
+try carom ways --from final plan.jsonl
+for words in "plan --csv" "plan --why" "break --csv"; do
+  # shellcheck disable=SC2086
+  try carom $words --json
+done

@@ -282,7 +282,7 @@ static double before_of[EVENTS * 2 * CAROM_STATE_NUMBERS * DIRECTIONS + 1],
 static double cue_seed[CAROM_CUE_NUMBERS * DIRECTIONS],
     state_seed[MOST * CAROM_STATE_NUMBERS * DIRECTIONS],
     kind_seed[MOST * (sizeof(carom_ball_kind) / sizeof(double)) * DIRECTIONS],
-    nose_seed[CAROM_NOSE_NUMBERS * DIRECTIONS];
+    nose_seed[CAROM_NOSE_NUMBERS * DIRECTIONS], slope_seed[2 * DIRECTIONS];
 
 /* A few seeds that are not 0; `wild` becomes whether one of them is beyond 1e4. */
 static carom_tangent_seeds make_tangent_seeds(bool *wild) {
@@ -293,20 +293,23 @@ static carom_tangent_seeds make_tangent_seeds(bool *wild) {
   } const groups[] = {{cue_seed, CAROM_CUE_NUMBERS * DIRECTIONS},
                       {state_seed, count * CAROM_STATE_NUMBERS * DIRECTIONS},
                       {kind_seed, count * CAROM_KIND_NUMBERS * DIRECTIONS},
-                      {nose_seed, CAROM_NOSE_NUMBERS * DIRECTIONS}};
+                      {nose_seed, CAROM_NOSE_NUMBERS * DIRECTIONS},
+                      {slope_seed, 2 * DIRECTIONS}};
+  enum { GROUPS = sizeof groups / sizeof *groups };
   *wild = false;
-  for (int g = 0; g < 4; g++)
+  for (int g = 0; g < GROUPS; g++)
     memset(groups[g].seeds, 0, (size_t)groups[g].size * sizeof(double));
   for (int k = 0; k < 4; k++) {
-    const int g = choice(4), high = choice(256),
+    const int g = choice(GROUPS), high = choice(256),
               place = (256 * high + choice(256)) % groups[g].size;
     const double seed = groups[g].seeds[place] = number(-1, 1);
     *wild |= !within(&seed, 1, 1e4);
   }
-  carom_tangent_seeds seeds = {m, cue_seed, kind_seed, state_seed, nose_seed, {0}};
-  const double **const parts[] = {&seeds.cue, &seeds.kind, &seeds.state, &seeds.table};
+  carom_tangent_seeds seeds = {m, cue_seed, kind_seed, state_seed, nose_seed, slope_seed, {0}};
+  const double **const parts[] = {&seeds.cue, &seeds.kind, &seeds.state, &seeds.table,
+                                  &seeds.slope};
   const int without = choice(16);
-  if (without < 4)
+  if (without < GROUPS)
     *parts[without] = NULL;
   RESERVE(seeds);
   return seeds;

@@ -331,6 +331,7 @@ static int64_t read_line(carom_record *of, const char *line) {
   F(ball_kind_for, GIVES(carom_ball_kind_for(ANYENUM(carom_game, 0),                               \
                                              ANYENUM(carom_shot_cushion, 0), MAYBE(&kind))))       \
   F(ball_kind_of, (kind = carom_ball_kind_of(ANYENUM(carom_game, 0)), ACCEPTED))                   \
+  F(ball_kind_resolve, carom_ball_kind_resolve(MAYBE(&table), MAYBE(&options), PTR(&kind)))        \
   F(check, carom_check(PTR(impacts), MAYBE(&impact_options), MAYBE(&where)))                       \
   F(cite, GIVES(carom_cite(NULL, MAYBE(text), 10)))                                                \
   F(collide, carom_collide(PTR(impacts), MAYBE(&impact_options), PTR(results)))                    \
@@ -360,6 +361,7 @@ static int64_t read_line(carom_record *of, const char *line) {
   F(event_name, is_text(carom_event_name(ANYENUM(carom_event_type, CAROM_EVENT_RAIL))))            \
   F(field_name, is_text(carom_field_name(ANYINT(0))))                                              \
   F(impact3, carom_impact3(PTR(impacts), PTR(results)))                                            \
+  F(game_of_table, GIVES(carom_game_of_table(ANYENUM(carom_table_kind, 0))))                       \
   F(isa_available, GIVES(carom_isa_available(ANYENUM(carom_isa, 0))))                              \
   F(isa_in_force, GIVES(carom_isa_in_force()))                                                     \
   F(isa_limit, GIVES(carom_isa_limit(ANYENUM(carom_isa, CAROM_ISA_ANY))))                          \

@@ -11,12 +11,7 @@
 enum { TABLES = CAROM_TABLE_FOURBALL + 1 };
 
 static double radius_on(int kind) {
-  static const carom_game game_of[TABLES] = {[CAROM_TABLE_SNOOKER] = CAROM_GAME_SNOOKER,
-                                             [CAROM_TABLE_THREECUSHION] = CAROM_GAME_BILLIARD,
-                                             [CAROM_TABLE_BLACKBALL] = CAROM_GAME_BLACKBALL,
-                                             [CAROM_TABLE_PYRAMID] = CAROM_GAME_PYRAMID,
-                                             [CAROM_TABLE_FOURBALL] = CAROM_GAME_FOURBALL};
-  return carom_ball_kind_of(game_of[kind]).radius;
+  return carom_ball_kind_of(carom_game_of_table((carom_table_kind)kind)).radius;
 }
 
 /* ---- Tables */
@@ -646,6 +641,56 @@ TEST(names) {
       }
     }
   ck_assert_int_ge(carom_physics_revision(), 1);
+}
+
+/* The cue ball jumps into three balls that touch each other: contacts that last, the slate and
+ * cushions read the numbers that may stand for defaults. */
+static void play_jump(const carom_table *t, const carom_ball_kind *kind,
+                      const carom_shot_options *options, carom_game game, carom_ball_state *final) {
+  carom_shot_ball balls[4];
+  const double R = kind->radius, row = sqrt(3.0) * R;
+  const double place[4][2] = {{0.0, -0.5}, {0.0, 0.0}, {-R, row}, {R, row}};
+  for (int i = 0; i < 4; i++)
+    balls[i] = (carom_shot_ball){
+        .kind = *kind,
+        .state = {.r = {0.5 * t->width + place[i][0], 0.5 * t->length + place[i][1], R}}};
+  carom_cue cue = carom_cue_of(game);
+  cue.speed = 3.0;
+  cue.phi = 88.0;
+  cue.theta = 20.0;
+  carom_shot shot = {.final = final};
+  ck_assert_int_ge(carom_shoot(t, balls, 4, &cue, options, &shot), 0);
+}
+
+/* A shot of resolved balls has the bits of the shot of the balls that were given, and resolving
+ * again changes nothing. */
+TEST(defaults_are_resolved) {
+  for (int table = 0; table < TABLES; table++)
+    for (int cushion = 0; cushion <= CAROM_SHOT_CUSHION_SMOOTH; cushion++)
+      for (int friction = 0; friction <= CAROM_FRICTION_CONSTANT; friction++) {
+        const carom_game game = carom_game_of_table((carom_table_kind)table);
+        carom_shot_options options = {.cushion_model = (carom_shot_cushion)cushion,
+                                      .friction = (carom_ball_friction)friction};
+        carom_table t;
+        carom_ball_kind kind;
+        carom_ball_state given[4], resolved[4];
+        carom_table_make((carom_table_kind)table, &t);
+        carom_ball_kind_for(game, options.cushion_model, &kind);
+        play_jump(&t, &kind, &options, game, given);
+        expect_ok(carom_ball_kind_resolve(&t, &options, &kind));
+        ck_assert(options.cushion_model != CAROM_SHOT_CUSHION_DEFAULT);
+        ck_assert(kind.law_a + kind.law_b > 0.0 && kind.modulus > 0.0 && kind.nose_height > 0.0);
+        play_jump(&t, &kind, &options, game, resolved);
+        ck_assert_mem_eq(given, resolved, sizeof given);
+        const carom_ball_kind once = kind;
+        expect_ok(carom_ball_kind_resolve(NULL, NULL, &kind));
+        ck_assert_mem_eq(&once, &kind, sizeof kind);
+      }
+  carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  carom_shot_options wrong = {.friction = (carom_ball_friction)9};
+  ck_assert_int_eq(carom_ball_kind_resolve(NULL, NULL, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_ball_kind_resolve(NULL, &wrong, &kind), CAROM_ERROR_FRICTION);
+  ck_assert(kind.law_a == 0.0);
 }
 
 /* Spots of racks are marks of their table; the marks of a table of snooker are the rule book's. */

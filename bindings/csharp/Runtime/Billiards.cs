@@ -148,7 +148,11 @@ namespace Carom {
 
     /// <summary>What the library reads of it.</summary>
     internal Shot Data(ShotEvent *events) {
-      return new Shot { events = events, room = Events.Length, count = Events.Length, time = Time };
+      var shot = new Shot { events = events, room = Events.Length, count = Events.Length };
+      shot.time = Time;
+      shot.slopeX = table.slopeX;
+      shot.slopeY = table.slopeY;
+      return shot;
     }
 
     /// <summary>The states of all balls at a time, s.</summary>

@@ -347,7 +347,7 @@ def shots_of(
     for (name, value), several in zip(
         numbers.items(), _directions(tuple(numbers), layouts.shape[-1])
     ):
-        if several[0].array == "table":
+        if several[0].array in ("table", "slope"):
             raise ValueError(
                 f"numbers: {name}: a batch has one table; kind.nose_height, kind.mu_cushion and kind.restitution_cushion can differ"
             )

@@ -70,6 +70,7 @@ ELEMENTS = {"r": (0, 1, 7), "v": (2, 3, 8), "w": (4, 5, 6)}
 # the exact collision) with a third, 1e-6 with three times as much.
 _STEP, _STEP_MOST = 3e-3, 1e-3
 _TABLE = ("nose_height", "mu_cushion", "restitution")
+_SLOPE = ("slope_x", "slope_y")
 _UNITS = {
     "speed": "m/s",
     "phi": "deg",
@@ -174,7 +175,7 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
     """Of each name: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both
     places, or balls[0].r[1].
     """
-    fields = {"cue": CUE, "table": _TABLE, "kind": KIND}
+    fields = {"cue": CUE, "table": _TABLE + _SLOPE, "kind": KIND}
     found: list[list[Direction]] = []
     for name in _names(wrt, argument):
         match = re.fullmatch(
@@ -186,6 +187,8 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
         if field in fields.get(group, ()) and index is None and not inner:
             column = fields[group].index(field)
             rows = ((i, column) for i in range(balls)) if group == "kind" else ((column,),)
+            if field in _SLOPE:
+                group, rows = "slope", ((_SLOPE.index(field),),)
             found.append([Direction(name, unit, group, tuple(rows))])
         elif number < balls and inner and field in KIND and field != "radius" and index is None:
             found.append([Direction(name, unit, "kind", ((number, KIND.index(field)),))])
@@ -221,6 +224,7 @@ def seeds_of(directions: Sequence[Direction], balls: int) -> dict[str, Doubles]:
         "kind": np.zeros((balls, len(KIND), m)),
         "state": np.zeros((balls, STATE, m)),
         "table": np.zeros((len(_TABLE), m)),
+        "slope": np.zeros((len(_SLOPE), m)),
     }
     for j, direction in enumerate(directions):
         for place in direction.places:
@@ -360,7 +364,7 @@ def tangents(
         By what: "cue.phi" and other numbers of the cue; "kind.mu_slide" of all balls,
         "balls[1].kind.mass" of one; "balls[0].r" (two directions), "balls[0].r[1]", v, w, and
         "balls[0].v[2]" of a ball that flies; "table.nose_height", "table.mu_cushion",
-        "table.restitution".
+        "table.restitution", "table.slope_x", "table.slope_y".
     times : array_like, shape (times,), optional
         s, ascending: for `Tangents.at`.
     threads : int
@@ -504,7 +508,9 @@ def hessian(
             shot.table, shot.balls, shot.cue, room=shot.count, options=shot.options
         )
     for direction in directions:
-        if direction.array == "table" or (direction.array == "cue" and shot.cues is None):
+        if direction.array in ("table", "slope") or (
+            direction.array == "cue" and shot.cues is None
+        ):
             raise ValueError(
                 f"wrt: {direction.name} has no second derivatives here: numbers of a cue that strikes, and of balls, have"
             )

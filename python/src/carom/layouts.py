@@ -65,6 +65,8 @@ class Table:
         m; 0: as carom_shot.h says. The radius of the balls that the rails are meant for, the width
         of the tops of the rails, and the height of the pockets' backs. They count for balls that
         fly, and for balls of other radii.
+    slope_x, slope_y : float
+        By how much the cloth rises for each metre along x and y; 0: level.
     """
 
     def __init__(
@@ -78,6 +80,8 @@ class Table:
         ball_radius: float = 0.0,
         rail_width: float = 0.0,
         pocket_back: float = 0.0,
+        slope_x: float = 0.0,
+        slope_y: float = 0.0,
     ) -> None:
         record: Array = np.zeros((), dtypes.table)
         sizes = {
@@ -86,9 +90,12 @@ class Table:
             "ball_radius": ball_radius,
             "rail_width": rail_width,
             "pocket_back": pocket_back,
+            "slope_x": slope_x,
+            "slope_y": slope_y,
         }
         for name, size in sizes.items():
-            record[name] = number(size, name, "a length in m is needed")
+            unit = "rise per metre" if name.startswith("slope") else "length in m"
+            record[name] = number(size, name, f"a {unit} is needed")
             if name in ("width", "length") and not 0.0 < record[name] < np.inf:
                 raise ValueError(
                     f"{name}: it must be positive and finite, in m, not {record[name]:g}"
@@ -124,7 +131,7 @@ class Table:
         >>> rails["mu_cushion"] = 0.3
         >>> table = table.changed(rails=rails)
         """
-        sizes = ("width", "length", "ball_radius", "rail_width", "pocket_back")
+        sizes = ("width", "length", "ball_radius", "rail_width", "pocket_back", *self.slope)
         fields: dict[str, Any] = {name: float(self.record[name]) for name in sizes}
         fields |= {"rails": self.rails, "jaws": self.jaws, "pockets": self.pockets}
         if unknown := parts.keys() - fields.keys():
@@ -143,6 +150,11 @@ class Table:
     def length(self) -> float:
         """m, along y."""
         return float(self.record["length"])
+
+    @property
+    def slope(self) -> dict[str, float]:
+        """slope_x and slope_y."""
+        return {name: float(self.record[name]) for name in ("slope_x", "slope_y")}
 
     @property
     def rails(self) -> Records:
@@ -257,19 +269,18 @@ _CUSHION = [
 ]
 
 
-def radius_on(table: str) -> float:
-    """The radius of the balls of a built-in table, m."""
-    game = table if table in GAMES else "billiard" if table == "threecushion" else "pool"
-    return float(lib.carom_ball_kind_of(GAMES[game]).radius)
+def radius_on(kind: int) -> float:
+    """The radius of the balls of a built-in table, a carom_table_kind, m."""
+    return float(lib.carom_ball_kind_of(lib.carom_game_of_table(kind)).radius)
 
 
 def _sizes() -> dict[tuple[float, float], list[float]]:
     """The radii of the balls that are played on built-in tables of a size."""
     found: dict[tuple[float, float], list[float]] = {}
     measures = ffi.new("carom_measures *")
-    for table, kind in worded("TABLE").items():
+    for kind in worded("TABLE").values():
         lib.carom_table_measures(kind, measures)
-        found.setdefault((measures.width, measures.length), []).append(radius_on(table))
+        found.setdefault((measures.width, measures.length), []).append(radius_on(kind))
     return found
 
 

@@ -166,6 +166,7 @@ class Shot:
             "room": len(events),
             "count": self.count,
             "time": self.time,
+            **self.table.slope,
         }
         shot = ffi.new("carom_shot *", fields)
         balls, count = pointer("carom_shot_ball[]", self.balls), len(self.balls)

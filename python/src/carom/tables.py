@@ -48,7 +48,7 @@ def _measured(name: str, changes: dict[str, float], record: Array) -> None:
         ffi.new("char[]", 100),
         list(_KEYS),
     )
-    radius = radius_on(name)
+    radius = radius_on(numbered("carom_table_kind")[name])
     for key, value in changes.items():
         if key not in _KEYS:
             raise TypeError(f"{key}: it is no measure of a table; there are {', '.join(keys)}")

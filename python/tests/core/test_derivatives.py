@@ -229,7 +229,7 @@ def test_batches_have_the_bits_of_single_shots(models, threads):
     )
     cues = carom.cue(speed=random.uniform(0.8, 3.0, 9), phi=random.uniform(60.0, 85.0, 9), a=0.1)
     cues["b"][4] = 2.0
-    names = ["cue.speed", "cue.phi", "balls[1].r", "kind.restitution", "table.nose_height"]
+    names = ["cue.speed", "cue.phi", "balls[1].r", "kind.restitution", "table.slope_x"]
     shots = carom.simulate_batch(table, layouts, cues, room=200, **models)
     found = carom.tangents(shots, names, times=[0.1, 0.4], threads=threads)
     assert found.status[4] == carom.Status.ERROR_MISCUE and (found.status != 0).sum() == 1

@@ -27,7 +27,6 @@ from carom.tracks import (
     _constants,
     _from_events,
     _joint,
-    _kicks,
     _recordings,
     _strikes,
     _summary,
@@ -142,16 +141,6 @@ def test_rows_that_are_not_better_have_no_derivatives_and_threads_change_no_bit(
     assert np.array_equal(threads.misfit(shots, strikes, plays.ends[shots], most), some)
 
 
-def test_strikes_that_stuck_are_found_by_way_of_kicks(sample, plays):
-    true = sample.strikes - np.column_stack([np.zeros((len(sample.strikes), 5)), plays.origins])
-    off = true + np.random.default_rng(0).normal(0, 0.1, true.shape) * [1, 1, 1, 1, 1, 0.1]
-    stuck, _ = _strikes.descend(plays, np.arange(len(off), dtype=np.int32), off, plays.ends, 60)
-    stuck_rmse, eased_rmse = plays.rmse(stuck), plays.rmse(_kicks.eased(plays, stuck))
-    # the better of both: some are mended to the noise
-    assert (stuck_rmse > 5e-3).sum() >= 4
-    assert np.exp(np.log(np.fmin(eased_rmse, stuck_rmse) / stuck_rmse).mean()) < 0.6
-
-
 @pytest.mark.parametrize("rows", [1, 2, 3, 5])
 def test_a_start_is_near_the_strike_however_few_rows_tell_it(sample, rows):
     """Where another ball moves so soon that few rows of the cue ball are its own."""
@@ -189,7 +178,7 @@ def test_a_strike_at_a_near_rail_is_found():
     the rail.
     """
     random, recordings, true = np.random.default_rng(11), [], []
-    values = _constants.complete({}, "smooth")
+    values = _constants.usual("smooth")
     table = _constants.rectangle(TABLE, values["nose_height"])
     while len(recordings) < 12:
         places = random.uniform([0.2, 0.2], [2.6, 1.2], (3, 2))
@@ -234,6 +223,11 @@ def test_forecasts_hold_on_shots_with_known_constants(sample):
         inside.append(seen.covered())
     inside = np.mean(inside, axis=0)
     assert 0.6 < inside[0] < inside[1] <= 1.0 and inside[1] > 0.9
+    # where the laws of carom played, the models have no error, and a recording's noise is the fit's
+    assert known.model_error < 0.05
+    again = known.forecast(replace(shot, noise=2e-3), after=2.0, draws=60)
+    assert np.array_equal(again.regions(rows[:, 0])[1], radii)
+    assert len(again.later(moving=True)[0]) < len(rows) and (again.covered(moving=True) > 0.3).all()
     # what comes later changes nothing, and the seed everything
     shot = some[0]
     cut = [track[track[:, 0] <= shot.moves.min() + 2.0] for track in shot.tracks]
@@ -396,7 +390,7 @@ def test_a_bent_picture_is_told_and_calibrated(bend):
     """By a lens or a camera that looks askew, as it bends the edges; corners are up to 2 cm off."""
     notes, mended = told_and_mended(angle=0.2, bend=bend)
     assert re.match(
-        r"the tracks lie turned by .* times as large as the table, bent by up to (1|2)\d\.\d mm, and",
+        r"the tracks lie turned by .* times as large as the table, bent by up to (1|2)\d\.\d mm as by a lens, and",
         notes.warnings[0],
     )
     assert notes.median_rmse > 5e-3
@@ -510,59 +504,6 @@ def test_no_shot_is_ok_whose_rmse_is_three_times_the_noise():
     assert [line for line in _summary.summary_lines(found) if "rough" in line][0].startswith(
         "12 of 12 shots are rough: RMSE "
     )
-
-
-@pytest.mark.parametrize("model", ["smooth", "han", "mathavan"])
-def test_shots_of_a_game_are_fitted_by_the_recipe_of_the_page(model):
-    """Which has no constants for the smooth cushion, and those of the balls for others; the figure
-    is the page's.
-    """
-    page = (Path(__file__).parents[3] / "docs/using/fit.md").read_text(encoding="utf-8")
-    page = " ".join(page.split())
-    recipe = 'carom.balls([[0, 0]], game="billiard", cushion_model="han")["kind"][0]'
-    assert (
-        f"constants={recipe}`. For `smooth` the defaults are right. With noise of 0.5 mm, the median RMSE is 0.71 mm for both"
-        in page
-        and "mu_ball" not in page
-    )
-    random, recordings = np.random.default_rng(4), []
-    kind = eval(recipe.replace("han", model))
-    table = carom.tables.polygon(
-        [(0, 0), (2.84, 0), TABLE, (0, 1.42)],
-        nose_height=float(kind["nose_height"]),
-        ball_radius=RADIUS,
-    )
-    for shot in range(4):
-        balls = carom.balls(
-            [[0.7, 0.7], [2.0, 0.4 + 0.2 * shot], [2.3, 1.2]], game="billiard", cushion_model=model
-        )
-        way = balls["state"]["r"][1] - balls["state"]["r"][0]
-        cue = carom.cue(
-            speed=2.5,
-            phi=float(np.degrees(np.arctan2(way[1], way[0]))) + 0.7,
-            b=0.2,
-            a=0.1,
-            game="billiard",
-        )
-        shot = carom.simulate(table, balls, cue, cushion_model=model)
-        times = np.arange(-0.5, shot.time + 0.1, 0.02)
-        seen = shot.positions(np.maximum(times, 0.0))[..., :2] + random.normal(
-            0.0, 0.5e-3, (len(times), 3, 2)
-        )
-        recordings.append(
-            tracks.Recording(
-                len(recordings),
-                (1, 2, 3),
-                tuple(np.column_stack([times, seen[:, ball]]) for ball in range(3)),
-            )
-        )
-    found = fitted(
-        recordings,
-        cushion_model=model,
-        free="none",
-        **({} if model == "smooth" else {"constants": kind}),
-    )
-    assert 0.65e-3 < found.median_rmse < 0.8e-3 and found.status == ["ok"] * 4
 
 
 def test_an_rmse_does_not_depend_on_how_long_balls_are_seen_at_rest(sample, plays):
@@ -777,7 +718,8 @@ def test_unknown_constants_are_found_within_their_spread():
 
 def billiard(seed):
     """A match of balls whose friction between each other does not change with the slip."""
-    return synthetic(24, constants={"mu_ball": 0.08}, noise=0.5e-3, seed=seed)
+    law = {"law_a": 0.08, "law_b": 0.0}
+    return synthetic(24, constants=law, noise=0.5e-3, seed=seed)
 
 
 @pytest.mark.parametrize("seed", [5, 7])
@@ -786,9 +728,7 @@ def test_a_friction_without_slip_is_found(seed):
     sample = billiard(seed)
     found = fitted(sample.recordings, seed=1)
     assert found.median_rmse < 1.5 * np.sqrt(2) * 0.5e-3
-    assert (
-        "law_b" not in found.fitted and found.constants["law_b"] == found.constants["law_c"] == 0.0
-    )
+    assert "law_b" not in found.fitted and found.constants["law_b"] == 0.0
     assert found.constants["law_a"] == pytest.approx(0.08, abs=0.002)
 
 
@@ -891,7 +831,8 @@ def test_few_shots_tell_a_table():
     sample = tracks.synthetic(5, constants=table, noise=0.5e-3, seed=3)
     found = fit.fit(sample.recordings, TABLE, RADIUS, free="table")
     usual = _constants.usual("smooth")
-    assert found.cushion_model == "smooth" and set(found.fitted) == set(table)
+    assert found.cushion_model == "smooth" and set(found.fitted) == {*table, *_constants.SLOPE}
+    assert all(abs(found.constants[name]) < 1e-4 for name in _constants.SLOPE)
     assert all(found.constants[name] == usual[name] for name in usual if name not in table)
     # half as far from the table as the usual one, all of them
     assert all(
@@ -940,23 +881,10 @@ def test_named_constants_follow_their_priors_and_threads_change_no_bit():
 
 
 def test_one_number_of_friction_between_balls_is_a_law_without_slip():
-    values = _constants.complete({"mu_ball": 0.07}, "han")
-    assert (values["law_a"], values["law_b"], values["law_c"]) == (
-        0.07,
-        0.0,
-        0.0,
-    ) and "mu_ball" not in values
-    both = _constants.complete({"mu_ball": 0.07, "law_a": 0.05}, "han")
+    values, _ = _constants.complete({"mu_ball": 0.07}, "han")
+    assert (values["law_a"], values["law_b"]) == (0.07, 0.0) and "mu_ball" not in values
+    both, _ = _constants.complete({"mu_ball": 0.07, "law_a": 0.05}, "han")
     assert both["law_a"] == 0.05 and both["law_b"] > 0
-
-
-def test_a_kind_of_ball_without_a_law_keeps_its_friction_between_balls():
-    pool = _constants.complete(carom.balls([[0, 0]])["kind"][0], "smooth")
-    assert (pool["law_a"], pool["law_b"], pool["law_c"]) == (0.05, 0.0, 0.0)
-    assert pool == _constants.complete(_constants.of_game("pool"), "smooth")
-    assert _constants.complete(_constants.of_game("billiard"), "smooth") == _constants.usual(
-        "smooth"
-    )
 
 
 @pytest.mark.parametrize("rate", [30, 120])
@@ -1006,9 +934,8 @@ IMPACT = [
 def test_the_smooth_law_is_fitted_with_its_change_by_speed():
     usual = _constants.usual("smooth")
     assert usual["restitution_log"] == 0.0 and usual["mu_log"] < 0.0 and usual["smooth_q"] == 0.35
-    assert "mu_log" in fit._priors(
-        ["default"], {}, usual, "smooth"
-    ) and "mu_log" not in fit._priors(["default"], {}, _constants.usual("han"), "han")
+    assert "mu_log" in fit._priors(["default"], {}, usual)
+    assert "mu_log" not in fit._priors(["default"], {}, _constants.usual("han"))
     impacts = np.zeros(2, IMPACT)
     impacts["v_n"], impacts["v_t"], impacts["first"] = (0.5, 3.0), (0.3, 1.8), 1.0
     slow, fast = (
@@ -1018,7 +945,7 @@ def test_the_smooth_law_is_fitted_with_its_change_by_speed():
     assert -0.89 < slow < fast - 0.01 < -0.82
 
 
-def test_events_are_predicted_by_the_laws_of_the_library(monkeypatch):
+def test_events_are_predicted_by_the_laws_of_the_library():
     impacts = np.zeros(1, IMPACT)
     impacts["v_n"], impacts["v_t"], impacts["first"] = 2.5, 0.8, 1.0
     usual = _constants.usual("smooth")
@@ -1030,21 +957,15 @@ def test_events_are_predicted_by_the_laws_of_the_library(monkeypatch):
         ("smooth_q", 0.1),
         ("smooth_g", 0.3),
     ):
-        monkeypatch.setattr(
-            _from_events, "usual", lambda model, name=name, value=value: usual | {name: value}
-        )
-        assert (
-            _from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036)[:, :4]
-            != predicted[:, :4]
-        ).any(), name
+        changed = {"roll_loss": 0.0, "constants": usual | {name: value}}
+        other = _from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036, **changed)
+        assert (other[:, :4] != predicted[:, :4]).any(), name
 
 
 def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name():
-    every = get_args(_described.CushionModel)
-    assert set(_constants.STARTS) == {*every} - {"euler"}
-    for model in _constants.STARTS:
+    for model in get_args(_described.CushionModel):
         usual = _constants.usual(model)
-        found = fit._priors(["default"], {}, usual, model)
+        found = fit._priors(["default"], {}, usual)
         assert ("mu_cushion" in found) == (usual["mu_cushion"] > 0.0) == ("nose_height" in found)
         carom.cushion(
             carom.cushion_impacts(v=(0.5, 1.0, 0.0)),
@@ -1058,24 +979,22 @@ def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name()
                 row.reader == lib.CAROM_READ_BY_CUSHION
                 and row.model == numbered("carom_cushion_model")[model]
             ):
-                mean, deviation = fit._priors([name], {}, usual, model)[name]
+                mean, deviation = fit._priors([name], {}, usual)[name]
                 assert row.low <= mean == usual[name] <= row.high and deviation > 0.0, (model, name)
     usual = _constants.usual("smooth")
     for name in NUMBERS:
         constants = {**usual, name: usual[name] or (1.5 if name == "omega_ratio" else 0.0)}
-        mean, deviation = fit._priors([name], {}, constants, "smooth")[name]
+        mean, deviation = fit._priors([name], {}, constants)[name]
         assert mean == constants[name] and 0.0 < deviation <= 0.2
-    assert fit._priors(["law_c"], {"law_c": (1.0, 0.1)}, usual, "smooth") == {"law_c": (1.0, 0.1)}
+    assert fit._priors(["law_c"], {"law_c": (1.0, 0.1)}, usual) == {"law_c": (1.0, 0.1)}
     for name, message in (
         ("law_c", "law_c needs its mean and deviation"),
         ("omega_ratio", "omega_ratio must begin at 1 to 2"),
         ("radius", "no constant"),
     ):
         with pytest.raises(ValueError, match=message):
-            fit._priors([name], {}, {**usual, "law_c": 0.0}, "smooth")
-    assert fit._priors(["law_c"], {}, usual, "smooth") == {
-        "law_c": (usual["law_c"], 0.5 * usual["law_c"])
-    }
+            fit._priors([name], {}, {**usual, "law_c": 0.0})
+    assert fit._priors(["law_c"], {}, usual) == {"law_c": (usual["law_c"], 0.5 * usual["law_c"])}
 
 
 def test_a_number_of_the_cushion_is_found_by_whole_shots():
@@ -1090,6 +1009,17 @@ def test_a_number_of_the_cushion_is_found_by_whole_shots():
     assert found.constants["smooth_x"] == pytest.approx(1.1, abs=0.05) and found.fitted == (
         "smooth_x",
     )
+
+
+def test_the_slope_of_a_table_is_found():
+    slope = {"slope_x": 1.2e-3, "slope_y": -7e-4}
+    sample = synthetic(8, seed=6, constants=slope)
+    found = fitted(sample.recordings, free=["slope_x", "slope_y"], seed=1)
+    level = fitted(sample.recordings, free="none", seed=1)
+    assert found.median_rmse < 0.1 * level.median_rmse
+    for name, value in slope.items():
+        assert abs(found.constants[name] - value) < 4.0 * found.spread[name] < 2e-4
+        assert found.ground.table.slope[name] == found.constants[name]
 
 
 def test_an_impact_loses_roll_as_in_a_shot():
@@ -1116,18 +1046,19 @@ def test_an_impact_loses_roll_as_in_a_shot():
 
 
 def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given(sample):
+    mirrored = synthetic(2, cushion_model="mirror", constants={"mu_slide": 0.21}, seed=2)
     few = fitted(
-        sample.recordings[:2],
+        mirrored.recordings,
         cushion_model="mirror",
         constants={"mu_slide": 0.19, "mu_ball": 0.05},
         free="events",
     )
-    assert "restitution" not in few.spread and few.constants["restitution"] == 0.951
+    assert "restitution" not in few.spread and few.constants["restitution"] == 0.947
     assert few.constants["mu_slide"] != 0.19 and "mu_cushion" not in few.spread
     with pytest.raises(ValueError, match="no constant 'all' to fit"):
         fitted(sample.recordings, free="all")
-    with pytest.raises(ValueError, match="cushion_model: must be"):
-        fitted(sample.recordings, cushion_model="euler")
+    with pytest.raises(ValueError, match="cushion_model"):
+        fitted(sample.recordings, cushion_model="rubber")
     with pytest.raises(ValueError, match="mu_spin must have a finite mean and a deviation above 0"):
         fitted(sample.recordings, priors={"mu_spin": (0.005, 0.0)})
 
@@ -1150,10 +1081,6 @@ def test_shots_that_are_no_shots_have_a_status(sample):
     with pytest.raises(ValueError, match="shot 1: no strike was found: no ball moves"):
         found.shot(0)
     assert json.loads(json.dumps(found.to_dict()))["shots"][0]["cue"] is None
-    first = sample.recordings[0]
-    message = f"shot 9 has 2 balls, shot {first.id} {len(first.balls)}; all shots must have the same number"
-    with pytest.raises(ValueError, match=message):
-        fitted([first, tracks.Recording(9, (1, 2), still[:2])])
 
 
 def test_the_command_splits_goes_on_and_writes_a_page(sample, tmp_path, capsys, monkeypatch):
@@ -1261,7 +1188,7 @@ def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatc
     )
     names = sorted(path.name for path in (tmp_path / "p").iterdir())
     assert names == [
-        f"reality-{name}.svg" for name in ("cushion", "hits", "rmse", "rolling", "sliding")
+        f"reality-{name}.svg" for name in ("bands", "cushion", "hits", "rmse", "rolling", "sliding")
     ]
     assert all((tmp_path / "p" / name).read_text().startswith("<svg") for name in names)
 
@@ -1271,7 +1198,7 @@ def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatc
     [
         ({"tracks": "none.csv"}, "No such file"),
         ({"--table": "1.42,2.84"}, "in the order of x and y"),
-        ({"--radius": "30.75"}, "centres of balls of radius 30.75 m"),
+        ({"--radius": "30.75"}, "must be above four radii, 123 m"),
         ({"--constants": '{"mu_rol": 0.01}'}, "there is no constant 'mu_rol'; known are"),
         ({"--constants": '{"mu_roll": "a"}'}, "mu_roll must be a finite number"),
         ({"--constants": "[]"}, "an object of constants is needed"),

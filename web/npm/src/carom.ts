@@ -556,7 +556,7 @@ export class Carom {
       writeStruct(this.#memory, balls, "carom_measures", measures, "measures", usual);
       const code = this.#call.carom_table_measured(
         balls,
-        name === "snooker" ? 0.02619375 : 0.028575,
+        name === "snooker" ? 0.02625 : 0.028575,
         table,
         detail,
       );
@@ -1074,7 +1074,10 @@ export class Carom {
     writeBalls(this.#memory, this.#addresses.balls, shot.balls);
     this.#memory.u8.set(shot.bytes, this.#events);
     this.#writeShot(shot.count);
-    this.#memory.f64[(this.#addresses.shot + SHOT.offset.time) / 8] = shot.time;
+    const { f64 } = this.#memory;
+    f64[(this.#addresses.shot + SHOT.offset.time) / 8] = shot.time;
+    f64[(this.#addresses.shot + SHOT.offset.slope_x) / 8] = shot.table.slope_x ?? 0;
+    f64[(this.#addresses.shot + SHOT.offset.slope_y) / 8] = shot.table.slope_y ?? 0;
     this.#resident = shot;
   }
 

@@ -431,6 +431,8 @@ impl Shot {
             room: self.events.len() as i64,
             count: self.events.len() as i64,
             time: self.time,
+            slope_x: self.table.slope_x,
+            slope_y: self.table.slope_y,
             ..Default::default()
         }
     }

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from carom._rows import worded
-from carom.film import bed_of, track
+from carom.film import track
 from carom.film._check import save
 
 _CANNOT = """
@@ -102,10 +102,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
     print("\n".join(film.notes), file=sys.stderr)
     if film.recordings and options.output:
-        bed = bed_of(options.table)
         print(
-            f"to fit: python -m carom.fit {options.output} --table {bed.width:g},{bed.length:g} "
-            f"--radius {bed.radius:g} -o fit.json",
+            f"to fit: python -m carom.fit {options.output} --table {options.table} -o fit.json",
             file=sys.stderr,
         )
     return 0

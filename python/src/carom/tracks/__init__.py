@@ -19,16 +19,8 @@ ones.
 
 from __future__ import annotations
 
-import csv
-import gzip
-import io
-import json
-import lzma
-import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, cast
 
 import numpy as np
 
@@ -39,16 +31,22 @@ from carom.results import Shot
 from carom.shots import simulate
 from carom.tracks import _constants
 from carom.tracks._events import Events, events, hit, impact, piece
+from carom.tracks._examination import Examination, Finding, examine
+from carom.tracks._reading import Reading, read
 from carom.tracks._recordings import MOVED, NOISE, Recording, TrackError
 
 __all__ = [
     "MOVED",
     "NOISE",
     "Events",
+    "Examination",
+    "Finding",
+    "Reading",
     "Recording",
     "Synthetic",
     "TrackError",
     "events",
+    "examine",
     "hit",
     "impact",
     "piece",
@@ -56,176 +54,6 @@ __all__ = [
     "synthetic",
 ]
 __dir__ = listing(__name__)
-
-_COLUMNS = ("shot", "ball", "t", "x", "y")
-# m: a centre that is farther outside its bounds was measured in other units or on another table; a
-# crooked one is nearer
-_OUTSIDE = 0.06
-
-
-def _name(text: str) -> int | str:
-    """A shot's or a ball's name: a number, if it is one."""
-    try:
-        return int(text)
-    except ValueError:
-        return text
-
-
-def _open(path: Path) -> io.TextIOBase:
-    """A text file, compressed or not by its name."""
-    opener: Any = {".xz": lzma.open, ".gz": gzip.open}.get(path.suffix, open)
-    return cast(io.TextIOBase, opener(path, "rt", encoding="utf-8-sig", newline=""))
-
-
-_Rows = Iterable[tuple[str, str, str, float, float, float]]
-
-
-def _numbers(values: Iterable[Any], where: str) -> tuple[float, float, float]:
-    """t, x and y of a sample."""
-    found: list[float] = []
-    for name, value in zip("txy", values, strict=True):
-        try:
-            number = math.nan if isinstance(value, bool) else float(value)
-        except (TypeError, ValueError):
-            number = math.nan
-        if not math.isfinite(number):
-            raise TrackError(
-                f"{where}: {name} is {value!r}; a finite number is needed, in {'s' if name == 't' else 'm'}"
-            )
-        found.append(number)
-    return found[0], found[1], found[2]
-
-
-def _csv_rows(file: io.TextIOBase, path: Path) -> _Rows:
-    """(where, shot, ball, t, x, y) of each line of a long CSV."""
-    lines = csv.reader(file)
-    header = [cell.strip() for cell in next(lines, [])]
-    missing = [name for name in _COLUMNS if name not in header]
-    if missing:
-        raise TrackError(
-            f"{path}, line 1: no column {', '.join(missing)}; the first line must name the columns {','.join(_COLUMNS)}, in any order"
-        )
-    columns = [header.index(name) for name in _COLUMNS]
-    for row in lines:
-        if not row:
-            continue
-        where = f"{path}, line {lines.line_num}"
-        if len(row) != len(header):
-            raise TrackError(
-                f"{where}: {len(row)} fields, but the first line names {len(header)} columns"
-            )
-        shot, ball, *numbers = (row[k].strip() for k in columns)
-        yield (where, shot, ball, *_numbers(numbers, where))
-
-
-def _json_rows(file: io.TextIOBase, path: Path) -> _Rows:
-    """(where, shot, ball, t, x, y) of each sample of JSON Lines: {"id": ..., "tracks": {ball: [[t,
-    x, y], ...], ...}}.
-    """
-    for number, line in enumerate(file, 1):
-        if not line.strip():
-            continue
-        where = f"{path}, line {number}"
-        try:
-            shot = json.loads(line)
-        except json.JSONDecodeError as error:
-            raise TrackError(
-                f"{where}, column {error.colno}: no JSON ({error.msg}); each line must be one object"
-            ) from None
-        if (
-            not isinstance(shot, dict)
-            or not isinstance(shot.get("tracks"), dict)
-            or "id" not in shot
-        ):
-            raise TrackError(
-                f'{where}: each line must be {{"id": ..., "tracks": {{"ball": [[t, x, y], ...], ...}}}}'
-            )
-        for ball, rows in shot["tracks"].items():
-            if not isinstance(rows, list):
-                raise TrackError(f"{where}: tracks.{ball} must be a list of [t, x, y]")
-            for k, row in enumerate(rows):
-                place = f"{where}, tracks.{ball}[{k}]"
-                if not isinstance(row, list) or len(row) != 3:
-                    raise TrackError(f"{place}: {row!r} must be [t, x, y]")
-                yield (place, str(shot["id"]), ball, *_numbers(row, place))
-
-
-def read(
-    path: str | Path,
-    *,
-    table: tuple[float, float] | None = None,
-    radius: float | None = None,
-    unit: float = 1.0,
-    origin: tuple[float, float] = (0.0, 0.0),
-    rate: float = 1.0,
-) -> list[Recording]:
-    """Read recorded shots, in the order of the file.
-
-    Parameters
-    ----------
-    path : path
-        A long CSV with the columns shot, ball, t, x, y (s and m), a row a sample, in any order of
-        shots and balls; or, if the name has .jsonl or .ndjson in it, JSON Lines, a shot a line:
-        {"id": 1, "tracks": {"1": [[t, x, y], ...], ...}}. Either may be compressed (.xz, .gz).
-    table, radius : optional
-        The extents (W, L) of x and y, and the radius of the balls, m: with both, a centre that is
-        more than 60 mm outside its bounds is an error.
-    unit : float
-        Length of the unit of x and y, m: 0.0254 for inches.
-    origin : (float, float)
-        Where the corner of the noses lies in the file, in its own unit.
-    rate : float
-        Frames a second, if t counts frames: 30 or 120.
-
-    Raises
-    ------
-    TrackError
-        The message says where, and what would be right.
-    OSError
-        The file cannot be read.
-    """
-    if not all(map(math.isfinite, (unit, rate, *origin))) or min(unit, rate) <= 0.0:
-        raise ValueError(
-            f"unit, rate: above 0, and origin: finite numbers are needed, not {unit}, {rate}, {origin}"
-        )
-    path = Path(path)
-    rows: Callable[[io.TextIOBase, Path], _Rows] = _csv_rows
-    if any(suffix in (".jsonl", ".ndjson") for suffix in path.suffixes):
-        rows = _json_rows
-    shots: dict[str, dict[str, list[tuple[float, float, float]]]] = {}
-    try:
-        with _open(path) as file:
-            for where, shot, ball, t, x, y in rows(file, path):
-                t, x, y = t / rate, (x - origin[0]) * unit, (y - origin[1]) * unit
-                track = shots.setdefault(shot, {}).setdefault(ball, [])
-                # the times of a ball increase, and its places are on the table
-                if track and t <= track[-1][0]:
-                    raise TrackError(
-                        f"{where}: shot {shot}, ball {ball}: t = {t:g} s comes after t = {track[-1][0]:g} s; the rows of a ball must "
-                        f"be in the order of time, each time once"
-                    )
-                if table is not None and radius is not None:
-                    for name, value, extent in (("x", x, table[0]), ("y", y, table[1])):
-                        if not radius - _OUTSIDE <= value <= extent - radius + _OUTSIDE:
-                            raise TrackError(
-                                f"{where}: {name} = {value:g} m; centres of balls of radius {radius:g} m must be "
-                                f"{radius:g} to {extent - radius:g} m: are the table's extents in the order of x and y, all in metres?"
-                            )
-                track.append((t, x, y))
-    except (UnicodeDecodeError, lzma.LZMAError, EOFError, gzip.BadGzipFile) as error:
-        raise TrackError(
-            f"{path}: {error}; a text file is needed, compressed only if its name ends in .xz or .gz"
-        ) from None
-    if not shots:
-        raise TrackError(f"{path}: no samples; a row {','.join(_COLUMNS)} for each is needed")
-    return [
-        Recording(
-            _name(shot),
-            tuple(map(_name, tracks)),
-            tuple(np.array(rows) for rows in tracks.values()),
-        )
-        for shot, tracks in shots.items()
-    ]
 
 
 @dataclass(frozen=True, eq=False)
@@ -288,7 +116,7 @@ def synthetic(
     """
     whole(shots, "shots")
     random = np.random.default_rng(seed_of(seed, 2**64 - 1))
-    values = _constants.complete({} if constants is None else constants, cushion_model)
+    values, model = _constants.complete({} if constants is None else constants, cushion_model)
     radius, noise, rate, thin = (
         number(radius, "radius"),
         number(noise, "noise"),
@@ -314,7 +142,7 @@ def synthetic(
     for name, value in (("noise", noise), ("thin", thin)):
         if not 0.0 <= value < np.inf:
             raise ValueError(f"{name}: it must be finite and at least 0, in m, not {value:g}")
-    world = _constants.rectangle(table, values["nose_height"])
+    world = _constants.sloped(_constants.rectangle(table, values["nose_height"]), values)
     low, high = radius, np.array(table) - radius
     recordings: list[Recording] = []
     shots_played: list[Shot] = []
@@ -339,7 +167,7 @@ def synthetic(
         # the shot, its clock beginning at the strike
         balls = _constants.layout(centres, radius, values)
         balls["state"]["v"][0, :2], balls["state"]["w"][0] = strike[:2], strike[2:5] / radius
-        shot = simulate(world, balls, cushion_model=cushion_model)
+        shot = simulate(world, balls, cushion_model=model)
         tracks = _record(
             lambda times, shot=shot, start=start: shot.positions(np.maximum(times - start, 0.0))[
                 ..., :2

@@ -1,137 +1,93 @@
 """What recorded shots are played with: named constants, and the table and balls that follow from
 them.
 
-A constant is a field of `carom.dtypes.ball_kind`, but for the radius. Friction between balls is the
-law of law_a, law_b and law_c; mu_ball stands for a law that does not depend on the slip.
+A constant is a field of `carom.dtypes.ball_kind` without the radius, or the slope of the table along
+x or y, which is among the constants where it is given or fitted. carom_ball_kind_resolve() says
+what a number stands for where it is 0, so a fit plays the balls of a shot. Friction between balls
+is always the law of law_a, law_b and law_c, also where it is constant: a given mu_ball without one
+of these stands for that.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._described import Game
-from carom._rows import Array, numbered, numbers_of, text_of
-from carom._shot_options import ShotCushion
-from carom.cushions import NUMBERS
-from carom.layouts import Table, balls
+from carom._described import BallFriction, Game
+from carom._rows import Array, choice, numbered, pointer, worded
+from carom._shot_options import Options, ShotCushion, options_of, shot_options
+from carom.layouts import GAMES, Table, balls
+from carom.status import CaromError
 
 Constants = dict[str, float]
+Extents = tuple[float, float]
 
-# The constants of the game were fitted to whole shots with the smooth law. For the others these are
-# what single events say, and what a cushion has besides is 0.
-_SINGLE = {
-    "mu_slide": 2.02 / 9.81,
-    "mu_roll": 0.0418 / 9.81,
-    "drag": 0.0129,
-    "mu_spin": 0.004,
-    "restitution": 0.951,
-    "roll_loss": 0.087,
-}
-# Friction between balls over their slip: Alciatore's law, 4.5 times.
-_LAW = {"law_a": 0.0448, "law_b": 0.486, "law_c": 1.088}
 KINDS = tuple(name for name in dtypes.ball_kind.names or () if name != "radius")
-_START = ("restitution_cushion", "mu_cushion", "nose_height")
+SLOPE = ("slope_x", "slope_y")
+NAMES = KINDS + SLOPE
+_LAW = ("law_a", "law_b", "law_c")
+CUSHIONS = tuple(worded("SHOT_CUSHION"))
+# the words of the command, and the names of `carom.tables`
+TABLES = worded("TABLE")
+_TABLES = {**numbered("carom_table_kind"), **TABLES}
 
 
-def _own(model: int) -> Constants:
-    """The numbers that this model of the cushion alone reads and whose 0 stands for another value,
-    which their texts name: "...; 0: 1.8".
+class Ground(NamedTuple):
+    """A table of recorded shots, and the game whose constants stand for what is not given."""
+
+    table: Table
+    game: Game
+    radius: float  # of the balls, m
+
+    @property
+    def size(self) -> Extents:
+        """Extents of x and y, m."""
+        return self.table.width, self.table.length
+
+
+def _built_in(kind: int) -> Table:
+    record: Array = np.zeros((), dtypes.table)
+    lib.carom_table_make(kind, pointer("carom_table[]", record))
+    return Table.from_record(record)
+
+
+def ground(table: str | Extents, radius: float | None = None, game: Game | None = None) -> Ground:
+    """The table of a kind, such as "9ft", or one without pockets, 0 to W along x and 0 to L along
+    y, m; the game, which is that of the table, or "billiard"; and the radius of its balls, m.
     """
-    found = {}
-    for row in numbers_of(lib.CAROM_PART_BALL):
-        default = re.search(r"\b0: ([\d.]+(?:e-?\d+)?)", text_of(row.text))
-        if default and (row.reader, row.model) == (lib.CAROM_READ_BY_CUSHION, model):
-            found[text_of(row.name)] = float(default[1])
-    return found
-
-
-def _starts() -> dict[str, Constants]:
-    """What a fit begins with, by the models of the cushion: single impacts on the table of
-    CAROM_GAME_BILLIARD told it (docs/reference/constants.md), whose other constants stand in
-    for what a recording does not tell.
-    """
-    found, kind = {}, ffi.new("carom_ball_kind *")
-    for word, model in numbered("carom_cushion_model").items():
-        if lib.carom_cushion_start(model, kind):
-            found[word] = {name: getattr(kind, name) for name in _START} | _own(model)
-    return found
-
-
-STARTS = _starts()
-
-
-def of_kind(kind: Array | np.void) -> Constants:
-    """The constants of a kind of ball. Those that are left out stand for others: mu_ball where
-    there is a law, a law of zeros where there is none, and a nose height of 0.
-    """
-    law = any(kind[name] for name in _LAW)
-    left_out = {"mu_ball"} if law else set(_LAW)
-    if not kind["nose_height"]:
-        left_out.add("nose_height")
-    return {name: float(kind[name]) for name in KINDS if name not in left_out}
-
-
-def of_game(game: Game) -> Constants:
-    """The constants of a game's balls."""
-    return of_kind(balls(np.zeros((1, 2)), game=game)["kind"][0])
-
-
-def usual(cushion_model: ShotCushion) -> Constants:
-    """The constants to begin with, for a model of the cushion."""
-    if not isinstance(cushion_model, str) or cushion_model not in STARTS:
-        raise ValueError(
-            f"cushion_model: must be one of {', '.join(map(repr, STARTS))}, which a fit can begin with, not {cushion_model!r}"
-        )
-    numbers = of_game("billiard")
-    if cushion_model == "smooth":
-        return {**numbers, **STARTS[cushion_model]}
-    constants = {
-        **numbers,
-        **dict.fromkeys(NUMBERS, 0.0),
-        **_SINGLE,
-        **_LAW,
-        **STARTS[cushion_model],
-    }
-    return constants if constants["mu_cushion"] else {**constants, "roll_loss": 0.0}
-
-
-def complete(
-    constants: Mapping[str, float] | Array | np.void,
-    cushion_model: ShotCushion,
-    where: str = "constants",
-) -> Constants:
-    """The given constants, and the usual ones for those that are not given."""
-    if (
-        isinstance(constants, (np.ndarray, np.void))
-        and constants.dtype == dtypes.ball_kind
-        and constants.shape == ()
-    ):
-        constants = of_kind(constants)
-    if not isinstance(constants, Mapping):
-        raise TypeError(
-            f"{where}: numbers by the names of constants are needed, such as {{'mu_slide': 0.2}}, not {constants!r}"
-        )
-    for name, value in constants.items():
-        if name not in KINDS:
+    if isinstance(table, str):
+        kind = choice(_TABLES, table, "table")
+        number = lib.carom_game_of_table(kind) if game is None else choice(GAMES, game, "game")
+        made = _built_in(kind)
+    else:
+        if radius is None and game is None:
             raise ValueError(
-                f"{where}: there is no constant {name!r}; known are {', '.join(KINDS)}"
+                "radius: that of the balls is needed, m, or their game, for a table of two extents"
             )
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value):
-            raise ValueError(f"{where}: {name} must be a finite number, not {value!r}")
-    values = {**usual(cushion_model), **{name: float(value) for name, value in constants.items()}}
-    # friction between balls as one number is a law that does not depend on the slip
-    number = values.pop("mu_ball", None)
-    if number is not None and not any(name in constants for name in _LAW):
-        values.update(law_a=number, law_b=0.0, law_c=0.0)
-    return values
+        number = GAMES["billiard"] if game is None else choice(GAMES, game, "game")
+        made = rectangle(table, _nose_height(number))
+    if radius is None:
+        radius = float(lib.carom_ball_kind_of(number).radius)
+    if not min(made.width, made.length) > 4.0 * radius > 0.0:
+        raise ValueError(
+            f"table, radius: the extents {made.width:g} x {made.length:g} m must be above four radii, "
+            f"{4.0 * radius:g} m, and those above 0"
+        )
+    return Ground(made, cast(Game, next(k for k, v in GAMES.items() if v == number)), radius)
 
 
-def rectangle(size: tuple[float, float], nose_height: float) -> Table:
+def _nose_height(game: int) -> float:
+    """The height of the noses of a table of a game, m."""
+    word = next(name for name, number in GAMES.items() if number == game).split("_")[-1]
+    kinds = [kind for kind in TABLES.values() if lib.carom_game_of_table(kind) == GAMES[word]]
+    return float(_built_in(kinds[0]).rails["height"][0])
+
+
+def rectangle(size: Extents, nose_height: float) -> Table:
     """A table without pockets, 0 to size[0] along x and 0 to size[1] along y, m, with noses so high
     above the cloth.
     """
@@ -143,11 +99,107 @@ def rectangle(size: tuple[float, float], nose_height: float) -> Table:
     return Table(width, length, rails=rails)
 
 
+def _resolved(
+    kind: Array, cushion_model: ShotCushion, friction: BallFriction, table: Table | None
+) -> tuple[Constants, ShotCushion]:
+    """The constants of a ball as shots read them, and the model of the cushion."""
+    options = ffi.new(
+        "carom_shot_options *",
+        shot_options(Options(cushion_model=cushion_model, friction=friction))[0],
+    )
+    record = ffi.NULL if table is None else pointer("carom_table[]", table.record)
+    kind = np.array(kind)
+    if (
+        code := lib.carom_ball_kind_resolve(record, options, pointer("carom_ball_kind[]", kind))
+    ) < 0:
+        raise CaromError(code)
+    values = {name: float(kind[name]) for name in KINDS if name != "mu_ball"}
+    return values, options_of(options).cushion_model
+
+
+def _kind_of(game: Game, cushion_model: ShotCushion) -> Array:
+    """A game's balls with their constants for a model of the cushion."""
+    kind: Array = np.zeros((), dtypes.ball_kind)
+    lib.carom_ball_kind_for(
+        GAMES[game],
+        choice(worded("SHOT_CUSHION"), cushion_model, "cushion_model"),
+        pointer("carom_ball_kind[]", kind),
+    )
+    return kind
+
+
+def usual(
+    cushion_model: ShotCushion,
+    game: Game = "billiard",
+    friction: BallFriction = "alciatore",
+    table: Table | None = None,
+) -> Constants:
+    """The constants to begin with: those of a game's balls for a model of the cushion."""
+    table = table or rectangle((1.0, 1.0), _nose_height(GAMES[game]))
+    return _resolved(_kind_of(game, cushion_model), cushion_model, friction, table)[0]
+
+
+def complete(
+    constants: Mapping[str, float] | Array | np.void,
+    cushion_model: ShotCushion,
+    where: str = "constants",
+    *,
+    game: Game = "billiard",
+    friction: BallFriction = "alciatore",
+    table: Table | None = None,
+) -> tuple[Constants, ShotCushion]:
+    """The given constants, and those of the game for those that are not given; and the model of the
+    cushion that the shots are played with.
+    """
+    table = table or rectangle((1.0, 1.0), _nose_height(GAMES[game]))
+    if (
+        isinstance(constants, (np.ndarray, np.void))
+        and constants.dtype == dtypes.ball_kind
+        and constants.shape == ()
+    ):
+        return _resolved(cast(Array, constants), cushion_model, friction, table)
+    if not isinstance(constants, Mapping):
+        raise TypeError(
+            f"{where}: numbers by the names of constants are needed, such as {{'mu_slide': 0.2}}, not {constants!r}"
+        )
+    for name, value in constants.items():
+        if name not in NAMES:
+            raise ValueError(
+                f"{where}: there is no constant {name!r}; known are {', '.join(NAMES)}"
+            )
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value):
+            raise ValueError(f"{where}: {name} must be a finite number, not {value!r}")
+    kind = _kind_of(game, cushion_model)
+    if "mu_ball" in constants and not any(name in constants for name in _LAW):
+        friction, kind["mu_ball"] = "constant", constants["mu_ball"]
+    # the game's own law, where single numbers of it are given
+    for values in (_resolved(kind, cushion_model, friction, None)[0], constants):
+        _give(kind, values)
+    found, model = _resolved(kind, cushion_model, "alciatore", table)
+    return found | {name: float(constants[name]) for name in SLOPE if name in constants}, model
+
+
+def _give(kinds: Array, constants: Mapping[str, float]) -> None:
+    for name, value in constants.items():
+        if name in KINDS:
+            kinds[name] = value
+
+
+def path(name: str) -> str:
+    """The name of a constant as `carom.tangents` takes it."""
+    return f"{'table' if name in SLOPE else 'kind'}.{name}"
+
+
+def sloped(table: Table, constants: Mapping[str, float]) -> Table:
+    """The table with the slope of some constants."""
+    slope = {name: constants.get(name, 0.0) for name in SLOPE}
+    return table if table.slope == slope else table.changed(**slope)
+
+
 def layout(
     centres: dtypes.Doubles, radius: float, constants: Mapping[str, float]
 ) -> dtypes.Records:
     """Balls at rest at centres of shape (..., balls, 2), of shape (..., balls)."""
     layout = balls(centres, game="billiard", radius=radius)
-    for name, value in constants.items():
-        layout["kind"][name] = value
+    _give(layout["kind"], constants)
     return layout

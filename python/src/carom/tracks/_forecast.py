@@ -6,16 +6,18 @@ contacts. A draw has all four errors.
 1. Before. Constants and places of rest are drawn by their errors. With the c and r of a draw, the
    strike and the kicks y of the contacts in the first t seconds follow
 
-       log P(y) = - (E(y) + sum of PRICE y^2/s^2) / (2 V),
+       log P(y) = - (E(y) + sum of V_1 y^2/s^2) / (2 V),   V_1 = m^2 PRICE,
 
-   where E is the cost of `_strikes`, whose first numbers are the strike. PRICE and s are those of
-   `_kicks`, s being the deviations that single contacts of recorded shots have. V is PRICE, or the
-   cost of the best draw per row where that is more, as it is where kicks do not explain the rows.
+   where E is the cost of `_strikes`, whose first numbers are the strike. PRICE is that of `_kicks`,
+   and s is m times its deviations, which single contacts of recorded shots have. m <= 1 is the size
+   of the errors of the models, by the kicks of the fitted shots (`Fit.model_error`): 1 on recorded
+   matches, near 0 where carom's own laws played. V is V_1, or the cost of the best draw per row
+   less the variance of the noise where that is more, as it is where kicks do not explain the rows.
 
    Levenberg and Marquardt's method finds the top of P, and the normal equations the normal
    distribution about it, from which a draw comes. P has edges where events change, so draws are
-   drawn again by their weights. A tenth of the draws has the same, largest weight, because P
-   trusts a wrong strike too much. With this limit 73 and 95 % of the places of the match of 2017
+   drawn again by their weights. A share of the draws, m times a tenth, has the same, largest
+   weight, because P trusts a wrong strike too much. With this limit 73 and 95 % of the places of the match of 2017
    lie in the regions of 68 and 95 %, 2 s being known. They are 70 and 94 % if a twentieth of the
    draws has the largest weight, 77 and 95 % if a fifth has, and 55 and 76 % without a limit.
 
@@ -38,7 +40,7 @@ from carom import pictures
 from carom._rows import Arrays
 from carom.dtypes import Doubles
 from carom.status import CaromError
-from carom.tracks import _covariance, _kicks, _recordings, _strikes
+from carom.tracks import _covariance, _kicks, _recordings, _search, _strikes
 from carom.tracks._recordings import Recording
 
 SHARES = (0.68, 0.95)
@@ -80,22 +82,31 @@ class Forecast(Arrays):
         """Where balls will be: centres, m, of shape (times..., balls, 2), and radii, m, of shape
         (shares..., times..., balls), of the circles that hold these shares of the draws.
 
-        A centre is the median of the draws. A radius is at least three deviations of the noise.
+        A centre is the median of the draws. A camera adds its noise to each draw, as to the rows.
         """
         places = self.positions(times)
         middle: Doubles = np.median(places, axis=0)
-        off = np.linalg.norm(places - middle, axis=-1)
+        camera = np.random.default_rng(len(places)).normal(size=places.shape)
+        off = np.linalg.norm(places + self.recording.noise * camera - middle, axis=-1)
         levels = np.asarray(shares, np.float64)
-        return middle, np.maximum(np.quantile(off, levels, axis=0), 3.0 * self.recording.noise)
+        return middle, np.quantile(off, levels, axis=0)
 
-    def later(self) -> tuple[Doubles, NDArray[np.int64]]:
-        """The rows of the recording (t, x, y) after the first seconds, and the ball of each."""
-        parts = [track[track[:, 0] > self.until] for track in self.recording.tracks]
+    def later(self, *, moving: bool = False) -> tuple[Doubles, NDArray[np.int64]]:
+        """The rows of the recording (t, x, y) after the first seconds, and the ball of each: all,
+        or those that tell a motion (`Recording.moving`).
+        """
+        shot = self.recording
+        parts = [
+            track[rows if moving else slice(None)] for track, rows in zip(shot.tracks, shot.moving)
+        ]
+        parts = [part[part[:, 0] > self.until] for part in parts]
         return np.concatenate(parts), np.repeat(np.arange(len(parts)), list(map(len, parts)))
 
-    def covered(self, shares: ArrayLike = SHARES) -> Doubles:
-        """Which part of the later rows is in the regions of these shares; nan without any."""
-        rows, balls = self.later()
+    def covered(self, shares: ArrayLike = SHARES, *, moving: bool = False) -> Doubles:
+        """Which part of the later rows, or of those that tell a motion, is in the regions of these
+        shares; nan without any.
+        """
+        rows, balls = self.later(moving=moving)
         if not len(rows):
             return np.full(np.shape(shares), np.nan)
         middle, radii = self.regions(rows[:, 0], shares)
@@ -134,7 +145,7 @@ class Forecast(Arrays):
             for k, wait in enumerate(durations.tolist())
             for ball, name in enumerate(self.recording.balls)
             for share, part in enumerate(SHARES)
-            if radii[0, k, ball] > 3.0 * self.recording.noise
+            if radii[0, k, ball] > 3.0 * self.recording.noise  # others are as small as a dot
         ]
         seen = [track[:, 1:] for track in self.recording.tracks]
         return pictures.Picture(pictures.picture(self.plays.table, None, seen, marks))
@@ -152,25 +163,23 @@ def first_seconds(recording: Recording, duration: float) -> Recording:
 def forecast(fit: Any, whole: Recording, after: float, draws: int, seed: int) -> Forecast:
     """By the constants of a `Fit`, of the first seconds of a recording."""
     random = np.random.default_rng(seed)
+    whole, error = replace(whole, noise=fit.noise), fit.model_error
     end = float(whole.moves.min() + after)
-    plays, numbers = _Before(_part(fit, whole, after, seed), end, draws, random).drawn(random)
+    part = _part(fit, whole, after)
+    plays, numbers = _Before(part, end, draws, error, random).drawn(random)
     plays.ends = np.full(draws, _LONG)
-    numbers = _kicked(plays, numbers, end - plays.origins[0], random)
+    numbers = _kicked(plays, numbers, end - plays.origins[0], error, random)
     good = np.isfinite(numbers[:, 0])
     plays.layouts = plays.layouts[:, good]
     return Forecast(whole, after, end, numbers[good], plays)
 
 
-def _part(fit: Any, whole: Recording, duration: float, seed: int) -> Any:
+def _part(fit: Any, whole: Recording, duration: float) -> Any:
     """A `Fit` of the first seconds alone, with the constants of another."""
     (part,), _ = _recordings.sound([first_seconds(whole, duration)], fit.noise)
     plays = _strikes.Plays([part], fit.table, fit.radius, fit.constants, fit.cushion_model)
-    found, _ = _strikes.find(plays, seed, squares=True)
+    found, _ = _search.find(plays, squares=True)
     rmse = plays.rmse(found)
-    if ROUGH * fit.noise * np.sqrt(2.0) < rmse[0] < np.inf:
-        trial = _kicks.eased(plays, found)
-        if plays.rmse(trial)[0] < rmse[0]:
-            found, rmse = trial, plays.rmse(trial)
     if not np.isfinite(rmse[0]):
         raise ValueError(
             f"shot: in its first {duration:g} s no strike was found that can be played"
@@ -180,7 +189,11 @@ def _part(fit: Any, whole: Recording, duration: float, seed: int) -> Any:
 
 
 def _kicked(
-    plays: _strikes.Plays, strikes: Doubles, duration: float, random: np.random.Generator
+    plays: _strikes.Plays,
+    strikes: Doubles,
+    duration: float,
+    error: float,
+    random: np.random.Generator,
 ) -> Doubles:
     """Strikes and kicks up to a time of the plays' clock with random kicks of the contacts after
     it; nan where a play ends in an error.
@@ -195,7 +208,7 @@ def _kicked(
     for row, row_numbers in enumerate(numbers):
         for _ in range(_kicks.CONTACTS + 1):
             met_contacts = _kicks.contacts(plays, row, row_numbers)
-            sizes = _kicks.deviations(met_contacts)
+            sizes = error * _kicks.deviations(met_contacts)
             sizes[: len(met_contacts)][met_contacts["time"] + row_numbers[5] <= duration] = 0.0
             offsets = (sizes * kicks[row]).ravel()
             offsets[: known - 6] = strikes[row, 6:]
@@ -212,7 +225,9 @@ def _kicked(
 class _Before:
     """P of strikes and kicks in the first seconds, a row for each draw of constants and places."""
 
-    def __init__(self, fit: Any, end: float, count: int, random: np.random.Generator) -> None:
+    def __init__(
+        self, fit: Any, end: float, count: int, error: float, random: np.random.Generator
+    ) -> None:
         play = fit._plays([0])
         start = fit.strikes[:1] - [0.0, 0.0, 0.0, 0.0, 0.0, play.origins[0]]
         whole = _kicks.find(play, start)
@@ -222,7 +237,8 @@ class _Before:
         ]
         self.start = whole[:, : 6 + _strikes.KICKS * len(first_contacts)]
         price = _kicks.PRICE / _kicks.deviations(first_contacts)[: len(first_contacts)].ravel() ** 2
-        self.held = np.concatenate([_kicks.PRICE / _covariance.bounds(whole[0]) ** 2, price])
+        self.error, self.variance, self.noise = error, _kicks.PRICE * error**2, fit.noise**2
+        self.held = np.concatenate([self.variance / _covariance.bounds(whole[0]) ** 2, price])
 
         # the constants and places of rest of each draw
         changes: Doubles = np.zeros((count, len(fit.fitted)))
@@ -258,7 +274,8 @@ class _Before:
             _STEPS,
             held=np.repeat(self.held[np.newaxis], count, axis=0),
         )
-        variance = max(_kicks.PRICE, float(np.min(sums[:, 0] / np.maximum(sums[:, 2], 1.0))))
+        least = float(np.min(sums[:, 0] / np.maximum(sums[:, 2], 1.0)))
+        variance = max(self.variance, least - self.noise, self.noise)
 
         # one root of the covariance serves all: that of the best draw
         best = int(np.argmin(sums[:, 0]))
@@ -269,12 +286,12 @@ class _Before:
             np.sqrt(variance) * scale[:, np.newaxis] * np.linalg.inv(np.linalg.cholesky(scaled)).T
         )
 
-        # drawn again by their weights, of which none has more than one draw in ten has
+        # drawn again by their weights, of which none has more than that of a share of the draws
         normal = random.normal(size=top.shape)
         numbers = top + normal @ root.T
         cost = self.costs(numbers)
         logarithms = 0.5 * ((normal**2).sum(axis=1) - (cost - cost.min()) / variance)
-        most = np.quantile(logarithms, 1.0 - _ALIKE, method="lower")
+        most = np.quantile(logarithms, 1.0 - _ALIKE * self.error, method="lower")
         weights = np.exp(np.minimum(logarithms - most, 0.0))
         chosen = random.choice(count, count, p=weights / weights.sum())
         plays.layouts = plays.layouts[:, chosen]

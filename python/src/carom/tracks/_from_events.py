@@ -202,7 +202,7 @@ _LEAST, _MOST = (
 
 def _free(model: ShotCushion) -> tuple[str, ...]:
     """Those of _CUSHION that impacts tell: without friction the first alone."""
-    return _CUSHION if usual(model)["mu_cushion"] else _CUSHION[:1]
+    return _CUSHION if model != "mirror" else _CUSHION[:1]
 
 
 def _cost(
@@ -216,7 +216,7 @@ def _cost(
     above some value every ball sticks.
     """
     e, mu, loss, height = values
-    prior = ((mu - usual(model)["mu_cushion"]) / _MU_ERROR) ** 2
+    prior = ((mu - constants["mu_cushion"]) / _MU_ERROR) ** 2
     chi2 = predicted(impacts, radius, model, e, mu, height * radius, loss, constants)[:, 4]
     return float(prior + (_OUTLIER**2 * np.log1p(chi2 / _OUTLIER**2)).sum())
 
@@ -239,7 +239,7 @@ def _fit_cushion(
             # the square root of the cost, so that squares add up to it, and what leads back from
             # beyond the bounds
             outside = 100.0 * (np.array(values) - bounded[:free])
-            outside = np.append(outside, (mu - usual(model)["mu_cushion"]) / _MU_ERROR)
+            outside = np.append(outside, (mu - constants["mu_cushion"]) / _MU_ERROR)
             rows.append(np.concatenate([_OUTLIER * np.sqrt(np.log1p(chi2 / _OUTLIER**2)), outside]))
         return np.array(rows)
 
@@ -258,8 +258,8 @@ def _cushion(
     good = chosen(impacts)
     if len(good) < 20:
         return {}
-    first, size = usual(model), np.array([1.0, 1.0, 1.0, radius])
-    start = np.array([first[name] for name in _CUSHION]) / size
+    size = np.array([1.0, 1.0, 1.0, radius])
+    start = np.array([constants[name] for name in _CUSHION]) / size
     # another friction may be another minimum, in which most balls stick
     tried = [
         _fit_cushion(good, radius, model, start * [1.0, share, 1.0, 1.0], constants)

@@ -32,7 +32,9 @@ from carom._carom import lib
 from carom.dtypes import Doubles
 from carom.layouts import balls
 from carom.status import CaromError
-from carom.tracks._strikes import HUBER, Plays, derivatives, descend, find, normal
+from carom.tracks._constants import SLOPE
+from carom.tracks._search import find
+from carom.tracks._strikes import HUBER, Plays, derivatives, descend, normal
 
 # m^2: a shot whose cost a sample is more does not count; that of samples that are 8 cm off
 MOST = 1.4e-3
@@ -65,7 +67,10 @@ TABLE = {
     "mu_slide": 0.04,
     "mu_roll": 1e-3,
     "drag": 8e-3,
+    "slope_x": 1e-3,
+    "slope_y": 1e-3,
 }
+_STEEPEST = 2.5e-3  # of a slope along x or y, so that balls come to rest
 # How large errors are beside each other on synthetic recordings, whose truth is known.
 _SHAPE = {
     "mu_slide": 1.2e-3,
@@ -81,6 +86,8 @@ _SHAPE = {
     "nose_height": 8e-5,
     "restitution_log": 2e-3,
     "mu_log": 2e-3,
+    "slope_x": 3e-6,
+    "slope_y": 3e-6,
 }
 _WIDE = 10.0  # a range that is wider says nothing of the deviation of a constant
 # the deviation of a prior of other constants over the width of their range, and _SHAPE over the
@@ -109,6 +116,8 @@ def prior(name: str, begin: float = 0.0) -> tuple[float | None, float, float]:
     """
     if name in PRIORS:
         return PRIORS[name]
+    if name in SLOPE:
+        return TABLE[name], -_STEEPEST, _STEEPEST
     row = lib.carom_number_of(lib.CAROM_PART_BALL, list(dtypes.ball_kind.names or ()).index(name))
     width = row.high - row.low
     return (_OTHER * width if width <= _WIDE else _ABOUT * abs(begin) or None), row.low, row.high
@@ -377,7 +386,7 @@ def without_slip(search: Search) -> Search:
     kind = balls([[0.0, 0.0]], game="billiard")["kind"][0]
     priors["law_a"] = (float(kind["mu_ball"]), PRIORS["law_a"][0])
     plays = search.plays.some(range(len(search.plays.recordings)))
-    plays.set({**plays.constants, "law_a": priors["law_a"][0], "law_b": 0.0, "law_c": 0.0})
+    plays.set({**plays.constants, "law_a": priors["law_a"][0], "law_b": 0.0})
     strikes = np.full((len(plays.recordings), 6), np.nan)
     strikes[search.rows] = search.strikes
     return Search(plays, strikes, range(len(strikes)), priors)

@@ -10,8 +10,6 @@ There the cost is c + 2 g d + d^T H d for a change d of strike and kicks, with g
 J^T W J. So the noise of the samples moves the kicks by (H + D)^-1 J^T noise, where D is
 diag(PRICE/s^2), and 0 for the strike. The noise of the places of rest, which are held, moves them
 as in `_covariance`.
-
-Strikes without kicks may be found through them: `eased`.
 """
 
 from __future__ import annotations
@@ -21,6 +19,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carom import dtypes
 from carom._carom import lib
@@ -37,13 +36,6 @@ CUSHION, BALLS = (
     np.array([0.01, 0.01, 0.01, 0.02, 0.02]),
 )
 _HORIZONS, _STEPS = (2.0, 4.0, 8.0, np.inf), 8  # samples up to a time, s, and iterations with them
-_DEARER, _ALONE = (
-    (1e1, 1e2, 1e3, 1e4),
-    20,
-)  # prices of kicks that are eased away, over PRICE, and iterations without them
-_NORMALS = np.array(
-    [[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]]
-)  # of the rails of `_constants.rectangle`, into them
 _FEWEST = 8  # contacts of a row of a table
 _WORST = 0.02  # m: a shot that is so far off, with kicks, does not count
 _REST = 1e-5  # m: step of the differences by the places of rest
@@ -88,22 +80,6 @@ def find(plays: Plays, strikes: Doubles) -> Doubles:
             plays, rows, numbers, np.minimum(horizon, ends), _STEPS, held=held
         )
     return numbers
-
-
-def eased(plays: Plays, strikes: Doubles) -> Doubles:
-    """Strikes on the plays' clocks that are found by way of kicks, which cost more and more until
-    there are none.
-
-    A search of strikes alone stops where a ball would have to miss another, or to meet it, on the
-    way to a better one. With kicks it goes on.
-    """
-    rows = np.arange(len(strikes), dtype=np.int32)
-    numbers = find(plays, strikes)
-    for dearer in _DEARER:
-        held = dearer * _held([contacts(plays, int(k), numbers[k]) for k in rows])
-        numbers, _ = _strikes.descend(plays, rows, numbers, plays.ends, _STEPS, held=held)
-    found, _ = _strikes.descend(plays, rows, numbers[:, :6], plays.ends, _ALONE)
-    return _strikes.descend(plays, rows, found, plays.ends, _ALONE, huber=0.0)[0]
 
 
 # ---- The quadratic
@@ -153,6 +129,7 @@ def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
             layouts["state"]["r"][:, ball, axis] += steps[:, ball, axis]
             moved.append(layouts)
     variations.layouts, variations.steps = np.array(moved), np.full(2 * balls, _REST)
+    variations.tables = np.repeat(plays.tables[:1], len(moved))
     rows = np.arange(len(numbers), dtype=np.int32)
     sums = variations.misfit(rows, numbers, plays.ends, np.inf)
     square, gradient = _strikes.normal(sums)
@@ -180,15 +157,6 @@ def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
     return found
 
 
-def _frame(impacts: Records) -> tuple[Doubles, Doubles, Doubles, Doubles]:
-    """Of impacts on cushions: the normal into it, (n, 2), velocity (n, 2), spin (n, 3) and speed
-    (n,) before.
-    """
-    state = impacts["before"][:, 0]
-    v = state["v"][:, :2]
-    return _NORMALS[impacts["b"]], v, state["w"], np.hypot(v[:, 0], v[:, 1])
-
-
 # ---- The report
 
 contact = record_of(
@@ -197,7 +165,7 @@ contact = record_of(
 )
 """A contact: index of the recording and the number of the contact, both from 0; when, on the
 recording's clock (s); where ball a was (m); indices of ball a, and of ball b or -1; whether one of
-them is the struck ball; the rail, 0 to 3 for y = 0, x = W, y = L, x = 0, or -1. Before it: the
+them is the struck ball; the rail, 0 to 3 for y = 0, x = W, y = L, x = 0, 4 for a pocket's facing, or -1. Before it: the
 speed V that kicks are over, that of ball a at a cushion, that of closing of two balls (m/s); the
 speed into the cushion, or V; the angle to the normal (degrees), and R w_z (m/s) of ball a. The
 kicks, over V: at a cushion velocity along and away from it, roll along and away from it, R w_z,
@@ -318,15 +286,15 @@ def _contacts(play: Quadratic, plays: Plays, number: int) -> tuple[Records, Doub
         np.where(cushion, -1, play.contacts["b"]),
     )
     records["struck"] = (records["a"] == shot.cue) | (records["b"] == shot.cue)
-    records["rail"], records["side"] = (
-        np.where(cushion, play.contacts["b"], -1),
-        plays.radius * a["w"][:, 2],
-    )
+    into_rails = -_strikes.inward(plays.table)
+    of_rail = into_rails[np.where(cushion, play.contacts["b"], 0)]
+    records["rail"] = np.where(cushion, _side_of(of_rail), -1)
+    records["side"] = plays.radius * a["w"][:, 2]
     # the normal, and the direction along it
     line = b["r"][:, :2] - a["r"][:, :2]
     normal = np.where(
         cushion[:, None],
-        _NORMALS[np.where(cushion, play.contacts["b"], 0)],
+        of_rail,
         line / np.maximum(np.hypot(*line.T), 1e-9)[:, None],
     )
     v = a["v"][:, :2] - np.where(cushion[:, None], 0.0, b["v"][:, :2])
@@ -386,7 +354,16 @@ def _means(
     return mean, np.sqrt((inverted @ left.T @ left @ inverted).diagonal())
 
 
-_RAILS = ("y = 0", "x = W", "y = L", "x = 0")
+_RAILS = ("y = 0", "x = W", "y = L", "x = 0", "of a pocket's facing")
+_NORMALS = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])  # into the first four
+
+
+def _side_of(normals: Doubles) -> NDArray[np.intp]:
+    """Which of _RAILS has a normal, each of (n, 2)."""
+    along = normals @ _NORMALS.T
+    return np.where(along.max(axis=1) > 1.0 - 1e-9, along.argmax(axis=1), len(_NORMALS))
+
+
 _SPEEDS, _ANGLES = (0.0, 0.5, 1.0, 2.0, np.inf), (0.0, 30.0, 60.0, 90.0)
 
 

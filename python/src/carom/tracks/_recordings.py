@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dtypes import Doubles
+from carom.layouts import Table
 
 NOISE = 0.35e-3
 """m: standard deviation of a coordinate that a good camera gives for a slow ball, as found on real
@@ -42,6 +43,15 @@ _NOISES = 5.5
 _FASTER = 1.5  # a ball goes so many times as fast as it was seen to, at most
 _THINNED = 0.03  # m: a ball goes so far without a row, at most
 _SLIDING = 2.0  # m/s^2: about how fast a ball that slides away from a cushion slows down
+_FAR = 8e-3  # m: a ball moves that goes farther in five rows
+_FROZEN = 0.05  # share of steps without motion above which a film repeats places
+# m: a centre that is farther outside its bounds was measured in other units or on another table; a
+# crooked one is nearer
+OUTSIDE = 0.06
+ON_TABLE = 0.9  # share of the places that lie on the right table, at least
+_HOLE = 0.1  # m: a centre that is nearer to that of a pocket is in it
+_DEPTH = 2.5e-3  # s: a nose gives way by so much times the speed
+_SCATTER = 4e-3  # m: of where balls turn at a rail, at least
 _BLOCK = 3  # false detections one after another, at most
 
 
@@ -148,51 +158,136 @@ class Recording:
         return still
 
 
+# ---- Places
+
+
+def is_inside(
+    places: Doubles, table: Sequence[float], radius: float, pockets: Doubles | None = None
+) -> NDArray[np.bool_]:
+    """Whether centres lie on the table, or hardly outside, or in a pocket; (n, 2) are their
+    centres.
+    """
+    low, high = radius - OUTSIDE, np.array(table) - radius + OUTSIDE
+    inside = ((low <= places) & (places <= high)).all(axis=-1)
+    if pockets is not None and len(pockets):
+        gaps = places[..., None, :] - pockets
+        inside |= (np.hypot(gaps[..., 0], gaps[..., 1]) < _HOLE).any(axis=-1)
+    return np.asarray(inside)
+
+
+def exchanged(places: Doubles, table: tuple[float, float], radius: float, pockets: Doubles) -> bool:
+    """Whether the extents of a table are those of y and x."""
+    return bool(
+        is_inside(places, table, radius, pockets).mean() < ON_TABLE
+        and is_inside(places[:, ::-1], table, radius, pockets).mean() >= ON_TABLE
+    )
+
+
 # ---- Noise
 
 
-def noise_of(recordings: Sequence[Recording]) -> float:
-    """The standard deviation of a coordinate, m: by the rows at rest, or by those of slow balls
-    where too few are; NOISE without any.
+@dataclass(frozen=True)
+class Noise:
+    """The noise of recordings, m."""
 
-    Of slow balls it is the scatter of each row about the quadratic through it and two rows on each
-    side.
+    value: float  # the standard deviation of a coordinate: the root of the mean of both squares
+    axes: tuple[float, float]  # of x and of y
+    rest: float  # by the rows at rest alone; 0 without any
+    is_frozen: bool  # whether a film repeats the places of balls at rest
+
+
+def _spread(values: Doubles) -> float:
+    """A standard deviation by the median."""
+    return 1.4826 * float(np.median(np.abs(values)))
+
+
+def _misfits(recordings: Sequence[Recording]) -> tuple[Doubles, Doubles, Doubles]:
+    """How far a row lies from the quadratic through it and two rows on each side, over what noise
+    gives it, of x and y; the way through these rows over what a slow ball goes; and how far the
+    last is from the first, m.
     """
-    slow: list[Doubles] = []
+    misfits, ways, moves = [np.zeros((0, 2))], [np.zeros(0)], [np.zeros(0)]
     for shot in recordings:
         for track in shot.tracks:
-            windows = (
-                np.lib.stride_tricks.sliding_window_view(track, 5, axis=0)
-                if len(track) >= 5
-                else np.empty((0, 3, 5))
-            )
+            if len(track) < 5:
+                continue
+            windows = np.lib.stride_tricks.sliding_window_view(track, 5, axis=0)
             t = windows[:, 0] - windows[:, 0, 2:3]
-            ways = np.hypot(*np.diff(windows[:, 1:], axis=2).transpose(1, 0, 2)).sum(axis=1)
-            good = (t[:, -1] - t[:, 0] < 0.4) & (ways < 1.0 * (t[:, -1] - t[:, 0]) + 0.02)
-            t, places = t[good] / (t[good, -1:] - t[good, :1]), windows[good, 1:]
-            # the misfit of the middle row, over what noise gives it
+            span = t[:, -1] - t[:, 0]
+            windows, t, span = windows[span < 0.4], t[span < 0.4], span[span < 0.4]
+            places = windows[:, 1:]
+            t = t / span[:, None]
+            # the row of the middle of the hat matrix: its t is 0
             A = np.stack([np.ones_like(t), t, t * t], axis=-1)
-            hat = A @ np.linalg.pinv(A)
-            left = places - np.einsum("nij,nkj->nki", hat, places)
-            slow.append(
-                (left[..., 2] / np.sqrt(np.maximum(1.0 - hat[:, None, 2, 2], 1e-9))).ravel()
-            )
-    misfits = np.abs(np.concatenate([np.zeros(0), *slow]))
-    noise = 1.4826 * float(np.median(misfits)) if len(misfits) >= 20 else NOISE
-    # rows at rest are those within what moves; frozen places tell nothing
-    rest: list[Doubles] = []
+            hat = (A @ np.linalg.inv(A.transpose(0, 2, 1) @ A)[:, :, :1])[..., 0]
+            left = places[..., 2] - (places @ hat[..., None])[..., 0]
+            misfits.append(left / np.sqrt(np.maximum(1.0 - hat[:, 2:3], 1e-9)))
+            steps = np.hypot(*np.diff(places, axis=2).transpose(1, 0, 2))
+            ways.append(steps.sum(axis=1) / (1.0 * span + 0.02))
+            moves.append(np.hypot(*(places[..., -1] - places[..., 0]).T))
+    return np.concatenate(misfits), np.concatenate(ways), np.concatenate(moves)
+
+
+def moving_scatter(recordings: Sequence[Recording]) -> float:
+    """The scatter of a coordinate of balls that move, about quadratics through five rows, m."""
+    misfits, _, moves = _misfits(recordings)
+    misfits = misfits[moves > _FAR]
+    return _spread(misfits) if len(misfits) else math.inf
+
+
+def noise_of(recordings: Sequence[Recording]) -> Noise:
+    """The noise: by the rows at rest, or by those of slow balls where too few are; by those of
+    slow balls that move where a film freezes the others; NOISE without any.
+    """
+    misfits, ways, moves = _misfits(recordings)
+    slow = misfits[ways < 1.0]
+    sample = slow if len(slow) >= 10 else np.full((1, 2), NOISE / 1.4826)
+    # rows at rest are those within what moves
+    lain: list[Doubles] = [np.zeros((0, 2))]
     for shot in recordings:
-        known = replace(shot, noise=max(noise, 1e-4))
+        known = replace(shot, noise=max(_spread(sample), 1e-4))
         for track, still in zip(known.tracks, known.still):
             if still >= 8:
                 rows = track[:still, 1:]
-                rest.append(
-                    ((rows - np.median(rows, axis=0)) * math.sqrt(still / (still - 1.0))).ravel()
-                )
-    lain = np.abs(np.concatenate([np.zeros(0), *rest]))
-    if len(lain) >= 60 and np.median(lain) > 0.0:
-        noise = 1.4826 * float(np.median(lain))
-    return max(noise, 5e-5)
+                lain.append((rows - np.median(rows, axis=0)) * math.sqrt(still / (still - 1.0)))
+    at_rest = np.concatenate(lain)
+    rest = _spread(at_rest) if len(at_rest) >= 30 else 0.0
+    if rest > 0.0:
+        sample = at_rest
+    # a film that freezes balls repeats their places, which noise does in one row of 400
+    moving = misfits[(ways < 1.0) & (moves > max(_FAR, 8.0 * _spread(sample)))]
+    scatter = _spread(moving) if len(moving) >= 30 else 0.0
+    steps = np.concatenate(
+        [np.hypot(*np.diff(track[:, 1:], axis=0).T) for s in recordings for track in s.tracks]
+    )
+    is_frozen = scatter > 1e-4 and float(np.mean(steps < 0.1 * scatter)) > _FROZEN
+    axes = tuple(_spread((moving if is_frozen else sample)[:, axis]) for axis in (0, 1))
+    value = math.hypot(*axes) / math.sqrt(2.0) if is_frozen else _spread(sample)
+    return Noise(max(value, 5e-5), (axes[0], axes[1]), rest, is_frozen)
+
+
+# ---- Balls that fall
+
+
+def until_pocketed(shot: Recording, table: Table) -> Recording:
+    """A recording in which the track of a ball ends where it falls: at its first row in a pocket,
+    or behind the pockets, that is the last or followed by another such row. A ball without rows
+    before is left out.
+    """
+    if len(table.pockets) == 0:
+        return shot
+    holes, kept = table.pockets["centre"], []
+    for name, track in zip(shot.balls, shot.tracks):
+        r = track[:, 1:]
+        gaps = np.hypot(*np.moveaxis(r[:, None] - holes, 2, 0)) - table.pockets["radius"]
+        behind = (r < holes.min(axis=0)) | (r > holes.max(axis=0))
+        inside = np.append((gaps < 0.0).any(axis=1) | behind.any(axis=1), True)
+        falls = np.flatnonzero(inside[:-1] & inside[1:])
+        rows = track[: falls[0]] if len(falls) else track
+        if len(rows):
+            kept.append((name, rows))
+    names, tracks = zip(*(kept or [(shot.balls[0], shot.tracks[0][:1])]))
+    return replace(shot, balls=names, tracks=tracks)
 
 
 # ---- False detections and swapped names
@@ -365,7 +460,10 @@ class Lie:
         return np.asarray(q * (self.bend[0] * (q * q).sum(axis=-1) + q @ self.bend[1:])[..., None])
 
     def __str__(self) -> str:
-        bent = f", bent by up to {1e3 * self.bent:.1f} mm," if self.bent else ""
+        reach = math.hypot(*self.middle)
+        is_lens = abs(self.bend[0]) * reach > math.hypot(*self.bend[1:])
+        cause = "a lens" if is_lens else "a camera that looks askew"
+        bent = f", bent by up to {1e3 * self.bent:.1f} mm as by {cause}," if self.bent else ""
         return (
             f"turned by {self.angle:.2f} degrees, {self.scale:.4f} times as large as the table{bent} and moved by "
             f"{1e3 * self.shift[0]:.1f}, {1e3 * self.shift[1]:.1f} mm"
@@ -433,17 +531,14 @@ def _least(off: Doubles, A: Doubles) -> tuple[Doubles, Doubles, float]:
     return numbers, np.asarray(spread**2 * np.linalg.pinv(weighted.T @ weighted)), spread
 
 
-def lie_of(recordings: Sequence[Recording], table: tuple[float, float], radius: float) -> Lie:
-    """How the tracks lie on the table, by the places of impacts on cushions: the linear least
-    squares of eight numbers.
-
-    A turn at the cushion x = c lies at c = (1 - s) x + turn y + a + depth v - q_x (k |q|^2 + g q):
-    s of the scale, a of the shift, q from the middle of the table, and the nose gives way by
-    `depth` times the speed v. Places far from what the others tell count less. k and g count where
-    the impacts tell them from 0 by more than their errors can.
+def _impacts(
+    recordings: Sequence[Recording], table: tuple[float, float], radius: float
+) -> tuple[NDArray[np.intp], Doubles]:
+    """Impacts on cushions: rail 0 (x = 0), 1 (x = W), 2 (y = 0) or 3 (y = L), and how far the turn
+    lies beyond a radius from it, along its axis, with the row of least squares of `lie_of`.
     """
     middle = (0.5 * table[0], 0.5 * table[1])
-    rows: list[Doubles] = []
+    rails, rows = [np.zeros(0, np.intp)], [np.zeros((0, 9))]
     for shot in recordings:
         for track, still in zip(shot.tracks, shot.still):
             for axis in (0, 1):
@@ -455,12 +550,44 @@ def lie_of(recordings: Sequence[Recording], table: tuple[float, float], radius: 
                 turn = along if axis == 0 else -along
                 q = np.stack([x, along] if axis == 0 else [along, x], axis=-1) - middle
                 bent = q[:, axis, None] * np.column_stack([(q * q).sum(axis=1), q])
+                rails.append((2 * axis + (v > 0.0)).astype(np.intp))
                 rows.append(
                     np.column_stack(
                         [x - c, x, -turn, *((ones, none) if axis == 0 else (none, ones)), v, bent]
                     )
                 )
-    A = np.concatenate([np.empty((0, 9)), *rows])
+    return np.concatenate(rails), np.concatenate(rows)
+
+
+def beyond_rails(
+    recordings: Sequence[Recording], table: tuple[float, float], radius: float
+) -> dict[int, tuple[float, int]]:
+    """Of each rail at which two balls or more turn, how far beyond it they do, m, and how many;
+    without rails at which they turn as near as their scatter.
+    """
+    rails, rows = _impacts(recordings, table, radius)
+    found = {}
+    for rail in np.unique(rails).tolist():
+        chosen = rows[rails == rail]
+        off = (chosen[:, 0] - _DEPTH * chosen[:, 5]) * (1.0 if rail % 2 else -1.0)
+        middle = float(np.median(off))
+        scatter = max(1.4826 * float(np.median(np.abs(off - middle))), _SCATTER)
+        if len(off) >= 2 and abs(middle) > 4.0 * scatter / math.sqrt(len(off)):
+            found[rail] = middle, len(off)
+    return found
+
+
+def lie_of(recordings: Sequence[Recording], table: tuple[float, float], radius: float) -> Lie:
+    """How the tracks lie on the table, by the places of impacts on cushions: the linear least
+    squares of eight numbers.
+
+    A turn at the cushion x = c lies at c = (1 - s) x + turn y + a + depth v - q_x (k |q|^2 + g q):
+    s of the scale, a of the shift, q from the middle of the table, and the nose gives way by
+    `depth` times the speed v. Places far from what the others tell count less. k and g count where
+    the impacts tell them from 0 by more than their errors can.
+    """
+    middle = (0.5 * table[0], 0.5 * table[1])
+    _, A = _impacts(recordings, table, radius)
     if len(A) < 30:
         return Lie()
     numbers, covariance, spread = _least(A[:, 0], A[:, 1:])

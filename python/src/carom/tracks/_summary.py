@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import copy
+import functools
 import html
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom import pictures
 from carom._carom import lib
+from carom._described import Game
 from carom._rows import Seed, seed_of
 from carom._rows import whole as _whole
 from carom._shot_options import ShotCushion
@@ -22,16 +24,20 @@ from carom.layouts import Table
 from carom.results import Shot
 from carom.shots import simulate
 from carom.tracks import _constants, _covariance, _joint, _kicks, _strikes
+from carom.tracks._design import Design, design
 from carom.tracks._events import events
 from carom.tracks._forecast import Forecast, forecast
 from carom.tracks._kicks import Kicks
-from carom.tracks._recordings import Recording
+from carom.tracks._player import Player, player_of
+from carom.tracks._recordings import Recording, until_pocketed
 
 _ROUGH_MOST = 8  # so many are told one by one
 BANDS, _CONTACTS = (
     (0.68, 0.95),
     (0, 1, 2, 3, 4, 6, 8, 11),
 )  # shares of the samples, and contacts from which a row of bands holds
+# of `model_error`: the least share of a kick that a track tells, how many kicks tell it, and its least
+_KNOWN, _KICKS_LEAST, _ERROR_LEAST = 0.3, 20, 0.01
 _WIDTH, _HEIGHT, _LEFT, _BELOW, _ABOVE = 460.0, 300.0, 60.0, 45.0, 12.0  # of a chart, pixels
 _INK, _MARK, _LINE = "#333333", "#1f5fae", "#c0392b"
 _STYLE = (
@@ -46,12 +52,12 @@ class Fit:
     """Recorded shots, and what they were fitted by."""
 
     recordings: list[Recording]
-    table: tuple[float, float]  # Extents of x and y, m
+    table: str | tuple[float, float]  # The word of a table, or the extents of x and y, m
     radius: float  # m
     cushion_model: ShotCushion
     constants: dict[
         str, float
-    ]  # What the shots are played with: fields of `carom.dtypes.ball_kind`, and nose_height (m)
+    ]  # What the shots are played with: fields of `carom.dtypes.ball_kind`, and slope_x, slope_y
     spread: dict[
         str, float
         # Of each constant that was fitted, how far it is off by the evidence itself: a standard
@@ -77,6 +83,16 @@ class Fit:
         # What holds of all shots: a crooked table, constants at their bounds, a misfit far above the
         # noise
     ] = ()
+    game: Game | None = None  # Whose constants stand for those that were not given
+    # Of each constant that whole shots were to tell: its 95 % interval by the profile of the cost;
+    # None where these shots do not tell it
+    intervals: dict[str, tuple[float, float] | None] = field(default_factory=dict)
+
+    @property
+    def ground(self) -> _constants.Ground:
+        """The table, its game, and the radius of the balls."""
+        ground = _constants.ground(self.table, self.radius, self.game)
+        return ground._replace(table=_constants.sloped(ground.table, self.constants))
 
     @property
     def noise(self) -> float:
@@ -136,15 +152,16 @@ class Fit:
         if not np.isfinite(self.strikes[i]).all():
             raise ValueError(f"shot {recording.id}: no strike was found: {self.status[i]}")
         centres = [
-            _strikes.apart(places, self.table, self.radius)
+            _strikes.apart(places, self.ground.table, self.radius)
             for places in recording.rest + np.zeros((len(strikes), 1, 1)) + moved
         ]
         balls = _constants.layout(np.array(centres), self.radius, self.constants)
         for name, values in changed.items():
-            balls["kind"][name] = values[:, None]
+            if name in _constants.KINDS:  # all plays have one table, so its slope stays
+                balls["kind"][name] = values[:, None]
         balls["state"]["v"][:, recording.cue, :2] = strikes[:, :2]
         balls["state"]["w"][:, recording.cue] = strikes[:, 2:5] / self.radius
-        return _constants.rectangle(self.table, self.constants["nose_height"]), balls
+        return self.ground.table, balls
 
     def strike_covariance(self, i: int) -> Doubles:
         """The covariance of the six numbers of `strikes[i]`, shape (6, 6), the constants being
@@ -197,6 +214,55 @@ class Fit:
         moved = moved.reshape(count, -1, 2)
         return (*self._struck(i, strikes, moved, self.changed(changes)), strikes[:, 5])
 
+    def design(self, count: int = 3, *, seed: Seed = 0) -> list[Design]:
+        """Further shots to play and to film, each the one of 60 drawn ones that would tell the
+        constants best after those before it; as text they say what to play.
+
+        Raises
+        ------
+        ValueError
+            No constant was fitted by whole shots.
+        """
+        return design(self, _whole(count, "count", least=1), seed_of(seed))
+
+    def player(self, groups: Sequence[Sequence[int]] | None = None) -> Player:
+        """The errors of the player, by strokes that were meant alike, with intervals; as a rating,
+        and as the player of plans (`record`).
+
+        Parameters
+        ----------
+        groups : sequence of sequences of int, optional
+            The shots of each kind, from 0. Without: those whose balls lie within 30 mm and whose
+            strikes go within 6 degrees and 30 % of the speed of the first one's.
+
+        Raises
+        ------
+        ValueError
+            Too few strokes repeat others, or one has no strike.
+        """
+        return player_of(self, groups)
+
+    @functools.cached_property
+    def model_error(self) -> float:
+        """The errors of the models over those that recorded matches have, at most 1: by the kicks
+        of the shots that constants were fitted to, as far as their tracks tell them; 1 where fewer
+        than 20 kicks are told.
+        """
+        kicks = self.kicks().contacts
+        if self.train is not None:
+            kicks = kicks[np.array(self.train)[kicks["shot"]]]
+        scale = np.where((kicks["rail"] >= 0)[:, np.newaxis], _kicks.CUSHION, _kicks.BALLS)
+        size, error, share = kicks["kick"] / scale, kicks["error"] / scale, kicks["share"]
+        # a kick comes out too small by its share, and has the error of the noise besides
+        known = (share > _KNOWN) & (error < 1.0)
+        if known.sum() < _KICKS_LEAST:
+            return 1.0
+        square, told = np.where(known, size**2 - error**2, 0.0), np.where(known, share**2, 0.0)
+        # shot by shot, as one that misses an event has large kicks
+        shots = [kicks["shot"] == k for k in np.unique(kicks["shot"][known.any(axis=1)])]
+        each = [square[shot].sum() / told[shot].sum() for shot in shots]
+        return float(np.sqrt(np.clip(np.median(each), _ERROR_LEAST**2, 1.0)))
+
     def forecast(
         self, shot: int | Recording, *, after: float, draws: int = 200, seed: Seed = 0
     ) -> Forecast:
@@ -225,6 +291,7 @@ class Fit:
             No strike was found, or no row is known after the first.
         """
         whole = self.recordings[shot] if isinstance(shot, int) else shot
+        whole = until_pocketed(whole, self.ground.table)
         if not 0.0 < after < np.inf:
             raise ValueError(f"after: it must be positive and finite, in s, not {after!r}")
         draws, seed = _whole(draws, "draws", least=10), seed_of(seed)
@@ -394,12 +461,14 @@ class Fit:
         return {
             "constants": self.constants,
             "spread": self.spread,
+            "intervals": self.intervals,
             "covariance": None
             if self.covariance is None
             else {"constants": list(self.fitted), "matrix": self.covariance.tolist()},
             "cushion_model": self.cushion_model,
-            "table": list(self.table),
+            "table": self.table if isinstance(self.table, str) else list(self.table),
             "radius": self.radius,
+            "game": self.ground.game,
             "shots": shots,
             "median_rmse": self.median_rmse if len(self.counted()) else None,
             "p90_rmse": self.p90_rmse if len(self.counted()) else None,
@@ -527,7 +596,7 @@ def bands(fit: Fit) -> str:
 
 def laws(fit: Fit) -> list[tuple[str, str]]:
     """Pictures of what single events say, over what the fit plays with; each with its text."""
-    seen, constants = events(fit.recordings, fit.table, fit.radius), fit.constants
+    seen, constants = events(fit.recordings, fit.ground.size, fit.radius), fit.constants
     gravity = constants["gravity"]
     rolls = seen.pieces[seen.pieces["rolling"] & (seen.pieces["a_error"] < 0.03)]
     speed = np.hypot(*rolls["v"].T)
@@ -579,6 +648,8 @@ def summary_lines(fit: Fit) -> list[str]:
     that are not ok.
     """
     lines = [
+        f"balls of radius {1e3 * fit.radius:.5g} mm, constants of {fit.ground.game} unless given, "
+        f"cushions: {fit.cushion_model}",
         f"noise of a coordinate: {1e3 * fit.noise:.2f} mm",
         *(f"warning: {text}" for text in fit.warnings),
     ]
@@ -599,12 +670,19 @@ def summary_lines(fit: Fit) -> list[str]:
 
 
 def told_forecasts(seen: Sequence[Forecast]) -> str:
-    """How many of the later places lie in the regions of forecasts."""
-    counts = [len(item.later()[0]) for item in seen]
-    inside = 100.0 * np.average([item.covered() for item in seen], axis=0, weights=counts)
+    """How many of the later places lie in the regions of forecasts: all, and those that tell a
+    motion.
+    """
+    told = []
+    for moving, places in ((False, "later places"), (True, "places of moving balls")):
+        counts = [len(item.later(moving=moving)[0]) for item in seen]
+        some = [item.covered(moving=moving) for item, count in zip(seen, counts) if count]
+        if some:
+            inside = 100.0 * np.average(some, axis=0, weights=[count for count in counts if count])
+            told.append(f"{inside[0]:.0f} and {inside[1]:.0f} % of {sum(counts)} {places}")
     return (
-        f"forecasts from the first {seen[0].after:g} s of {len(seen)} shots: {inside[0]:.0f} and "
-        f"{inside[1]:.0f} % of {sum(counts)} later places lie in the regions of 68 and 95 %"
+        f"forecasts from the first {seen[0].after:g} s of {len(seen)} shots: {', '.join(told)} "
+        "lie in the regions of 68 and 95 %"
     )
 
 

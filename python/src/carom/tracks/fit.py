@@ -1,8 +1,8 @@
 """Fitting carom to recorded shots: each shot's strike, and the constants of a table.
 
-    python -m carom.fit TRACKS.csv --table 2.84,1.42 --radius 0.03075 -o fit.json
+    python -m carom.fit TRACKS.csv --table snooker -o fit.json
 
-or, in Python, `carom.fit.fit(carom.tracks.read("TRACKS.csv"), (2.84, 1.42), 0.03075)`.
+or, in Python, `carom.fit.fit(carom.tracks.read("TRACKS.csv"), "snooker")`.
 docs/using/fit.md explains the method and what the numbers mean.
 """
 
@@ -18,19 +18,21 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, NamedTuple, cast, get_args
 
 import numpy as np
 
+from carom._described import BallFriction, Game
 from carom._rows import Seed, listing, seed_of
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
 from carom.layouts import GAMES
-from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
-from carom.tracks import _recordings, _strikes, _summary
-from carom.tracks import Recording, TrackError, events, read
-from carom.tracks._forecast import ROUGH, Forecast
+from carom.tracks import _constants, _covariance, _from_events, _joint
+from carom.tracks import _search, _strikes, _summary
+from carom.tracks import Recording, TrackError, events, examine, read
+from carom.tracks._forecast import ROUGH, Forecast, first_seconds
 from carom.tracks._kicks import Kicks, contact
+from carom.tracks._profile import light, profiles
 from carom.tracks._summary import Fit
 
 __all__ = ["Fit", "Kicks", "contact", "fit", "main"]
@@ -38,8 +40,10 @@ __dir__ = listing(__name__)
 
 Progress = Callable[[str, float], None]
 _FASTEST = 8.0  # m/s: no ball is faster
-_CROOKED = 8e-3  # m: tracks that are farther off are told
+_BREAK = 1.0  # s from the first motion: later rows of a break tell nothing of its strike
 _MANY = 5.0  # standard deviations of a coordinate: an RMSE above is not that of the noise
+_STARTS, _NAMED = 3, 8  # searches from better points of profiles; shots that are named
+_WORSE = 1.02  # times the median RMSE of the start, from which it is kept
 _LAW = {
     "law_a",
     "law_b",
@@ -73,22 +77,19 @@ def _priors(
     free: Sequence[str],
     priors: Mapping[str, tuple[float, float]],
     values: Mapping[str, float],
-    cushion_model: ShotCushion,
 ) -> dict[str, tuple[float, float]]:
     """Mean and deviation of each constant that whole shots are to tell."""
-    # a change with the speed is not sought where the usual cushion has none, nor a height where it
-    # has no friction
-    usual, some = (
-        _constants.usual(cushion_model),
-        ("mu_cushion", "roll_loss", "restitution_log", "mu_log"),
-    )
-    left_out = {name for name in some if not usual[name]} | (
-        {"nose_height"} if not usual["mu_cushion"] else set()
+    # a change with the speed is not sought where the cushion begins without one, nor a height where
+    # it has no friction
+    some = ("mu_cushion", "roll_loss", "restitution_log", "mu_log")
+    left_out = {name for name in some if not values[name]} | (
+        {"nose_height"} if not values["mu_cushion"] else set()
     )
     wider = _joint.TABLE if list(free) == ["table"] else {}
     usually = [name for name in wider or _joint.PRIORS if name not in left_out]
     names = usually if list(free) in (["default"], ["table"]) else list(free)
-    known = [name for name in _constants.KINDS if name in values]
+    values = {**dict.fromkeys(_constants.SLOPE, 0.0), **values}
+    known = [name for name in _constants.NAMES if name in values]
     unknown = [name for name in [*names, *priors] if name not in known]
     if unknown:
         raise ValueError(
@@ -148,63 +149,6 @@ class _Saved:
             self.path.unlink(missing_ok=True)
 
 
-def _sound(
-    recordings: list[Recording],
-    table: tuple[float, float],
-    radius: float,
-    train: Sequence[int] | None,
-    calibrate: bool,
-) -> tuple[list[Recording], list[list[str]], float, list[str]]:
-    """The recordings of a fit without what is wrong in them, what was mended in each, the noise, m,
-    and what is to be told.
-    """
-    noise = _recordings.noise_of(recordings if train is None else [recordings[k] for k in train])
-    recordings, notes = _recordings.sound(recordings, noise)
-    lie, remarks = _recordings.lie_of(recordings, table, radius), list[str]()
-    if lie.far > max(_CROOKED, 4.0 * lie.error):
-        remarks.append(
-            f"the tracks lie {lie}: {'put right' if calibrate else '--calibrate puts them right'}"
-        )
-    for _ in range(2 if calibrate else 0):
-        # the second time finds impacts that were too far from their cushions
-        recordings = [
-            replace(
-                shot,
-                tracks=tuple(
-                    np.column_stack([track[:, 0], lie.places(track[:, 1:])])
-                    for track in shot.tracks
-                ),
-            )
-            for shot in recordings
-        ]
-        lie = _recordings.lie_of(recordings, table, radius)
-    counts = {len(shot.balls) for shot in recordings}
-    if len(counts) > 1:
-        odd = next(shot for shot in recordings if len(shot.balls) != len(recordings[0].balls))
-        raise ValueError(
-            f"recordings: shot {odd.id} has {len(odd.balls)} balls, shot {recordings[0].id} {len(recordings[0].balls)}; "
-            f"all shots must have the same number"
-        )
-    if not (min(table) > 4.0 * radius > 0.0):
-        raise ValueError(
-            f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, and those above 0"
-        )
-    return recordings, notes, noise, remarks
-
-
-def _seek_again(
-    plays: _strikes.Plays, played: list[int], strikes: Doubles, rmse: Doubles, rough: float
-) -> None:
-    """Seeks strikes that may have stuck once more, by way of kicks."""
-    stuck = np.array(played)[rmse[played] > rough]
-    if len(stuck):
-        some = plays.some(np.searchsorted(played, stuck))
-        trial = _kicks.eased(some, strikes[stuck])
-        repeat = some.rmse(trial)
-        better = repeat < rmse[stuck]
-        strikes[stuck[better]], rmse[stuck[better]] = trial[better], repeat[better]
-
-
 def _told_by_events(
     values: dict[str, float],
     remarks: list[str],
@@ -232,7 +176,7 @@ class _Job:
     """What is asked of a fit, and what it keeps of its work."""
 
     recordings: list[Recording]
-    table: tuple[float, float]
+    table: str | tuple[float, float]
     radius: float
     cushion_model: ShotCushion
     free: list[str]
@@ -254,6 +198,16 @@ class _Job:
             self.progress(what, part)
 
 
+def _strike(
+    job: _Job, played: list[int], values: dict[str, float]
+) -> tuple[_strikes.Plays, Doubles, Doubles]:
+    """The strikes of these shots with these constants, and their RMSE."""
+    plays = job.plays(played, values)
+    strikes, _ = _search.find(plays, progress=job.progress, squares=True)
+    rmse = plays.rmse(strikes)
+    return plays, strikes, rmse
+
+
 def _fit_to_events(
     job: _Job, fitted: Sequence[int], values: dict[str, float], remarks: list[str]
 ) -> tuple[dict[str, float], dict[str, float]]:
@@ -262,13 +216,20 @@ def _fit_to_events(
     shots = [job.recordings[k] for k in fitted]
 
     def measured() -> Any:
-        found = events(shots, job.table, job.radius)
+        ground = _constants.ground(job.table, job.radius)
+        found = events(shots, ground.size, job.radius)
+        # near a pocket a ball may have met a jaw, a facing or the hole
+        gaps = found.impacts["r"][:, None] - ground.table.pockets["centre"]
+        near = np.hypot(gaps[..., 0], gaps[..., 1]) < (
+            ground.table.pockets["radius"] + 3.0 * job.radius
+        )
+        found = replace(found, impacts=found.impacts[~near.any(axis=1)])
         return _from_events.measured(found, job.radius, job.cushion_model, job.seed, values)
 
     return _told_by_events(values, remarks, *job.saved.get("events", measured))
 
 
-def _search(job: _Job, first: _joint.Search) -> _joint.Search:
+def _search_constants(job: _Job, first: _joint.Search) -> _joint.Search:
     """Searches the constants, at first also without a change of the friction with the slip; returns
     the search at its end.
     """
@@ -289,29 +250,66 @@ def _search(job: _Job, first: _joint.Search) -> _joint.Search:
     return search
 
 
+class _Told(NamedTuple):
+    """What shots tell of the constants."""
+
+    values: dict[str, float]
+    spread: dict[str, float]  # their errors
+    names: tuple[str, ...] = ()  # of those that whole shots told
+    covariance: Doubles | None = None  # of these
+    intervals: Mapping[str, tuple[float, float] | None] = {}  # of 95 %, of these
+
+
+def _profiled(job: _Job, search: _joint.Search) -> dict[str, tuple[float, float] | None]:
+    """The intervals of the constants by their profiles; the search goes on from a point of these
+    that is better than where it ended.
+    """
+    for number in range(_STARTS):
+        found = profiles(search)
+        if found.best is None:
+            break
+        search.values, search.strikes = found.best
+        search.weigh()
+        for stage in (_joint.STAGES - 2, _joint.STAGES - 1):
+            job.report("constants", stage / (_joint.STAGES + 2))
+            work = functools.partial(search.stage, stage, job.seed + number + 1)
+            search.resume(job.saved.get(f"start {number}, constants {stage}", work))
+        finish = functools.partial(search.finish, job.seed, _joint.ROUNDS)
+        search.resume(job.saved.get(f"start {number}, end", finish))
+    return found.intervals
+
+
 def _fit_to_shots(
     job: _Job,
     fitted: Sequence[int],
     values: dict[str, float],
     spread: dict[str, float],
     remarks: list[str],
-) -> tuple[dict[str, float], dict[str, float], tuple[str, ...], Doubles | None]:
-    """The constants that these shots as a whole tell, the errors of all, and the names and the
-    covariance of those that were fitted.
-    """
+) -> _Told:
+    """The constants that these shots as a whole tell."""
     plays = job.plays(fitted, values)
     found = job.saved.get(
-        "strikes", lambda: _strikes.find(plays, job.seed, job.progress)[0].tolist()
+        "strikes", lambda: _search.find(plays, job.seed, job.progress)[0].tolist()
     )
-    expected = _priors(job.free, job.priors, values, job.cushion_model)
-    search = _search(job, _joint.Search(plays, np.array(found), range(len(fitted)), expected))
+    expected = _priors(job.free, job.priors, values)
+    search = _search_constants(
+        job, _joint.Search(plays, np.array(found), range(len(fitted)), expected)
+    )
     job.report("spread", _joint.STAGES / (_joint.STAGES + 2))
     if search.middle >= _joint.MOST:
         remarks.append(
             "half of the shots are off by centimetres: whole shots tell no constants, which stay as they were before"
         )
-        return values, spread, (), None
+        return _Told(values, spread)
 
+    intervals = _profiled(job, search)
+    shots = [(job.recordings[fitted[row]].id, weight) for row, weight in light(search)]
+    if shots:
+        remarks.append(
+            f"{len(shots)} of {len(fitted)} shots misfit and count less for the constants: "
+            + ", ".join(f"shot {shot} {100.0 * weight:.0f} %" for shot, weight in shots[:_NAMED])
+            + (" and others" if len(shots) > _NAMED else "")
+        )
     values, names = search.constants(search.values), tuple(search.names)
     evidence = {name: error for name, error in spread.items() if name not in job.priors}
     covariance = _covariance.of_constants(search, evidence)
@@ -323,15 +321,22 @@ def _fit_to_shots(
         for name in names
         if values[name] in _joint.prior(name)[1:]
     ]
-    return values, spread, names, covariance
+    if unknown := [name for name, interval in intervals.items() if interval is None]:
+        remarks.append(
+            f"not told by these shots: {', '.join(unknown)}, which could be anywhere that they are on "
+            f"other tables; more shots would tell them, such as those of --next"
+        )
+    return _Told(values, spread, names, covariance, intervals)
 
 
 def fit(
     recordings: Sequence[Recording],
-    table: tuple[float, float],
-    radius: float,
+    table: str | tuple[float, float],
+    radius: float | None = None,
     *,
-    cushion_model: ShotCushion = "smooth",
+    game: Game | None = None,
+    cushion_model: ShotCushion = "default",
+    friction: BallFriction = "alciatore",
     constants: Mapping[str, float] | Records | np.void | None = None,
     free: str | Sequence[str] = "default",
     priors: Mapping[str, tuple[float, float]] | None = None,
@@ -347,14 +352,20 @@ def fit(
     Parameters
     ----------
     recordings : sequence of Recording
-        From `carom.tracks.read`, all of the same number of balls.
-    table, radius
-        Extents (float, float) of x and y, and the radius of the balls, m.
-    cushion_model : str
-        A model with which a fit can begin: `python -m carom.fit --help` lists them.
+        From `carom.tracks.read`. Shots may have different numbers of balls, and a track may end
+        before the shot does: where its ball falls into a pocket, its later rows do not count.
+    table : str or (float, float)
+        The word of a table with its pockets and facings, such as "9ft" or "snooker", x along its
+        width and y along its length; or the extents of x and y of one without pockets, m.
+    radius : float, optional
+        Of the balls, m. Without: that of the game's balls.
+    game : str, optional
+        Whose constants stand for those that are not given. Without: that of the table, and
+        "billiard" for extents.
+    cushion_model, friction : str
+        As in `carom.simulate`.
     constants : mapping or `carom.dtypes.ball_kind`, optional
-        Known constants. Those of game="billiard" stand for those that are not given: a film of
-        pool needs `carom.balls([[0, 0]])["kind"][0]`.
+        Known constants.
     free : "none", "events", "table", "default", or names of constants
         What is fitted besides each shot's strike. "none": nothing. "events": the constants that
         single events tell: mu_slide, mu_roll, drag, restitution, and those of the cushion. What too
@@ -370,7 +381,8 @@ def fit(
         The shots, from 0, that constants are fitted to; all without. The others then tell how well
         the constants predict.
     seed : int or numpy.random.Generator
-        Of what is drawn. In one environment the bits depend on the seed alone.
+        Of what the search for constants draws; strikes by known constants do not depend on it. In
+        one environment the bits depend on the seed alone.
     threads : int
         Most threads: 0 is the calling one alone, -1 all processors.
     progress : callable(what, part), optional
@@ -388,16 +400,31 @@ def fit(
     ValueError
         An argument is wrong: which, and what would be right.
     """
-    recordings, seed = list(recordings), seed_of(seed, 2**64 - 1)
-    if not recordings:
+    seed = seed_of(seed, 2**64 - 1)
+    if not len(recordings):
         raise ValueError("recordings: at least one shot is needed")
-    recordings, notes, noise, remarks = _sound(recordings, table, radius, train, calibrate)
+    ground = _constants.ground(table, radius, game)
+    radius = ground.radius
+    examination = examine(recordings, table, radius, train=train, calibrate=calibrate)
+    recordings, notes = examination.recordings, examination.mended
+    noise, remarks = examination.noise.value, examination.sentences
+    if train is not None:
+        train = [k for k, index in enumerate(examination.indices) if index in {*train}]
+    for k, shot in enumerate(recordings):
+        if _strikes.is_break(shot):
+            recordings[k] = first_seconds(shot, _BREAK)
+            notes[k].append(f"a break, of which the first {_BREAK:g} s count")
     free = [free] if isinstance(free, str) else list(free)
-    values = _constants.complete({} if constants is None else constants, cushion_model)
-    _priors([] if free[0] in ("none", "events") else free, priors or {}, values, cushion_model)
-    spread: dict[str, float] = {}
-    names: tuple[str, ...] = ()
-    covariance: Doubles | None = None
+    values, cushion_model = _constants.complete(
+        {} if constants is None else constants,
+        cushion_model,
+        game=ground.game,
+        friction=friction,
+        table=ground.table,
+    )
+    sought = _priors([] if free[0] in ("none", "events") else free, priors or {}, values)
+    values |= {name: values.get(name, 0.0) for name in _constants.SLOPE if name in sought}
+    told = _Told(values, {})
     status = [_status(shot, radius) for shot in recordings]
     played = [k for k, text in enumerate(status) if text != "no ball moves"]
     fitted = [k for k in played if status[k] == "ok" and (train is None or k in set(train))]
@@ -419,13 +446,25 @@ def fit(
             saved,
         )
         if free[0] in ("events", "default"):
-            values, spread = _fit_to_events(job, fitted, values, remarks)
+            told = _Told(*_fit_to_events(job, fitted, values, remarks))
         if free[0] not in ("none", "events") and fitted:
-            values, spread, names, covariance = _fit_to_shots(job, fitted, values, spread, remarks)
-        plays = job.plays(played, values)
-        strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
-        rmse[played] = plays.rmse(strikes[played])
-        _seek_again(plays, played, strikes, rmse, ROUGH * noise * math.sqrt(2.0))
+            told = _fit_to_shots(job, fitted, told.values, told.spread, remarks)
+        plays, strikes[played], rmse[played] = _strike(job, played, told.values)
+        if told.values != values and fitted:
+            # constants that play the shots worse than those that were given are not taken
+            begun = _strike(job, played, values)
+            medians = [
+                float(np.median(rmses[np.isin(played, fitted)]))
+                for rmses in (begun[2], rmse[played])
+            ]
+            if _WORSE * medians[0] < medians[1]:
+                plays, strikes[played], rmse[played] = begun
+                told = _Told(values, {})
+                remarks.append(
+                    f"the constants that were found play the shots worse, to a median RMSE of "
+                    f"{1e3 * medians[1]:.2f} mm, than those that were given, {1e3 * medians[0]:.2f} mm: "
+                    f"these are kept"
+                )
         for k in played:
             if not np.isfinite(rmse[k]):
                 status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
@@ -439,20 +478,27 @@ def fit(
         table,
         radius,
         cushion_model,
-        values,
-        spread,
+        told.values,
+        told.spread,
         strikes,
         status,
         rmse,
         part,
-        names,
-        covariance,
+        told.names,
+        told.covariance,
         remarks,
+        ground.game,
+        dict(told.intervals),
     )
     if found.median_rmse > _MANY * noise:
+        causes = " and ".join(examination.causes)
         remarks.append(
-            f"the median RMSE is {found.median_rmse / noise / math.sqrt(2.0):.0f} times that of the noise: the constants or the "
-            f"models are off by more than the camera"
+            f"the median RMSE is {found.median_rmse / noise / math.sqrt(2.0):.0f} times that of the noise: "
+            + (
+                f"what is said of the {causes} comes first"
+                if causes
+                else "the constants or the models are off by more than the camera"
+            )
         )
     return found
 
@@ -481,21 +527,36 @@ def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
     )
 
 
-def _two_numbers(form: str) -> Callable[[str], tuple[float, float]]:
-    """What reads an argument of two numbers, and says its form where it is wrong."""
+def _numbers(count: int, form: str) -> Callable[[str], tuple[float, ...]]:
+    """What reads an argument of some numbers, and says its form where it is wrong."""
 
-    def read(text: str) -> tuple[float, float]:
+    def read(text: str) -> tuple[float, ...]:
         try:
-            first, second = map(float, text.split(","))
+            numbers = tuple(map(float, text.split(",")))
         except ValueError:
-            raise argparse.ArgumentTypeError(f"{text!r} must be {form}") from None
-        return first, second
+            numbers = ()
+        if len(numbers) != count:
+            raise argparse.ArgumentTypeError(f"{text!r} must be {form}")
+        return numbers
 
     return read
 
 
-_extents = _two_numbers("W,L, the extents of x and y in m, such as 2.84,1.42")
-_place = _two_numbers("X,Y, a place in the unit of the file, such as 4.5,3")
+_extents = _numbers(
+    2,
+    f"one of {', '.join(_constants.TABLES)}, or W,L, the extents of x and y in m, such as 2.84,1.42",
+)
+_place = _numbers(2, "X,Y, a place in the unit of the file, such as 4.5,3")
+
+
+_corners = _numbers(8, "X,Y of each of four corners")
+
+
+def _unit(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def _read_object(path: Path, such: str) -> dict[str, Any]:
@@ -550,37 +611,56 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "tracks",
         type=Path,
-        help="recorded tracks: a CSV with shot,ball,t,x,y, or JSON Lines; .xz and .gz too",
+        help="recorded tracks: a table with shot,ball,t,x,y or as trackers write it, or JSON Lines",
     )
     parser.add_argument(
-        "--table", type=_extents, required=True, metavar="W,L", help="extents of x and y, m"
+        "--table",
+        type=lambda text: text if text in _constants.TABLES else _extents(text),
+        required=True,
+        metavar="TABLE|W,L",
+        help=f"{', '.join(_constants.TABLES)}, x along the width; or the extents of x and y, m, of "
+        "a table without pockets",
     )
-    parser.add_argument("--radius", type=float, required=True, metavar="R", help="of the balls, m")
     parser.add_argument(
-        "--unit", type=float, default=1.0, metavar="M", help="unit of x and y, m: 0.0254 for inches"
+        "--radius", type=float, metavar="R", help="of the balls, m; without: of those of the game"
+    )
+    parser.add_argument(
+        "--unit",
+        type=_unit,
+        metavar="m|cm|mm|inches|px|M",
+        help="unit of x and y, or its length, m; without, by the titles of columns or the extents",
     )
     parser.add_argument(
         "--origin",
         type=_place,
-        default=(0.0, 0.0),
         metavar="X,Y",
         help="where the corner of the noses lies in the file, in its unit",
     )
     parser.add_argument(
-        "--rate", type=float, default=1.0, metavar="HZ", help="frames a second, if t counts frames"
+        "--rate", type=float, metavar="HZ", help="pictures a second, if t counts pictures"
     )
-    parser.add_argument("--cushion-model", default="smooth", choices=list(_constants.STARTS))
+    parser.add_argument(
+        "--corners",
+        type=_corners,
+        metavar="X,Y,X,Y,X,Y,X,Y",
+        help="where the corners (0, 0), (W, 0), (W, L), (0, L) of the noses lie in pictures",
+    )
+    parser.add_argument(
+        "--cushion-model", default="default", choices=_constants.CUSHIONS, help="as of carom shoot"
+    )
+    parser.add_argument(
+        "--friction", default="alciatore", choices=get_args(BallFriction), help="as of carom shoot"
+    )
     parser.add_argument(
         "--game",
-        default="billiard",
         choices=list(GAMES),
-        help="whose usual constants the fit begins with, such as pool",
+        help="whose constants the fit begins with; without: that of the table, or billiard",
     )
     parser.add_argument(
         "--constants",
         type=Path,
         metavar="IN.json",
-        help="known constants; those of --game otherwise",
+        help="known constants; those of the game otherwise",
     )
     parser.add_argument(
         "--free",
@@ -606,6 +686,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--kicks", action="store_true", help="tell what the models get wrong at each contact"
     )
     parser.add_argument(
+        "--next",
+        type=int,
+        default=0,
+        metavar="N",
+        help="the N shots that would tell the constants best, to play and to film next",
+    )
+    parser.add_argument(
+        "--player",
+        action="store_true",
+        help="the player's errors and rating, by strokes that were meant alike",
+    )
+    parser.add_argument(
         "--forecast",
         type=float,
         metavar="T",
@@ -624,21 +716,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
             _read_object(options.constants, '{"mu_slide": 0.2}') if options.constants else {}
         )
         _constants.complete(constants, options.cushion_model, str(options.constants))
-        if options.game != "billiard":
-            constants = {**_constants.of_game(options.game), **constants}
+        ground = _constants.ground(options.table, options.radius, options.game)
         recordings = read(
             options.tracks,
             table=options.table,
-            radius=options.radius,
+            radius=ground.radius,
             unit=options.unit,
             origin=options.origin,
             rate=options.rate,
+            corners=options.corners and np.reshape(options.corners, (4, 2)).tolist(),
         )
         found = fit(
             recordings,
             options.table,
             options.radius,
+            game=options.game,
             cushion_model=options.cushion_model,
+            friction=options.friction,
             constants=constants,
             free=options.free,
             priors=_read_object(options.priors, '{"mu_spin": [0.004, 0.001]}')
@@ -658,6 +752,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 _summary.page(found, options.tracks.name, kicks, seen), encoding="utf-8"
             )
         written = found.to_dict(kicks)
+        further = found.design(options.next, seed=options.seed) if options.next else []
+        player = found.player() if options.player else None
+        if player is not None:
+            written["player"] = player.to_dict()
         if options.forecast:
             written["forecasts"] = [forecast.to_dict() for forecast in seen]
         options.output.write_text(json.dumps(written, indent=1) + "\n", encoding="utf-8")
@@ -680,6 +778,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
             f"of their samples, with strikes fitted to whole shots, {within[0]:.0f} and {within[1]:.0f} % "
             "are within the residuals of 68 and 95 % of the shots that were fitted"
         )
+    for name, interval in found.intervals.items():
+        if interval is not None:
+            print(f"{name} {found.constants[name]:.4g} ({interval[0]:.4g} to {interval[1]:.4g})")
+    for number, shot in enumerate(further, 1):
+        print(f"next {number}: {shot}")
+    if player is not None:
+        print(player)
     if seen:
         print(_summary.told_forecasts(seen))
     print("\n".join(_summary.summary_lines(found)))
