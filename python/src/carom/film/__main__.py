@@ -16,8 +16,10 @@ _CANNOT = """
 What it cannot do: the camera must stand still and see at least three edges of the cloth, whose
 colour is no grey. A ball that another, a hand or a cue hides has no row then. Which of several
 balls of one colour is which is told by their ways alone, so in a pack that opens, names may be
-swapped. A number of pool is told by the colour. Look at the picture of --check before you trust the
-tracks: the yellow outline must lie on the noses, which are not the edges of the cloth.
+swapped. A number of pool is told by the colour. The edges of the cloth lie outside the noses by a
+depth that turns at cushions and balls on spots measure; a low camera sees this depth wrongly, and
+--corners are then better. Look at the picture of --check before you trust the tracks: the yellow
+outline must lie on the noses, which are not the edges of the cloth.
 """
 
 

@@ -22,8 +22,9 @@ import numpy as np
 from carom.dtypes import Doubles
 
 _FOCAL = 1.3, 0.7  # of the picture's width, and its deviation as a logarithm: 25 to 110 degrees
-_LENS = 0.03  # deviation of what the lens shifts at half the width of the picture, of this
-_DEPTH = 0.008, 0.008  # m: deviations of a cushion's depth, and of one side from the others
+_LENS = 0.12  # deviation of k1
+_DEPTH = 0.008, 0.006  # m: deviations of a cushion's depth, and of one side from the others
+_HEIGHT = 0.008  # m: of the edge of the cloth from the noses, which a low camera sees aside
 _ROUNDS = 30
 
 
@@ -159,28 +160,34 @@ def fit(
     A focal length (pixels) and a k1 that are given stay.
     """
     wanted = np.log(focal or _FOCAL[0] * camera.size[0])
-    half = 0.5 * camera.size[0]
     x = np.concatenate([camera.numbers, np.full(4, depth)])
     spreads = evidence.spreads(camera)
+    # how flat the camera looks along x and y
+    flat = np.abs(camera.rotation[2, :2]) / max(-camera.rotation[2, 2], 0.1)
+    sides = np.hypot(_DEPTH[1], _HEIGHT * np.tile(flat, 2))
 
     def residuals(x: Doubles) -> Doubles:
         mean = x[8:].mean()
-        bend = x[7] * (half / np.exp(x[0])) ** 2 / _LENS if lens is None else (x[7] - lens) / 1e-6
+        bend = x[7] / _LENS if lens is None else (x[7] - lens) / 1e-6
         length = (x[0] - wanted) / (_FOCAL[1] if focal is None else 1e-6)
         prior = [[length, bend, (mean - depth) / _DEPTH[0]]]
         found = evidence.residuals(Camera(x[:8], camera.size), x[8:]) / spreads
-        return np.concatenate([found, *prior, (x[8:] - mean) / _DEPTH[1]])
+        return np.concatenate([found, *prior, (x[8:] - mean) / sides])
+
+    # what is known before the film keeps its weight
+    limits = np.full(len(evidence.targets) + 7, 1e9)
+    limits[:-7] = 2.0
 
     def cost(r: Doubles) -> float:
         size = np.abs(r)
-        return float(np.where(size < 2.0, size**2, 4.0 * size - 4.0).sum())
+        return float(np.where(size < limits, size**2, limits * (2.0 * size - limits)).sum())
 
     r, damping = residuals(x), 1e-3
     for _ in range(_ROUNDS):
         J = np.column_stack(
             [(residuals(x + h) - residuals(x - h)) / 2e-6 for h in 1e-6 * np.eye(12)]
         )
-        weights = 2.0 / np.maximum(np.abs(r), 2.0)
+        weights = limits / np.maximum(np.abs(r), limits)
         A, g = (J.T * weights) @ J, (J.T * weights) @ r
         # a step that does not lower the cost is tried again, shorter
         while damping < 1e9:

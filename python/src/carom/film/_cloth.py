@@ -59,6 +59,9 @@ def quadrilateral(picture: Picture) -> Doubles:
     near = vivid[np.abs(vivid - peak).max(axis=1) < 14]
     away = np.abs(lab[..., 1:] - np.median(near, axis=0)).max(axis=2)
     mask = cv2.morphologyEx((away < 14).astype(np.uint8), cv2.MORPH_OPEN, np.ones((5, 5), np.uint8))
+    # a dark line under a nose does not part its cushion from the bed
+    wide = np.ones((height // 60, height // 60), np.uint8)
+    mask = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, wide)
     _, labels, sizes, _ = cv2.connectedComponentsWithStats(mask)
     largest = 1 + int(sizes[1:, cv2.CC_STAT_AREA].argmax()) if len(sizes) > 1 else 0
     if not largest or sizes[largest, cv2.CC_STAT_AREA] < _LEAST * height * width:
@@ -246,7 +249,9 @@ class Cloth:
 
     def _find_edges(self, picture: Picture, depths: Doubles) -> None:
         """Where the cloth ends along each side, in this picture."""
-        shares = np.linspace(0.06, 0.94, _POINTS)
+        # away from the pockets, where cushions are cut or curved
+        shares = np.concatenate([np.linspace(0.1, 0.44, _POINTS // 2)] * 2)
+        shares[_POINTS // 2 :] = 1.0 - shares[_POINTS // 2 :]
         steps = np.arange(-_REACH, _REACH + 1.0)
         points, grids = [], []
         for side in range(4):
@@ -311,7 +316,7 @@ class Cloth:
         parts = []
         for side, (middle, outward) in enumerate(self.points):
             good = np.isfinite(self.edges[side])
-            if not good.any():
+            if good.sum() < _POINTS // 4:
                 continue
             pixels = (middle + self.edges[side][:, None] * outward)[good]
             # neighbours share what disturbs them, so 60 points tell less than 60 times one
@@ -332,7 +337,7 @@ def calibrated(
     """
     size = picture.shape[1], picture.shape[0]
     given: list[Evidence] = []
-    best: tuple[float, Camera, Doubles] | None = None
+    best: tuple[float, Camera, Doubles, list[Evidence]] | None = None
     if corners is None:
         outer = np.roll(quadrilateral(picture), 2 * half_turn, axis=0)
         away = bed.depth * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
@@ -353,13 +358,15 @@ def calibrated(
                 evidence.append(bed.edge(side, pixels, (3.0, 0.0)))
         camera, depths, cost = fit(camera, Evidence.join(evidence), bed.depth, focal, lens)
         if best is None or cost < best[0]:
-            best = cost, camera, depths
+            best = cost, camera, depths, evidence[len(given) :]
     assert best is not None
-    _, camera, depths = best
-    # the edges are found anew where the better camera expects them
+    _, camera, depths, rough = best
+    # the edges are found anew where the better camera expects them; of one that is not, the rough
+    # line stands
     evidence = given
     for _ in range(4):
-        cloth = Cloth(picture, camera, bed, depths)
-        evidence = given + cloth.evidence()
+        fine = Cloth(picture, camera, bed, depths).evidence()
+        sides = {float(rows.sides[0]) for rows in fine}
+        evidence = [*given, *fine, *(rows for rows in rough if rows.sides[0] not in sides)]
         camera, depths, _ = fit(camera, Evidence.join(evidence), bed.depth, focal, lens)
     return camera, depths, evidence
