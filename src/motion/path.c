@@ -129,10 +129,11 @@ static void run_on(const curve *f, double T, double u[2], double way[2]) {
   }
 }
 
-/* A pair of a ball that slides with the slip u0, or rolls at that velocity. */
+/* A pair of a ball that slides with the slip (x, y), or rolls at that velocity. */
 __attribute__((noinline, cold)) static void
-begin_on_slope(carom_path *path, const carom_ball_rates *rates, const double u0[2], double q) {
+begin_on_slope(carom_path *path, const carom_ball_rates *rates, double x, double y) {
   static const double most = 8e-6; /* m, as both bounds below err by a fifth on steep slopes */
+  const double u0[2] = {x, y}, q = sqrt(dot_product(u0, u0));
   const bool slides = path->from.label == CAROM_BALL_SLIDING;
   const double share = slides ? 2.0 / 7.0 : (double)1.0; /* of u' in v' */
   curve f = {rates->roll, rates->drag, {0.0, 0.0}};
@@ -231,11 +232,10 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double st
       path->e[0] = x / size;
       path->e[1] = y / size;
     }
-    const double turning[2] = {x, y};
-    const bool drags = rates->drag * size * size > 1e-16 * rates->roll || carom_varies(rates->drag);
     if (carom_is_sloped(rates) && size > 0.0) {
-      begin_on_slope(path, rates, turning, size);
-    } else if (!slides && drags) {
+      begin_on_slope(path, rates, x, y);
+    } else if (!slides && (rates->drag * size * size > 1e-16 * rates->roll ||
+                           carom_varies(rates->drag))) {
       begin_pair(path, rates, size);
     } else {
       path->a[0] = -0.5 * friction * path->e[0];

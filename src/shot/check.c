@@ -173,15 +173,15 @@ static carom_status check_alone(const carom_prepared *p, const row_rules *rules,
     const carom_status status = check_kind(kind);
     if (status != CAROM_OK)
       return status;
+    const double x = p->table->slope_x, y = p->table->slope_y,
+                 grip = carom_lesser(kind->mu_roll, kind->mu_slide);
+    if (x * x + y * y >= grip * grip)
+      return CAROM_ERROR_SLOPE;
   }
   if (rules->flat && kind->radius != first->radius)
     return CAROM_ERROR_RADII_DIFFER;
   if (kind->nose_height >= 2.0 * p->features->reference)
     return CAROM_ERROR_BALL_CUSHION;
-  const double x = p->table->slope_x, y = p->table->slope_y,
-               grip = carom_lesser(kind->mu_roll, kind->mu_slide);
-  if (x * x + y * y >= grip * grip)
-    return CAROM_ERROR_SLOPE;
   if (rules->one_mass && kind->mass != first->mass)
     return CAROM_ERROR_MASSES_DIFFER;
   return check_state(p->state[k], kind->radius, rules->flat);
