@@ -503,10 +503,8 @@ int command_shoot(int argc, char **argv) {
                "--speed 2");
     return usage_hint(&form);
   }
-  if (!job.together && job.flags.shared.with.lists > 0) {
-    complain(WITH_LISTS);
+  if (!job.together && !with_fits_file(&job.flags.shared.with))
     return EXIT_USAGE;
-  }
   if (!can_play(&job) || !chooses(&job, &options))
     return EXIT_USAGE;
 

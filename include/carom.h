@@ -218,7 +218,7 @@ typedef enum carom_status {
                                         layout, or a job has both balls and kinds. */
   CAROM_ERROR_BALLS = -44,           /* the number of balls is not 1 to CAROM_BALLS_MOST. */
   CAROM_ERROR_LABEL = -45,           /* the label of a ball is not one that a layout may have. */
-  CAROM_ERROR_OVERLAP = -46,         /* two balls overlap by more than 1e-6 m. */
+  CAROM_ERROR_OVERLAP = -46,         /* two balls overlap by more than 51 um. */
   CAROM_ERROR_OFF_TABLE = -47,       /* a ball is in or behind a cushion, in a pocket, or not at
                                         the height of its radius. */
   CAROM_ERROR_MU_MOTION = -48,       /* a friction of sliding, rolling or spinning is not above 0

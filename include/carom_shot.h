@@ -320,8 +320,9 @@ typedef enum carom_game {
   CAROM_GAME_POOL = 0,              /* typical numbers, each within the published range. Those of
                                       the cushion are fitted to public systems of players; no table
                                       was measured */
-  CAROM_GAME_SNOOKER = 1,           /* cloth and straight rebounds measured on one table (Mathavan
-                                      and others, 2009 to 2014); the rest fitted or conventions */
+  CAROM_GAME_SNOOKER = 1,           /* rolling, impacts of balls and cushions from films of 17
+                                      broadcast shots; sliding friction measured on one table
+                                      (Mathavan and others, 2009); the rest conventions */
   CAROM_GAME_BILLIARD = 2,          /* three-cushion: measured on one table, from 182 recorded
                                       shots, with drag, loss of roll and the numbers of
                                       CAROM_CUSHION_SMOOTH */

@@ -3,8 +3,8 @@ cushions of pool and snooker in tables of Markdown, for docs/.
 
 1. The errors of the sets of data/pool_systems.csv on the three tables of pool.
 2. The sizes of pockets by speed, beside those of Alciatore's TP 3.5 and TP 3.6.
-3. Snooker: the directions of balls that roll once they have met a cushion, beside the exact model
-   with the numbers of its source, and the rebound by speed beside the measured one.
+3. Snooker: the directions of balls that roll once they have met a cushion, beside the exact model,
+   and the rebound by speed beside the measured one.
 4. What three banks tell of a table (carom_calibrate): tables are drawn, their banks are read with
    an error, and the other kicks and banks of the systems are played on them. With other laws of the
    cushion the three readings cannot be met exactly.

@@ -111,6 +111,7 @@ typedef struct given_numbers {
   uint64_t of_balls, of_cue, of_fit;
   int bands; /* of the fit: from so many contacts on, m within which 68 and 95 % of places were */
   double band[8][3];
+  double slope[2]; /* of the fit's table */
   carom_shot_cushion fitted;
   carom_ball_kind kind;
   carom_cue cue;

@@ -325,6 +325,10 @@ static bool give_fit(const char *path, given_numbers *numbers) {
   const char *name, *model = json_string_value(json_object_get(fit, "cushion_model"));
   bool good = json_is_object(constants);
   json_object_set(constants, "radius", json_object_get(fit, "radius"));
+  json_unpack(constants, "{s?: F, s?: F}", "slope_x", &numbers->slope[0], "slope_y",
+              &numbers->slope[1]);
+  json_object_del(constants, "slope_x");
+  json_object_del(constants, "slope_y");
   json_object_foreach(constants, name, x) good =
       good && give_named(numbers, name, json_is_number(x) ? json_number_value(x) : NAN);
   if (fit == NULL)

@@ -15,6 +15,7 @@ enum { NAMES_TEXT = CAROM_BALLS_MOST * (PLACE_NAME + 1) + 128 };
 typedef struct layout {
   carom_game game;
   const char *table_name;
+  char sloped[200]; /* the same with the slope of a fit */
   carom_table table;
   carom_shot_ball ball[CAROM_BALLS_MOST];
   char name[CAROM_BALLS_MOST][PLACE_NAME];

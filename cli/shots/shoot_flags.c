@@ -135,6 +135,17 @@ ROW(option_json, "json", json, NULL, set_flag, 0,
     "print the shot as a line of JSON for a file, instead of playing it. The line has pooltool's "
     "sign: a > 0 is left");
 
+bool with_fits_file(const given_numbers *with) {
+  if (with->lists > 0)
+    complain("--with: several values of a number are for shots by options, not for a file");
+  else if (with->slope[0] != 0.0 || with->slope[1] != 0.0)
+    complain("--with: the fit has a slope, which a table of the file takes: slope_x %g, slope_y %g",
+             with->slope[0], with->slope[1]);
+  else
+    return true;
+  return false;
+}
+
 /* layout_moment */
 static bool set_layout(const option_row *row, char *text, void *field) {
   int place;
@@ -292,6 +303,13 @@ static carom_table_kind table_kind_of(const shoot_flags *f) {
 static void lay_table(const shoot_flags *f, layout *l) {
   const carom_table_kind kind = table_kind_of(f);
   l->table_name = f->table.text != NULL ? f->table.text : carom_table_name(kind);
+  const double *slope = f->shared.with.slope;
+  if (slope[0] != 0.0 || slope[1] != 0.0) {
+    char x[NUMBER_TEXT], y[NUMBER_TEXT];
+    snprintf(l->sloped, sizeof l->sloped, "%.100s,slope_x=%s,slope_y=%s", l->table_name,
+             number_text(slope[0], x), number_text(slope[1], y));
+    l->table_name = l->sloped;
+  }
   named_table *t = built_in_table(l->table_name, &(json_fault){{0}});
   l->table = t->table;
   free_table(t);
@@ -796,9 +814,7 @@ shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_option
     complain("the balls are needed: a file of shots, or --cue 0.6,0.8 --balls 0.5,1.6:0.9,1.2");
   else if (by_options)
     return flags_open(f, options, most);
-  else if (f->shared.with.lists > 0)
-    complain(WITH_LISTS);
-  else
+  else if (with_fits_file(&f->shared.with))
     return shot_file_open(path, options->cushion_model, (layout_moment)f->shared.layout);
   return NULL;
 }

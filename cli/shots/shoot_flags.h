@@ -45,8 +45,8 @@ bool has_flags(const shoot_flags *f);
  * play by these options; NULL after a complaint. */
 json_t *flags_shots(shoot_flags *f, const carom_shot_options *options, int most);
 
-/* What is wrong with lists of numbers beside a file. */
-#define WITH_LISTS "--with: several values of a number are for shots by options, not for a file"
+/* Whether the numbers of --with are for the tables of a file; else a complaint. */
+bool with_fits_file(const given_numbers *with);
 
 /* The same lines as a file, of this name; NULL after a complaint. */
 #define SHOTS_GIVEN "the shot given"

@@ -6,8 +6,7 @@
 
 For each model of the cushion, constants are fitted to every second shot and used for the others,
 and the other way round. The first table has the RMSE of the shots that the constants were not
-fitted to, of both halves: of each shot only the strike, six numbers, is fitted, by one search and
-by the better of two with other seeds. Then follow the floor, which is the RMSE of a perfect model;
+fitted to, of both halves: of each shot only the strike, six numbers, is fitted. Then follow the floor, which is the RMSE of a perfect model;
 how far single impacts are from each model, output by output; how the error grows with the part of a
 shot that the strike is fitted to; and the laws of single events. With --few N there is only what
 few shots tell of the table, over N draws of them, asked of the other half; with --forecast, how many places after the first
@@ -31,7 +30,6 @@ from carom.tracks import _events, _from_events, _summary
 
 Doubles = NDArray[np.float64]
 Recordings = list[carom.tracks.Recording]
-SECOND = 3  # the second search of strikes has the seed of the first plus this
 
 
 def law(values: Doubles, keys: Doubles, edges: Sequence[float]) -> list[str]:
@@ -55,45 +53,36 @@ def held_out(
 ) -> carom.tracks.fit.Fit:
     """The RMSE of unseen shots by each model; the fit of the first half by the best."""
     print(
-        "| cushion | one search of strikes: RMSE, median, cm | 9 in 10 below, cm | mean, cm | better of two: median, cm | 9 in 10 below, cm | "
-        "mean, cm | shots | processor time of a search, ms a shot |\n|---|" + "--:|" * 8
+        "| cushion | RMSE, median, cm | 9 in 10 below, cm | mean, cm | shots | "
+        "processor time of a search, ms a shot |\n|---|" + "--:|" * 5
     )
     best: tuple[float, carom.tracks.fit.Fit] | None = None
     for model in models:
-        once, twice, spent = [], [], 0.0
+        parts, spent = [], 0.0
         for fold in (0, 1):
             half = recordings[fold::2]
-            found = carom.tracks.fit.fit(
+            fitted = carom.tracks.fit.fit(
                 half, table, radius, cushion_model=model, free=free, seed=seed
             )
             begin = time.process_time()
-            first, two = (
-                carom.tracks.fit.fit(
-                    recordings[1 - fold :: 2],
-                    table,
-                    radius,
-                    cushion_model=model,
-                    constants=found.constants,
-                    free="none",
-                    seed=start_seed,
-                )
-                for start_seed in (seed, seed + SECOND)
+            found = carom.tracks.fit.fit(
+                recordings[1 - fold :: 2],
+                table,
+                radius,
+                cushion_model=model,
+                constants=fitted.constants,
+                free="none",
             )
-            spent += 0.5 * (time.process_time() - begin)
-            counts = np.array(first.counts)
-            once.append(100.0 * first.rmse[counts])
-            twice.append(100.0 * np.fmin(first.rmse, two.rmse)[counts])
-        figures: list[float] = []
-        for part in (once, twice):
-            both = np.concatenate(part)
-            figures += [float(np.median(both)), float(np.percentile(both, 90)), float(both.mean())]
-        shots = sum(map(len, once))
+            spent += time.process_time() - begin
+            parts.append(100.0 * found.rmse[found.counts])
+        rmse = np.concatenate(parts)
+        figures = float(np.median(rmse)), float(np.percentile(rmse, 90)), float(rmse.mean())
         print(
-            f"| {model} | {' | '.join(f'{value:.2f}' for value in figures)} | {shots} | {1e3 * spent / shots:.0f} |",
+            f"| {model} | {' | '.join(f'{value:.2f}' for value in figures)} | {len(rmse)} | {1e3 * spent / len(rmse):.0f} |",
             flush=True,
         )
         if best is None or figures[0] < best[0]:
-            best = figures[0], found
+            best = figures[0], fitted
     assert best is not None
     return best[1]
 

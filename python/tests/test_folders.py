@@ -19,7 +19,7 @@ SHORT = [name for name in MODULES if name[6:] not in ABSENT]
 
 
 def test_the_core_loads_no_folder():
-    loaded = "print({'carom.tracks', 'carom.games', 'carom.pooltool'} & sys.modules.keys())"
+    loaded = "print({'carom.tracks', 'carom.film', 'carom.games', 'carom.pooltool'} & sys.modules.keys())"
     assert run_python("-c", f"import carom, sys; {loaded}").stdout == "set()\n"
     assert (
         run_python("-c", f"import carom, sys; carom.plan; {loaded}").stdout == "{'carom.games'}\n"

@@ -88,7 +88,7 @@ static inline double height_of(const carom_ball_state *state, double R) {
 static inline bool overlaps(const double r[3], double R, const carom_ball_state *neighbor,
                             double R_other, double z) {
   const double along[3] = {r[0] - neighbor->r[0], r[1] - neighbor->r[1], r[2] - z};
-  const double reach = R + R_other - CAROM_MOST_OVERLAP;
+  const double reach = R + R_other - CAROM_MOST_BALL_OVERLAP;
   return !carom_is_out(neighbor->label) &&
          along[0] * along[0] + along[1] * along[1] + along[2] * along[2] < reach * reach;
 }

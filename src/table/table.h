@@ -9,8 +9,11 @@
 
 #include <stdbool.h>
 
-/* m: a ball that is deeper than this in another, or in the table, overlaps it. */
+/* m: a ball that is deeper than this in the table overlaps it. */
 #define CAROM_MOST_OVERLAP 1e-6
+/* m: a ball that is deeper than this in another overlaps it. Rules allow balls so much smaller than
+ * usual, and those that touch lie so much nearer. */
+#define CAROM_MOST_BALL_OVERLAP (5e-5 + CAROM_MOST_OVERLAP)
 /* m: by so much less the parts of a ring reach than a ball does, so that none that touches one is
  * behind it. */
 #define CAROM_RING_OVERLAP 2e-6

@@ -172,7 +172,7 @@ static void give_facings(carom_table *t, const carom_measures *m) {
 
 /* ---- The tables that are built in */
 
-/* A line for each table, its corners and its sides. */
+/* A line for each table, its corners, its sides, and its facings with the slope, which is 0. */
 /* clang-format off */
 /* Pool: the WPA's equipment specification: the middles of its ranges, mouths 4.5 to 4.625 and 5 to
  * 5.125 in, cuts 142 and 104 degrees, shelves 1 to 2.25 and 0 to 0.375 in, noses at 62.5 to 64.5 %
@@ -183,38 +183,38 @@ static void give_facings(carom_table *t, const carom_measures *m) {
   0.03629025, 0.0492125, \
   0.1158875, 142.0, 0.041275, 0.02095, 0.062, \
   0.1285875, 104.0, 0.0047625, 0.00795, 0.0645, \
-  0.8, 0.15
+  0.8, 0.15, 0.0, 0.0
 static const carom_measures built_in[] = {
   [CAROM_TABLE_POOL_7FT] = {0.9906, 1.9812, WPA},
   [CAROM_TABLE_POOL_8FT] = {1.1176, 2.2352, WPA},
   [CAROM_TABLE_POOL_9FT] = {1.27, 2.54, WPA},
   /* the playing area by the rules of the sport, whose templates of pockets are not published; nose
    * at 7/5 R as in the 2010 paper; parallel facings, well-rounded jaws */
-  [CAROM_TABLE_SNOOKER] = {1.778, 3.569, 1.4 * 0.02619375, 0.0508,
+  [CAROM_TABLE_SNOOKER] = {1.778, 3.569, 1.4 * 0.02625, 0.0508,
                            0.0865, 135.0, 0.02995, 0.07, 0.055,
                            0.0865, 90.0, 0.0085, 0.04, 0.05,
-                           0.8, 0.2},
+                           0.8, 0.2, 0.0, 0.0},
   [CAROM_TABLE_THREECUSHION] = {1.42, 2.84, .nose_height = 0.037},
   [CAROM_TABLE_POOLTOOL] = {0.9906, 1.9812, 0.036576, 0.0508,
                             0.118, 140.3, 0.0387, 0.02095, 0.062,
                             0.137, 97.14, 0.004, 0.00795, 0.0645,
-                            0.0, 0.0},
+                            0.0, 0.0, 0.0, 0.0},
   /* mouths of 85 and 86 mm as makers give them; else snooker's, with noses as in pool */
   [CAROM_TABLE_HEYBALL] = {1.27, 2.54, 0.03629025, 0.0508,
                            0.085, 135.0, 0.02995, 0.07, 0.055,
                            0.086, 90.0, 0.0085, 0.04, 0.05,
-                           0.8, 0.15},
+                           0.8, 0.15, 0.0, 0.0},
   /* the playing area of the WPA's 7 ft; the templates of pockets are not published: those of
    * snooker in the ratio of the balls */
   [CAROM_TABLE_BLACKBALL] = {0.9144, 1.8288, 1.27 * 0.0254, 0.0508,
                              0.0837, 135.0, 0.029, 0.068, 0.0533,
                              0.0837, 90.0, 0.0082, 0.039, 0.0485,
-                             0.8, 0.15},
+                             0.8, 0.15, 0.0, 0.0},
   /* mouths of 72 and 82 mm, noses at 5/8 of the ball; facings that are parallel, little rounded */
   [CAROM_TABLE_PYRAMID] = {1.775, 3.55, 0.0425, 0.0508,
                            0.0725, 135.0, 0.03, 0.008, 0.05,
                            0.0825, 90.0, 0.01, 0.008, 0.05,
-                           0.8, 0.15},
+                           0.8, 0.15, 0.0, 0.0},
   [CAROM_TABLE_FOURBALL] = {1.27, 2.54, .nose_height = 0.0394}};
 /* clang-format on */
 

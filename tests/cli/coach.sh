@@ -59,7 +59,7 @@ for way in (("--pocket", "1:foot-left"), ("--at-ball", "1", "--cut", "half"), ("
 PYTHON
 python words.py
 echo "--- a red that moved is named in a picture, and one that is pushed along is met once"
-carom shoot --table snooker --balls snooker --pocket black:foot-left --cue 1.2,2.9 --plot reds.svg | grep -c 'meets red12'
+carom shoot --table snooker --balls snooker --pocket black:foot-left --cue 1.22,2.9 --plot reds.svg | grep -c 'meets red12'
 grep -o '>red[0-9]*<' reds.svg | sort -u | wc -l
 carom shoot --table snooker --cue 1.2,2.9 --balls red3=1,2.6:red4=1.5,0.4 --at-ball red3 --plot reds.svg > reds.txt
 grep -o '>red[0-9]*<' reds.svg

@@ -65,6 +65,10 @@ for words in "fit.json" "fit.json,u_s=0.4"; do carom shoot --cue 0.3,0.5 --with 
 carom shoot --cue 0.3,0.5 --with fit.json | tail -n 1
 carom shoot --speed 0.3 --with fit.json | tail -n 1
 [ "$(carom shoot --cue 0.3,0.5 --with fit.json | sed '$d')" = "$(carom shoot --cue 0.3,0.5 --with mu_slide=0.3,law_a=0.02,radius=0.03 --cushion mathavan)" ] && echo "its cushion"
+# the slope of a fit is one of its table
+sed 's/"law_a"/"slope_x": 0.001, "slope_y": -0.0005, "law_a"/' fit.json > sloped.json
+[ "$(carom shoot --cue 0.3,0.5 --with sloped.json)" = "$(carom shoot --cue 0.3,0.5 --with fit.json --table 9ft,slope_x=0.001,slope_y=-0.0005)" ] && echo "its slope"
+try carom shoot --with sloped.json line.jsonl
 echo '{"constants": {"mu_slide": "0.3"}}' > text.json
 echo '{"constants": [0.3]}' > other.json
 for file in text other no; do carom shoot --cue 0.3,0.5 --with $file.json 2>&1 | head -n 1; done

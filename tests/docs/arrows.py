@@ -186,7 +186,12 @@ for module, path in modules.items():
 no_circle("modules of python", imports)
 # What a folder of the package may import of the others. The core may none, but carom names those
 # of games for type checkers.
-FOLDERS = {"carom.tracks": (), "carom.games": (), "carom.pooltool": ("carom.games",)}
+FOLDERS = {
+    "carom.tracks": (),
+    "carom.film": ("carom.tracks",),
+    "carom.games": (),
+    "carom.pooltool": ("carom.games",),
+}
 
 
 def folder_of(module):

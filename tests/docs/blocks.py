@@ -75,7 +75,7 @@ ELSEWHERE = {
     "README.md": 1,
     "docs/using/examples.md": 1,
     "docs/using/building.md": 2,
-    "docs/using/fit.md": 2,
+    "docs/using/fit.md": 1,
     "docs/using/derivatives.md": 1,
     "docs/using/pooltool.md": 1,
     "docs/using/python.md": 1,

@@ -95,8 +95,10 @@ static void frozen_rack(random_shot *s, lab_random *r) {
 static void snooker(random_shot *s, lab_random *r) {
   break_of(s, r, CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, whole(r, 0, 1) ? 0.0 : 1e-4);
   s->cue.phi = lab_uniform(r, 0.0, 360.0);
-  for (int k = 0; k < s->count; k++)
+  for (int k = 0; k < s->count; k++) {
     s->ball[k].kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_SNOOKER);
+    s->ball[k].kind.radius = s->ball[k].state.r[2]; /* in the size in which the rack was laid */
+  }
 }
 
 static void layout(random_shot *s, lab_random *r) {

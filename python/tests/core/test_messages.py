@@ -155,7 +155,7 @@ def test_balls_of_another_game_than_the_table_are_doubted(play):
         "blackball": carom.tables.blackball(),
         "pyramid": carom.tables.pyramid(corner=0.073),
         "pool": TABLE,
-        "snooker, by its number": carom.tables.polygon(CORNERS, ball_radius=0.02619375),
+        "snooker, by its number": carom.tables.polygon(CORNERS, ball_radius=0.02625),
     }
     for made_for, table in tables.items():
         for game in ("pool", "snooker", "billiard", "blackball", "pyramid"):

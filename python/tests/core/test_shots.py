@@ -495,7 +495,11 @@ def test_games_and_terms():
     for game in ("pool", "snooker", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"):
         terms = ("drag", "roll_loss", "law_a", "law_b", "law_c", "nose_height", "omega_ratio")
         constants = [name for name in terms if carom.balls(r, game=game)["kind"][name].any()]
-        assert constants == (["roll_loss", "nose_height"] if game in ("pool", "snooker") else [])
+        own = {
+            "pool": ["roll_loss", "nose_height"],
+            "snooker": ["drag", "roll_loss", "nose_height"],
+        }
+        assert constants == own.get(game, [])
     shots = carom.simulate_batch(table, np.stack([measured, plain]))
     assert shots.time[0] < shots.time[1]
     assert all(

@@ -344,3 +344,23 @@ def test_killer_of_five_seats():
         match.plan(shots=100)
     match.concede(0)  # what a plan raised is over
     assert match.seat == 1
+
+
+@pytest.mark.parametrize(("diameter", "fair"), [(0.05245, True), (0.0525, True), (0.05262, False)])
+def test_touching_ball_of_snooker_in_the_sizes_of_the_rules(diameter, fair):
+    """The cue ball touches a red, so that is on, and is played away onto the pink, which pots
+    another red. Balls measure 52.5 mm, give or take 0.05 mm, and touch below 0.1 mm.
+    """
+    table = carom.tables.snooker()
+    cue_ball, red = np.array([0.9, 2.2]), np.array([table.width - 0.06, table.length / 2 + 0.002])
+    way = (red - cue_ball) / np.linalg.norm(red - cue_ball)
+    balls = carom.racks.snooker(table)
+    balls["state"]["label"][3:16] = int(carom.Label.POCKETED)
+    places = {0: cue_ball, 1: cue_ball - [diameter, 0], 2: red, 20: cue_ball + 0.35 * way}
+    for ball, place in places.items():
+        balls["state"]["r"][ball, :2] = place
+    phi = np.degrees(np.arctan2(way[1], way[0])) - 0.1
+    cue = carom.cue(ball_speed=1.6, phi=phi, a=0, b=0, game="snooker")
+    ruling = carom.referee(table, balls, cue, rules="snooker", state={"on": 0})
+    assert tuple(ruling.potted) == (2,)
+    assert (not ruling.foul) == fair

@@ -126,7 +126,7 @@ def drifting(recordings):
     def change(shot, k, track):
         still = min(shot.still[k], 25)
         if shot.id == 1 and k == 2:
-            track[:still, 1] += 0.024 * (track[:still, 0] - track[still - 1, 0])
+            track[:still, 1] += 0.006 * (track[:still, 0] - track[still - 1, 0])
         return track
 
     return changed(recordings, change)

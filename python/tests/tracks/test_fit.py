@@ -27,7 +27,6 @@ from carom.tracks import (
     _constants,
     _from_events,
     _joint,
-    _kicks,
     _recordings,
     _strikes,
     _summary,
@@ -140,16 +139,6 @@ def test_rows_that_are_not_better_have_no_derivatives_and_threads_change_no_bit(
     assert np.array_equal(some[::2, :3], all_of_them[::2, :3]) and not some[::2, 3:].any()
     threads = _strikes.Plays(sample.recordings, TABLE, RADIUS, sample.constants, "han", threads=3)
     assert np.array_equal(threads.misfit(shots, strikes, plays.ends[shots], most), some)
-
-
-def test_strikes_that_stuck_are_found_by_way_of_kicks(sample, plays):
-    true = sample.strikes - np.column_stack([np.zeros((len(sample.strikes), 5)), plays.origins])
-    off = true + np.random.default_rng(0).normal(0, 0.1, true.shape) * [1, 1, 1, 1, 1, 0.1]
-    stuck, _ = _strikes.descend(plays, np.arange(len(off), dtype=np.int32), off, plays.ends, 60)
-    stuck_rmse, eased_rmse = plays.rmse(stuck), plays.rmse(_kicks.eased(plays, stuck))
-    # the better of both: some are mended to the noise
-    assert (stuck_rmse > 5e-3).sum() >= 4
-    assert np.exp(np.log(np.fmin(eased_rmse, stuck_rmse) / stuck_rmse).mean()) < 0.6
 
 
 @pytest.mark.parametrize("rows", [1, 2, 3, 5])

@@ -69,7 +69,9 @@ def test_a_fit_plays_the_numbers_of_a_shot(game, friction):
         again = carom.simulate(ground.table, known, cue, cushion_model=cushion)
         assert again.final.tobytes() == shot.final.tobytes(), model
         found = fit.fit([seen(shot, ("cue", "red"))], size, radius, free="none", **how)
-        assert found.rmse[0] < NOISY and found.cushion_model == cushion, (model, found.rmse)
+        # contacts magnify the errors of places of rest, also where the strike is the true one
+        most = max(NOISY, off_of_the_truth(found, 0, shot))
+        assert found.rmse[0] < most and found.cushion_model == cushion, (model, found.rmse)
 
 
 # ---- Tables with pockets
@@ -234,7 +236,8 @@ def test_the_command_takes_the_word_of_a_table(table, tmp_path, capsys):
     written, said = json.loads(out.read_text()), capsys.readouterr().out
     assert written["table"] == ("snooker" if table == "snooker" else [1.27, 2.54])
     assert written["game"] == ground.game and written["radius"] == ground.radius
-    assert f"balls of {ground.game}, radius {1e3 * ground.radius:.5g} mm" in said
+    taken = f"balls of radius {1e3 * ground.radius:.5g} mm, constants of {ground.game} unless given"
+    assert taken in said
     assert written["median_rmse"] < NOISY
 
     # the command plays the same balls

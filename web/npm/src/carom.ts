@@ -556,7 +556,7 @@ export class Carom {
       writeStruct(this.#memory, balls, "carom_measures", measures, "measures", usual);
       const code = this.#call.carom_table_measured(
         balls,
-        name === "snooker" ? 0.02619375 : 0.028575,
+        name === "snooker" ? 0.02625 : 0.028575,
         table,
         detail,
       );

@@ -38,7 +38,7 @@ from carom.tracks._recordings import (
 _RATES = (25.0, 30.0, 24.0, 50.0, 60.0, 100.0, 120.0, 240.0, 23.976, 29.97, 48.0, 59.94)  # 1/s
 _SLIDING = 1.95  # m/s^2: mu_slide g of most cloths, 0.17 to 0.22 times g
 _ROWS = (7, 14, 28, 56)  # that tell how a ball slides, of 25 to 240 pictures a second
-_SLIDES = 0.18  # s: it slides so long
+_SLIDES = (0.18, 0.6)  # s: it slides so long
 _CLOCK = 1.18  # a clock that is wrong by less is no other than a cloth that is unlike most
 _HELD = 0.03  # share of repeated pictures among those of moving balls, above chance
 _SMOOTHER = 0.6  # of the scatter that a right clock leaves, at most
@@ -46,7 +46,7 @@ _MOVES = 2e-3  # m: least step of a ball that moves, for its clock
 _CROOKED = 8e-3  # m: tracks that are farther off are told
 _BEYOND = 15e-3  # m: a ball that turns farther off a cushion tells of another table
 _GAP, _GAP_WAY = 2.5, 0.04  # pictures, and m that a ball goes meanwhile: more is said
-_DRIFT = 2e-3  # m: of a ball at rest
+_DRIFT, _BEFORE = 2e-3, 0.05  # m and s: of a ball at rest, so long before the strike
 _UNLIKE = 1.6  # the noise of one coordinate over the other's, above which it is said
 
 
@@ -108,16 +108,19 @@ def _names(shots: Sequence[int | str]) -> str:
 # ---- The unit of time
 
 
-def _slowing(recordings: Sequence[Recording], rows: int) -> Doubles:
-    """The decelerations of balls in their first rows of motion, in which they slide."""
+def _slowing(recordings: Sequence[Recording], rows: int, with_struck: bool) -> Doubles:
+    """The decelerations of balls that lay at rest in their first rows of motion, in which those
+    slide that were hit, and usually those that were struck.
+    """
     found = []
     for shot in recordings:
-        for track, still, moves in zip(shot.tracks, shot.still, shot.moves):
+        for ball, (track, still) in enumerate(zip(shot.tracks, shot.still)):
             first = track[still : still + rows]
-            if not math.isfinite(moves) or len(first) < rows:
+            if len(first) < rows or (ball == shot.cue and not with_struck):
                 continue
             t = first[:, 0] - first[0, 0]
-            if t[-1] > 1.3 * rows * np.diff(t).min():
+            picture = float(np.diff(t).min())
+            if t[-1] > 1.3 * rows * picture or first[0, 0] - track[0, 0] < 1.5 * picture:
                 continue
             coefficients = np.polyfit(t, first[:, 1:], 2)
             a, v = coefficients[:2]
@@ -132,12 +135,12 @@ def _slowing(recordings: Sequence[Recording], rows: int) -> Doubles:
     return np.array(found)
 
 
-def _time_scale(recordings: Sequence[Recording], least: int) -> float:
+def _time_scale(recordings: Sequence[Recording], least: int, with_struck: bool = False) -> float:
     """How many units of t a second has, by sliding; NaN where fewer balls than `least` tell."""
     steps = [np.diff(track[:, 0]) for shot in recordings for track in shot.tracks]
     picture = float(np.median(np.concatenate(steps)))
     for rows in _ROWS:
-        slowing = np.sort(_slowing(recordings, rows))
+        slowing = np.sort(_slowing(recordings, rows, with_struck))
         half = len(slowing) // 2 + 1
         if len(slowing) < least:
             continue
@@ -146,7 +149,8 @@ def _time_scale(recordings: Sequence[Recording], least: int) -> float:
         first = int(np.argmin(widths))
         middle = float(slowing[first : first + half].mean())
         scale = math.sqrt(_SLIDING / middle)
-        if widths[first] < 0.4 * middle and rows * picture > _SLIDES * scale:
+        lasts = rows * picture / scale
+        if widths[first] < 0.4 * middle and _SLIDES[0] < lasts < _SLIDES[1]:
             return scale
     return math.nan
 
@@ -157,6 +161,8 @@ def _in_seconds(recordings: list[Recording], findings: _Findings) -> list[Record
     if len(t) < 40 or np.abs(t - np.round(t)).max() > 1e-6 or np.ptp(t) < 20.0:
         return recordings
     scale = _time_scale(recordings, 4)
+    if math.isnan(scale):
+        scale = _time_scale(recordings, 4, with_struck=True)
     units = np.array([*_RATES[:8], 1000.0])
     unit = float(units[np.argmin(np.abs(np.log(units / scale)))])
     if not abs(math.log(unit / scale)) < math.log(_CLOCK):
@@ -387,6 +393,9 @@ def _gaps(shot: Recording) -> list[tuple[float, float, float]]:
     if len(times) < 8:
         return []
     picture, found = float(np.median(np.diff(times))), []
+    # rows that are thinned by displacement are so far apart
+    displacements = [np.hypot(*np.diff(track[:, 1:], axis=0).T) for track in shot.tracks]
+    thin = float(np.quantile(np.concatenate(displacements), 0.05))
     for k in np.flatnonzero(np.diff(times) > _GAP * picture).tolist():
         begin, end = float(times[k]), float(times[k + 1])
         ways, steps = [0.0], [0.0]
@@ -395,16 +404,17 @@ def _gaps(shot: Recording) -> list[tuple[float, float, float]]:
             if 2 <= row < len(track) and track[row - 1, 0] >= begin - picture:
                 ways.append(float(np.hypot(*(track[row, 1:] - track[row - 1, 1:]))))
                 steps.append(float(np.hypot(*(track[row - 1, 1:] - track[row - 2, 1:]))))
-        if max(ways) > max(_GAP_WAY, 1.5 * max(steps)):
+        if max(ways) > max(_GAP_WAY, 1.5 * max(steps), 4.0 * thin):
             found.append((begin, end, max(ways)))
     return found
 
 
 def _drifts(shot: Recording) -> list[tuple[int | str, float, int]]:
-    """Balls that move before they are struck: how far, m, and in how many rows."""
+    """Balls that move before the strike: how far, m, and in how many rows."""
     found = []
     for ball, track, still in zip(shot.balls, shot.tracks, shot.still):
         rows = track[: max(still - 3, 0)]
+        rows = rows[rows[:, 0] < shot.moves.min() - _BEFORE]
         if len(rows) < 8:
             continue
         t = rows[:, 0] - rows[:, 0].mean()
@@ -481,7 +491,7 @@ def _say_shots(recordings: list[Recording], radius: float, findings: _Findings) 
             findings.say(
                 "rest",
                 f"shot {shot.id}, ball {ball}: it moves by {1e3 * drift:.1f} mm in the {rows} "
-                f"rows before it is struck or hit; "
+                f"rows before the strike; "
                 + (
                     "so do all balls: the camera moves"
                     if all_alike
@@ -578,7 +588,7 @@ def examine(
     shots, indices = _on_table(list(recordings), ground, findings)
     told_by = None if train is None else [k for k, index in enumerate(indices) if index in {*train}]
     shots = _by_film(_in_seconds(shots, findings), findings)
-    scale = _time_scale(shots, 8)
+    scale = _time_scale(shots, 6)
     if not any(finding.kind == "clock" for finding in findings) and (
         abs(math.log(scale)) > math.log(_CLOCK)
     ):

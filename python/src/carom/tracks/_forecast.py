@@ -40,7 +40,7 @@ from carom import pictures
 from carom._rows import Arrays
 from carom.dtypes import Doubles
 from carom.status import CaromError
-from carom.tracks import _covariance, _kicks, _recordings, _strikes
+from carom.tracks import _covariance, _kicks, _recordings, _search, _strikes
 from carom.tracks._recordings import Recording
 
 SHARES = (0.68, 0.95)
@@ -165,7 +165,7 @@ def forecast(fit: Any, whole: Recording, after: float, draws: int, seed: int) ->
     random = np.random.default_rng(seed)
     whole, error = replace(whole, noise=fit.noise), fit.model_error
     end = float(whole.moves.min() + after)
-    part = _part(fit, whole, after, seed)
+    part = _part(fit, whole, after)
     plays, numbers = _Before(part, end, draws, error, random).drawn(random)
     plays.ends = np.full(draws, _LONG)
     numbers = _kicked(plays, numbers, end - plays.origins[0], error, random)
@@ -174,16 +174,12 @@ def forecast(fit: Any, whole: Recording, after: float, draws: int, seed: int) ->
     return Forecast(whole, after, end, numbers[good], plays)
 
 
-def _part(fit: Any, whole: Recording, duration: float, seed: int) -> Any:
+def _part(fit: Any, whole: Recording, duration: float) -> Any:
     """A `Fit` of the first seconds alone, with the constants of another."""
     (part,), _ = _recordings.sound([first_seconds(whole, duration)], fit.noise)
     plays = _strikes.Plays([part], fit.table, fit.radius, fit.constants, fit.cushion_model)
-    found, _ = _strikes.find(plays, seed, squares=True)
+    found, _ = _search.find(plays, squares=True)
     rmse = plays.rmse(found)
-    if ROUGH * fit.noise * np.sqrt(2.0) < rmse[0] < np.inf:
-        trial = _kicks.eased(plays, found)
-        if plays.rmse(trial)[0] < rmse[0]:
-            found, rmse = trial, plays.rmse(trial)
     if not np.isfinite(rmse[0]):
         raise ValueError(
             f"shot: in its first {duration:g} s no strike was found that can be played"

@@ -33,7 +33,8 @@ from carom.dtypes import Doubles
 from carom.layouts import balls
 from carom.status import CaromError
 from carom.tracks._constants import SLOPE
-from carom.tracks._strikes import HUBER, Plays, derivatives, descend, find, normal
+from carom.tracks._search import find
+from carom.tracks._strikes import HUBER, Plays, derivatives, descend, normal
 
 # m^2: a shot whose cost a sample is more does not count; that of samples that are 8 cm off
 MOST = 1.4e-3

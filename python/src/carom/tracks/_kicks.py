@@ -10,8 +10,6 @@ There the cost is c + 2 g d + d^T H d for a change d of strike and kicks, with g
 J^T W J. So the noise of the samples moves the kicks by (H + D)^-1 J^T noise, where D is
 diag(PRICE/s^2), and 0 for the strike. The noise of the places of rest, which are held, moves them
 as in `_covariance`.
-
-Strikes without kicks may be found through them: `eased`.
 """
 
 from __future__ import annotations
@@ -38,10 +36,6 @@ CUSHION, BALLS = (
     np.array([0.01, 0.01, 0.01, 0.02, 0.02]),
 )
 _HORIZONS, _STEPS = (2.0, 4.0, 8.0, np.inf), 8  # samples up to a time, s, and iterations with them
-_DEARER, _ALONE = (
-    (1e1, 1e2, 1e3, 1e4),
-    20,
-)  # prices of kicks that are eased away, over PRICE, and iterations without them
 _FEWEST = 8  # contacts of a row of a table
 _WORST = 0.02  # m: a shot that is so far off, with kicks, does not count
 _REST = 1e-5  # m: step of the differences by the places of rest
@@ -86,22 +80,6 @@ def find(plays: Plays, strikes: Doubles) -> Doubles:
             plays, rows, numbers, np.minimum(horizon, ends), _STEPS, held=held
         )
     return numbers
-
-
-def eased(plays: Plays, strikes: Doubles) -> Doubles:
-    """Strikes on the plays' clocks that are found by way of kicks, which cost more and more until
-    there are none.
-
-    A search of strikes alone stops where a ball would have to miss another, or to meet it, on the
-    way to a better one. With kicks it goes on.
-    """
-    rows = np.arange(len(strikes), dtype=np.int32)
-    numbers = find(plays, strikes)
-    for dearer in _DEARER:
-        held = dearer * _held([contacts(plays, int(k), numbers[k]) for k in rows])
-        numbers, _ = _strikes.descend(plays, rows, numbers, plays.ends, _STEPS, held=held)
-    found, _ = _strikes.descend(plays, rows, numbers[:, :6], plays.ends, _ALONE)
-    return _strikes.descend(plays, rows, found, plays.ends, _ALONE, huber=0.0)[0]
 
 
 # ---- The quadratic

@@ -16,7 +16,7 @@ import json
 import lzma
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
@@ -33,7 +33,7 @@ _UNIT_NAMES = {"in": "inches", "inch": "inches", "metres": "m", "meters": "m", "
 # The names that trackers give their columns, in the order in which they are looked for.
 _SYNONYMS = {
     "shot": "shot clip take trial stroke sequence",
-    "ball": "ball track_id trackid id track object object_id particle colour color class label name",
+    "ball": "ball track_id trackid id track object object_id particle colour color class label",
     "t": "t time seconds sec timestamp elapsed position_t",
     "picture": "frame picture image frame_id frame_number frame_no image_id",
     "x": "x cx xc px center_x centre_x x_center x_centre centroid_x position_x pos_x",
@@ -108,7 +108,8 @@ def _text(path: Path) -> str:
             return file.read()
     except (UnicodeDecodeError, lzma.LZMAError, EOFError, gzip.BadGzipFile) as error:
         raise TrackError(
-            f"{path}: {error}; a text file is needed, compressed only if its name ends in .xz or .gz"
+            f"{path}: {error}; a text file is needed, compressed only if its name ends in .xz or "
+            f".gz"
         ) from None
 
 
@@ -185,9 +186,9 @@ def _split(path: Path, text: str) -> tuple[Any, str]:
     """What splits the lines of a table into cells: found by the line of titles."""
     first = text.splitlines()[:40]
     for delimiter in (",", ";", "\t", " "):
-        how = {"delimiter": delimiter, "skipinitialspace": delimiter == " "}
-        if any(_columns([c.strip() for c in row]) for row in csv.reader(first, **how)):  # type: ignore[arg-type]
-            return csv.reader(io.StringIO(text, newline=""), **how), delimiter  # type: ignore[arg-type]
+        how: Any = {"delimiter": delimiter, "skipinitialspace": delimiter == " "}
+        if any(_columns([cell.strip() for cell in row]) for row in csv.reader(first, **how)):
+            return csv.reader(io.StringIO(text, newline=""), **how), delimiter
     titles = first[0].strip()[:60] if first else ""
     raise TrackError(
         f"{path}, line 1: {titles!r} names no columns of places and times; a line must name the "
@@ -505,7 +506,8 @@ def _unit_of(unit: float | str | None) -> float | None:
         unit = UNITS.get(_UNIT_NAMES.get(unit, unit), math.nan)
     if isinstance(unit, bool) or not isinstance(unit, (int, float)) or not 0.0 < unit < math.inf:
         raise ValueError(
-            f"unit: a length above 0, in m, is needed, or one of {', '.join(UNITS)}, px, not {unit!r}"
+            f"unit: a length above 0, in m, is needed, or one of {', '.join(UNITS)}, px, not "
+            f"{unit!r}"
         )
     return float(unit)
 

@@ -1,4 +1,4 @@
-"""Finding the strikes of recorded shots, the constants being known: least squares from many starts.
+"""Recorded shots as plays of a strike, and the descent of a strike to the least squares.
 
 Unknown of a shot are six numbers p: v_x, v_y and R w_x, R w_y, R w_z of the struck ball just after
 the strike (m/s), and the time of the strike (s), on a clock that begins with the last sample of the
@@ -7,19 +7,15 @@ c^2 (sqrt(1 + d^2/c^2) - 1) of the distance d between recorded and played place,
 quadratic for small distances, linear for large ones, which are those after an event that the play
 misses. Levenberg and Marquardt's step is dp = -(J^T W J + l diag(J^T W J))^-1 J^T W d.
 
-The cost has many minima, as a small change makes a ball miss another. So each shot starts from many
-spins (and directions and speeds, where the first samples do not tell them), at first with the
-samples of the first second alone. The best go on with more and more of them. What the samples so
-far leave open, later samples decide: so before each stage every strike that goes on has offspring,
-drawn from the normal distribution that the normal equations give, and wider. The plays of all
-starts of all shots are one batch, in C.
+`starts` has the strikes that the first rows allow, and `_search` the way from these to the least of
+the many minima. The plays of all strikes of all shots are one batch, in C.
 """
 
 from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -42,7 +38,7 @@ Integers = NDArray[np.int32]
 
 HUBER = 0.01  # c, m
 # of the forward differences, m/s and s: small against what moves an event, large against rounding
-STEP = 1e-5
+STEP = 1e-7
 EARLIEST, LATEST = -0.03, 0.13  # of a strike on the clock of a play, s
 _STILL = 0.12  # s: a ball was struck no longer before the first row that shows its motion
 # Strikes at a near rail: the speed into it over that away from it, how long the ball may have been
@@ -60,21 +56,7 @@ _SPIN_MOST = 2.0  # greatest |R w| of a strike over |v|: a tip that does not sli
 _NUMBERS = 6
 KICKS = 5  # numbers of a contact's kicks, which follow a strike
 EVENTS_MOST = 1000  # of a play
-# The first stage: samples up to a time (s), how many starts descend, and iterations.
-_FIRST, _FIRST_ITERATIONS = 0.9, 4
-_FIRST_KEPT = {
-    False: 8,
-    True: 14,
-}  # True: for the strikes of the result, where it counts that none of the worst stays bad
-# The others: samples up to a time (s), offspring of each strike, how many of all descend,
-# iterations, how many go on.
-_STAGES = {
-    False: tuple((end, 30, 3, 4, 3) for end in (2.0, 4.0, 8.0, np.inf)),
-    True: ((2.0, 40, 8, 4, 8), (4.0, 40, 7, 4, 6), (8.0, 40, 6, 4, 4), (np.inf, 60, 5, 4, 3)),
-}
-_WIDER = 10.0  # standard deviations of the widest offspring
-_FINALISTS = 3  # which the best by plain squares is of
-_LAST, _SQUARES = 10, 10  # iterations at the end, by the cost and by plain squares
+FIRST = 0.9  # s: the first samples of a search
 
 
 class Plays:
@@ -368,11 +350,11 @@ def is_break(shot: Recording) -> bool:
     return bool(np.isfinite(shot.moves).any()) and _contact(shot)[1] >= _BROKEN
 
 
-def _first_end(shot: Recording) -> float:
+def first_end(shot: Recording) -> float:
     """The time on the clock of a play up to which the first stage takes samples, s."""
     if not is_break(shot):
-        return _FIRST
-    return min(_FIRST, _contact(shot)[0] + _AFTER_CONTACT - origin(shot))
+        return FIRST
+    return min(FIRST, _contact(shot)[0] + _AFTER_CONTACT - origin(shot))
 
 
 def origin(shot: Recording) -> float:
@@ -491,7 +473,7 @@ def _grid(
     )
 
 
-def _allowed(strikes: Doubles) -> Doubles:
+def allowed(strikes: Doubles) -> Doubles:
     """Strikes within their bounds."""
     strikes = strikes.copy()
     most = _SPIN_MOST * np.hypot(strikes[:, :1], strikes[:, 1:2]) + 0.2
@@ -502,7 +484,7 @@ def _allowed(strikes: Doubles) -> Doubles:
 
 def at_bound(strike: Doubles) -> str:
     """Which number of a strike on the clock of its play is at its bound, if one is."""
-    within = _allowed(np.array([strike - 1e-6, strike + 1e-6]))[[0, 1], :] - (
+    within = allowed(np.array([strike - 1e-6, strike + 1e-6]))[[0, 1], :] - (
         strike - 1e-6,
         strike + 1e-6,
     )
@@ -529,18 +511,22 @@ def descend(
     huber: float = HUBER,
     stride: int = 1,
     held: Doubles | None = None,
+    sums: Doubles | None = None,
 ) -> tuple[Doubles, Doubles]:
     """Levenberg and Marquardt's method from each strike: the strikes found, (n, numbers), and the
     sums of `misfit` there.
 
     An iteration is one play of each start that is not done; where the cost falls, one more of each
     number for the next step. `held`, (n, numbers), is what the square of a number costs, as kicks
-    that follow the six of a strike do; without, nothing does.
+    that follow the six of a strike do; without, nothing does. `sums` are those of `misfit` at the
+    strikes, where they are known.
     """
-    strikes = _allowed(strikes)
+    strikes = allowed(strikes)
     n, numbers = strikes.shape
     held = np.zeros((n, numbers)) if held is None else held
-    sums = plays.misfit(shots, strikes, end, np.inf, huber=huber, stride=stride)
+    if sums is None:
+        sums = plays.misfit(shots, strikes, end, np.inf, huber=huber, stride=stride)
+    sums = sums.copy()
     costs = sums[:, 0] + (held * strikes**2).sum(axis=1)
     damping, failed = np.full(n, 1e-2), np.zeros(n, int)
     active = np.isfinite(costs)
@@ -557,7 +543,7 @@ def descend(
             1.0 + scale.sum(axis=1, keepdims=True)
         )
         step = np.linalg.solve(square, -(gradient + held[rows] * strikes[rows])[..., None])[..., 0]
-        tried = _allowed(strikes[rows] + step)
+        tried = allowed(strikes[rows] + step)
         # taken where the cost falls; else a shorter one next time, up to six times
         price = (held[rows] * tried**2).sum(axis=1)
         new = plays.misfit(
@@ -575,100 +561,6 @@ def descend(
         failed[rows] = np.where(better, 0, failed[rows] + 1)
         active[rows] = np.where(better, drop > 1e-5, failed[rows] < 6)
     return strikes, sums
-
-
-def _best(shots: Integers, strikes: Doubles, costs: Doubles, keep: int) -> NDArray[np.intp]:
-    """The rows of the `keep` best strikes of each shot, without those that are near a better one."""
-    chosen: list[int] = []
-    of_shot: dict[int, list[int]] = {}
-    for row in np.argsort(costs, kind="stable").tolist():
-        others = of_shot.setdefault(int(shots[row]), [])
-        if len(others) < keep and np.isfinite(costs[row]):
-            if all(
-                np.abs(strikes[better, :5] - strikes[row, :5]).max() > 1e-2 for better in others
-            ):
-                others.append(row)
-                chosen.append(row)
-    return np.array(sorted(chosen), np.intp)
-
-
-def _offspring(
-    shots: Integers, strikes: Doubles, sums: Doubles, each: int, random: np.random.Generator
-) -> tuple[Integers, Doubles]:
-    """Strikes drawn about each strike, from the normal distribution that its misfit gives, from one
-    to _WIDER deviations wide.
-    """
-    square, _ = normal(sums)
-    values, axes = np.linalg.eigh(square)
-    most = 0.5 * np.maximum(np.hypot(strikes[:, :1], strikes[:, 1:2]), 0.3)
-    variance = sums[:, :1] / np.maximum(sums[:, 2:3], 1.0)
-    deviation = np.minimum(np.sqrt(variance / np.maximum(values, 1e-12)), most)
-    drawn = (
-        random.normal(size=(len(shots), each, _NUMBERS)) * np.geomspace(1.0, _WIDER, each)[:, None]
-    )
-    moved = np.einsum("nij,nmj->nmi", axes * deviation[:, None, :], drawn)
-    tried = strikes[:, None] + np.clip(moved, -most[..., None], most[..., None])
-    return np.repeat(shots, each), _allowed(tried.reshape(-1, _NUMBERS))
-
-
-def find(
-    plays: Plays,
-    seed: int = 0,
-    progress: Callable[[str, float], None] | None = None,
-    *,
-    squares: bool = False,
-) -> tuple[Doubles, Doubles]:
-    """The strikes of all shots, (shots, 6), and their costs, (shots,): infinite where no start
-    could be played.
-
-    With `squares`, those of the least plain squares, which the RMSE is made of; the best few by the
-    cost descend by these in the end.
-    """
-    random = np.random.default_rng(seed)
-    first = [
-        starts(shot, plays.table_size, plays.radius) - [0.0, 0.0, 0.0, 0.0, 0.0, begin]
-        for shot, begin in zip(plays.recordings, plays.origins)
-    ]
-    shots = np.repeat(np.arange(len(first), dtype=np.int32), [len(rows) for rows in first])
-    strikes = _allowed(np.concatenate(first))
-    # the best of the starts descend
-    end = np.minimum([_first_end(shot) for shot in plays.recordings], plays.ends)
-    rows = _best(
-        shots,
-        strikes,
-        plays.misfit(shots, strikes, end[shots], -np.inf)[:, 0],
-        _FIRST_KEPT[squares],
-    )
-    shots = shots[rows]
-    strikes, sums = descend(plays, shots, strikes[rows], end[shots], _FIRST_ITERATIONS)
-    rows = _best(shots, strikes, sums[:, 0], _FIRST_KEPT[squares])
-    for number, (time, each, descending, iterations, keep) in enumerate(_STAGES[squares]):
-        if progress:
-            progress("strikes", number / len(_STAGES[squares]))
-        shots, strikes, sums = shots[rows], strikes[rows], sums[rows]
-        drawn_of, drawn = _offspring(shots, strikes, sums, each, random)
-        shots, strikes = np.concatenate([shots, drawn_of]), np.concatenate([strikes, drawn])
-        end = np.minimum(time, plays.ends)
-        rows = _best(
-            shots, strikes, plays.misfit(shots, strikes, end[shots], -np.inf)[:, 0], descending
-        )
-        shots = shots[rows]
-        strikes, sums = descend(plays, shots, strikes[rows], end[shots], iterations)
-        rows = _best(
-            shots,
-            strikes,
-            sums[:, 0],
-            keep if number + 1 < len(_STAGES[squares]) else _FINALISTS if squares else 1,
-        )
-    shots = shots[rows]
-    strikes, sums = descend(plays, shots, strikes[rows], plays.ends[shots], _LAST)
-    if squares:
-        strikes, sums = descend(plays, shots, strikes, plays.ends[shots], _SQUARES, huber=0.0)
-        rows = _best(shots, strikes, sums[:, 0], 1)
-        shots, strikes, sums = shots[rows], strikes[rows], sums[rows]
-    found, cost = np.full((len(first), _NUMBERS), np.nan), np.full(len(first), np.inf)
-    found[shots], cost[shots] = strikes, sums[:, 0]
-    return found, cost
 
 
 def derivatives(

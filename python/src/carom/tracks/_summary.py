@@ -648,7 +648,8 @@ def summary_lines(fit: Fit) -> list[str]:
     that are not ok.
     """
     lines = [
-        f"balls of {fit.ground.game}, radius {1e3 * fit.radius:.5g} mm; cushions: {fit.cushion_model}",
+        f"balls of radius {1e3 * fit.radius:.5g} mm, constants of {fit.ground.game} unless given, "
+        f"cushions: {fit.cushion_model}",
         f"noise of a coordinate: {1e3 * fit.noise:.2f} mm",
         *(f"warning: {text}" for text in fit.warnings),
     ]

@@ -27,8 +27,8 @@ from carom._rows import Seed, listing, seed_of
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
 from carom.layouts import GAMES
-from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
-from carom.tracks import _strikes, _summary
+from carom.tracks import _constants, _covariance, _from_events, _joint
+from carom.tracks import _search, _strikes, _summary
 from carom.tracks import Recording, TrackError, events, examine, read
 from carom.tracks._forecast import ROUGH, Forecast, first_seconds
 from carom.tracks._kicks import Kicks, contact
@@ -201,19 +201,10 @@ class _Job:
 def _strike(
     job: _Job, played: list[int], values: dict[str, float]
 ) -> tuple[_strikes.Plays, Doubles, Doubles]:
-    """The strikes of these shots with these constants, and their RMSE; those that may have stuck
-    are sought once more, by way of kicks.
-    """
+    """The strikes of these shots with these constants, and their RMSE."""
     plays = job.plays(played, values)
-    strikes, _ = _strikes.find(plays, job.seed, job.progress, squares=True)
+    strikes, _ = _search.find(plays, progress=job.progress, squares=True)
     rmse = plays.rmse(strikes)
-    stuck = np.flatnonzero(rmse > ROUGH * job.recordings[0].noise * math.sqrt(2.0))
-    if len(stuck):
-        some = plays.some(stuck)
-        trial = _kicks.eased(some, strikes[stuck])
-        repeat = some.rmse(trial)
-        better = repeat < rmse[stuck]
-        strikes[stuck[better]], rmse[stuck[better]] = trial[better], repeat[better]
     return plays, strikes, rmse
 
 
@@ -238,7 +229,7 @@ def _fit_to_events(
     return _told_by_events(values, remarks, *job.saved.get("events", measured))
 
 
-def _search(job: _Job, first: _joint.Search) -> _joint.Search:
+def _search_constants(job: _Job, first: _joint.Search) -> _joint.Search:
     """Searches the constants, at first also without a change of the friction with the slip; returns
     the search at its end.
     """
@@ -298,10 +289,12 @@ def _fit_to_shots(
     """The constants that these shots as a whole tell."""
     plays = job.plays(fitted, values)
     found = job.saved.get(
-        "strikes", lambda: _strikes.find(plays, job.seed, job.progress)[0].tolist()
+        "strikes", lambda: _search.find(plays, job.seed, job.progress)[0].tolist()
     )
     expected = _priors(job.free, job.priors, values)
-    search = _search(job, _joint.Search(plays, np.array(found), range(len(fitted)), expected))
+    search = _search_constants(
+        job, _joint.Search(plays, np.array(found), range(len(fitted)), expected)
+    )
     job.report("spread", _joint.STAGES / (_joint.STAGES + 2))
     if search.middle >= _joint.MOST:
         remarks.append(
@@ -388,7 +381,8 @@ def fit(
         The shots, from 0, that constants are fitted to; all without. The others then tell how well
         the constants predict.
     seed : int or numpy.random.Generator
-        Of what is drawn. In one environment the bits depend on the seed alone.
+        Of what the search for constants draws; strikes by known constants do not depend on it. In
+        one environment the bits depend on the seed alone.
     threads : int
         Most threads: 0 is the calling one alone, -1 all processors.
     progress : callable(what, part), optional

@@ -1,0 +1,438 @@
+"""From the film of a fixed camera to tracks: `python -m carom.film CLIP --table snooker -o
+tracks.csv`, or in Python `carom.film.track("clip.mp4", "snooker")`.
+
+The steps are a module each: `_cloth` finds the table, `_camera` where the camera is, `_clock` which
+pictures are new and when they were taken, `_balls` the balls of a picture, `_paths` which ball is
+which through time, `_names` their names. It needs OpenCV: `pip install opencv-python-headless`.
+
+What it cannot do: a camera that moves, a table of which no three sides are seen, a cloth without a
+colour, a rolling shutter. Which of several balls of one colour is which is told by continuity
+alone. A number of pool is told by the colour, so that in bad light balls may have each other's.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path as FilePath
+from typing import TextIO
+
+try:
+    import cv2  # noqa: F401
+except ImportError as missing:
+    raise ImportError("carom.film needs OpenCV: pip install opencv-python-headless") from missing
+import numpy as np
+from numpy.typing import NDArray
+
+from carom import racks, tables
+from carom._rows import as_array, listing
+from carom.dtypes import Doubles
+from carom.film._balls import Finder, blob
+from carom.film._camera import Camera, Evidence, fit
+from carom.film._clock import Clock, change, clock_of, pictures
+from carom.film._cloth import NORMALS, Bed, Cloth, FilmError, Picture, area, calibrated
+from carom.film._names import names_of
+from carom.film._paths import Path, linked, spans, turns
+from carom.layouts import radius_on
+from carom.tracks import Recording
+
+__all__ = ["Camera", "Film", "FilmError", "track"]
+__dir__ = listing(__name__)
+
+_FIRST = 3.0  # s from which the table is learned
+_AWAY = 0.5  # s: a table that is not seen for longer is gone
+_PART = 0.8  # of its usual area: a ball that shows less is hidden in part
+_SPOT = 0.06  # m: a ball of snooker that rests nearer to its spot lies on it
+_ODD = 0.015  # m: by which a cushion's depth may differ from that of its kind
+_PLACED = 0.004  # m: deviation of a ball from its spot
+_TURNED = 0.003  # m: of a ball that turns from its radius off the noses
+_JAWS = 0.09  # m around a pocket in which a ball may meet a jaw
+_FALLEN = 0.15  # m around a pocket from which a ball that is not seen again has fallen
+_FAR = 0.02  # m: and one that turns farther from there was hit by another
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Film:
+    """What was found in a film."""
+
+    recordings: list[Recording]
+    """A shot each, "s1", "s2", ...: `carom.fit.fit` takes them."""
+    camera: Camera
+    bed: Bed
+    notes: list[str]
+    """What was found and what was not, a sentence each."""
+    picture: Picture
+    """The picture before the first shot, or the first."""
+    begins: list[float]
+    """When each shot's clock begins, s of the film."""
+
+    def write(self, file: str | FilePath | TextIO) -> None:
+        """Writes the tracks as the CSV that `carom.tracks.read` takes."""
+        if isinstance(file, (str, FilePath)):
+            with open(file, "w", newline="", encoding="utf-8") as opened:
+                self.write(opened)
+            return
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(("shot", "ball", "t", "x", "y"))
+        for shot in self.recordings:
+            for ball, places in zip(shot.balls, shot.tracks):
+                rows.writerows(
+                    (shot.id, ball, f"{t:.5f}", f"{x:.5f}", f"{y:.5f}") for t, x, y in places
+                )
+
+
+def track(
+    clip: str | FilePath,
+    table: str,
+    *,
+    corners: Sequence[Sequence[float]] | None = None,
+    focal: float | None = None,
+    lens: float | None = None,
+    turned: bool | None = None,
+    start: float = 0.0,
+    end: float = math.inf,
+    progress: Progress | None = None,
+) -> Film:
+    """Track the balls of a film of a fixed camera.
+
+    Parameters
+    ----------
+    clip : path
+        A film that OpenCV reads.
+    table : str
+        Its kind: "9ft", "snooker" and others, as `carom --table` has them, whose size, noses and
+        balls are taken.
+    corners : four (x, y), optional
+        Pixels of the corners of the noses, at the places (0, 0), (W, 0), (W, L), (0, L) of the
+        table, counterclockwise in the picture; found by the cloth's colour otherwise.
+    focal, lens : float, optional
+        Focal length, pixels, and k1 of the lens (negative: barrel); fitted otherwise.
+    turned : bool, optional
+        Whether y begins at the other end than the lower or the left one. Colours on the spots of
+        snooker tell it; without them it is False.
+    start, end : float
+        The part of the film, s.
+    progress : callable, optional
+        Called with what is done and the share that is done, 0 to 1.
+
+    Raises
+    ------
+    FilmError
+        The message says what is wrong in the film, and what would help.
+    OSError
+        The file cannot be read.
+    """
+    clip, bed = FilePath(clip), bed_of(table)
+    given = None if corners is None else _corners(corners)
+    first = _first(clip, start, end)
+    camera, depths, evidence = calibrated(first, bed, given, focal, lens)
+    if given is None and turned is None and table == "snooker":
+        turned = _spots_turned(first, camera, bed, depths)
+    if given is None and _turns_round(camera, bed) != bool(turned):
+        camera, depths, evidence = calibrated(first, bed, None, focal, lens, half_turn=True)
+    seen = _Seen(Cloth(first, camera, bed, depths))
+    seen.read(clip, start, end, progress)
+    clock = clock_of(np.array(seen.times), np.array(seen.changes))
+    new = np.flatnonzero(clock.new)
+    paths = linked([seen.blobs[k] for k in new], clock.times, bed.radius)
+    paths = [path for path in paths if np.mean(bed.near_pocket(path.places)) < 0.8]
+    if not paths:
+        where = "" if given is None else " whose noses meet at the given corners"
+        raise FilmError(f"{clip}: no ball is found; is there a {table} table{where}, with balls?")
+
+    _name(table, paths)
+    # turns at cushions and balls on spots measure the camera better than edges of the cloth
+    marks = _marks(table, paths, clock.times, camera, bed)
+    camera, depths, _ = fit(camera, Evidence.join([*evidence, *marks]), bed.depth, focal, lens)
+    for path in paths:
+        pixels = np.array([row["pixel"] for row in path.blobs])
+        for row, place in zip(path.blobs, camera.places(pixels, bed.radius)):
+            row["place"] = place
+    notes = [*clock.notes, *seen.notes, *_told(camera, depths, evidence, marks, bed)]
+    recordings, begins = _shots(paths, clock, bed, notes)
+    begin = begins[0] if begins else start
+    picture = next((image for t, _, image in pictures(clip, begin, end)), first)
+    return Film(recordings, camera, bed, notes, picture, begins)
+
+
+def bed_of(table: str) -> Bed:
+    """The table of a kind, as a camera sees it."""
+    table = f"pool_{table}" if table[:1].isdigit() else table
+    measures = tables.measures(table)
+    made = getattr(tables, table)()
+    pockets = [(*pocket["centre"], pocket["radius"]) for pocket in made.pockets]
+    return Bed(
+        measures["width"],
+        measures["length"],
+        measures["nose_height"],
+        measures["cushion_depth"],
+        radius_on(table),
+        np.array(pockets, np.float64).reshape(-1, 3),
+    )
+
+
+def _corners(corners: Sequence[Sequence[float]]) -> Doubles:
+    found = as_array(corners, "corners", np.float64)
+    if found.shape != (4, 2) or not np.isfinite(found).all():
+        raise ValueError(f"corners: four pixels x,y are needed, not an array {found.shape}")
+    if area(found) < 1000.0:
+        raise ValueError(
+            "corners: they must be those of (0, 0), (W, 0), (W, L), (0, L), counterclockwise in the picture"
+        )
+    return np.asarray(found, np.float64)
+
+
+def _first(clip: FilePath, start: float, end: float) -> Picture:
+    """The table without what moves before it: the median of pictures of the first seconds."""
+    chosen: list[Picture] = []
+    begin = math.nan
+    for t, _, picture in pictures(clip, start, min(end, start + _FIRST)):
+        begin = t if math.isnan(begin) else begin
+        if t >= begin + 0.2 * len(chosen):
+            chosen.append(picture)
+    if not chosen:
+        raise FilmError(f"{clip}: no picture lies between {start:g} and {end:g} s")
+    return np.asarray(np.median(np.array(chosen), axis=0), np.uint8)
+
+
+class _Seen:
+    """The pictures of a film: when each is, how it differs from the one before, its balls."""
+
+    def __init__(self, cloth: Cloth) -> None:
+        self.cloth, self.finder = cloth, Finder(cloth)
+        self.times: list[float] = []
+        self.changes: list[float] = []
+        self.blobs: list[NDArray[np.void]] = []
+        self.notes: list[str] = []
+        self.foreign: list[float] = []
+
+    def read(self, clip: FilePath, start: float, end: float, progress: Progress | None) -> None:
+        """Reads until the film ends, or the table is gone."""
+        before, hidden, seen, away = None, list[float](), math.nan, 0
+        for t, share, picture in pictures(clip, start, end):
+            part = picture[self.cloth.part]
+            distance = self.cloth.distance(picture)
+            rows, foreign = np.zeros(0, blob), 0.0
+            if self.cloth.is_seen(picture, distance):
+                rows, foreign = self.finder.find(picture, distance)
+                hidden, seen = [], t
+            else:
+                hidden.append(t)
+                away += 1
+            self.times.append(t)
+            self.changes.append(0.0 if before is None else change(before, part))
+            self.blobs.append(rows)
+            self.foreign.append(foreign)
+            before = part
+            if hidden and t - hidden[0] > _AWAY:
+                self._end(hidden[0], len(hidden))
+                away -= len(hidden)
+                break
+            if progress:
+                progress("tracking", min(share, 0.999))
+        if math.isnan(seen):
+            raise FilmError(
+                f"{clip}: the table is not where the first {_FIRST:g} s show it; "
+                "--start may begin after a cut to another camera"
+            )
+        if progress:
+            progress("tracking", 1.0)
+        step = float(np.median(np.diff(self.times))) if len(self.times) > 1 else 0.0
+        if away:
+            self.notes.append(
+                f"for {away * step:.2f} s something hid the edges of the table: no rows"
+            )
+        usual = float(np.median(self.foreign))
+        hands = int((np.array(self.foreign) > usual + 1.0).sum())
+        if hands:
+            self.notes.append(
+                f"a hand, a cue or something else was over the table for {hands * step:.1f} s: "
+                "balls that it touched in the picture have no rows then"
+            )
+
+    def _end(self, t: float, count: int) -> None:
+        """The table is gone: its last pictures are left out."""
+        for rows in (self.times, self.changes, self.blobs, self.foreign):
+            del rows[-count:]
+        self.notes.append(
+            f"at {t:.2f} s the camera changes or moves, or the table is hidden: the tracks end there; "
+            f"--start {t + 1:.1f} begins after it"
+        )
+
+
+def _turns_round(camera: Camera, bed: Bed) -> bool:
+    """Whether y = 0 is neither the lower nor, of a table that lies across, the left end."""
+    ends = np.array([[0.5 * bed.width, 0.0, 0.0], [0.5 * bed.width, bed.length, 0.0]])
+    way = np.diff(camera.project(ends), axis=0)[0]
+    return bool(way[1] > 0.0 if abs(way[1]) > abs(way[0]) else way[0] < 0.0)
+
+
+def _spots() -> dict[str, Doubles]:
+    """The spots of snooker's colours."""
+    rack = racks.snooker(tables.snooker())
+    names = ("yellow", "green", "brown", "blue", "pink", "black")
+    return {name: np.array(ball["state"]["r"][:2]) for name, ball in zip(names, rack[-6:])}
+
+
+def _spots_turned(first: Picture, camera: Camera, bed: Bed, depths: Doubles) -> bool:
+    """Whether more colours lie on the spots of a table that lies the other way round."""
+    cloth = Cloth(first, camera, bed, depths)
+    rows, _ = Finder(cloth).find(first, cloth.distance(first))
+    names = names_of("snooker", rows["colour"], rows["white"], np.zeros(len(rows)))
+    votes = 0
+    for name, spot in _spots().items():
+        if name in names:
+            place = rows["place"][names.index(name)]
+            here = np.hypot(*(place - spot)) < 2.0 * _SPOT
+            there = np.hypot(*(np.array([bed.width, bed.length]) - place - spot)) < 2.0 * _SPOT
+            votes += int(there) - int(here)
+    # asked as `turned` is: against the lower or left end
+    return _turns_round(camera, bed) != (votes > 0)
+
+
+def _marks(
+    table: str, paths: list[Path], times: Doubles, camera: Camera, bed: Bed
+) -> list[Evidence]:
+    """Evidence of turns at cushions, and of balls on their spots."""
+    marks = []
+    size = (bed.width, bed.length)
+    for side, place in turns(paths, times, size):
+        normal = NORMALS[side]
+        nose = bed.nose_of(side)
+        jaws = bool(bed.near_pocket(place[None], _JAWS)[0])
+        if jaws or abs(place @ normal - nose + bed.radius) > _FAR:
+            continue
+        # a cushion on the camera's side hides a part of the ball
+        deviation = _TURNED * (2.0 if camera.eye[:2] @ normal > nose else 1.0)
+        pixel = camera.project(np.array([[*place, bed.radius]]))
+        target = np.array([nose - bed.radius])
+        marks.append(Evidence.uniform(pixel, bed.radius, normal[None], target, (0.5, deviation)))
+    if table == "snooker":
+        named = {path.name: path.blobs[:8] for path in paths}
+        for name, spot in _spots().items():
+            rows = named.get(name, [])
+            away = [np.hypot(*(row["place"] - spot)) for row in rows]
+            if not away or max(away) > _SPOT:
+                continue
+            pixel = np.mean([row["pixel"] for row in rows], axis=0)[None]
+            for axis in np.eye(2):
+                target = np.array([spot @ axis])
+                marks.append(
+                    Evidence.uniform(pixel, bed.radius, axis[None], target, (0.3, _PLACED))
+                )
+    return marks
+
+
+def _name(table: str, paths: list[Path]) -> None:
+    """Names the paths by what they look like over all their rows."""
+    colours = np.array([np.median([b["colour"] for b in path.blobs], axis=0) for path in paths])
+    whites = np.array([np.median([b["white"] for b in path.blobs]) for path in paths])
+    lengths = np.array([float(len(path.numbers)) for path in paths])
+    for path, name in zip(paths, names_of(table, colours, whites, lengths)):
+        path.name = name
+
+
+def _told(
+    camera: Camera, depths: Doubles, evidence: list[Evidence], marks: list[Evidence], bed: Bed
+) -> list[str]:
+    """The calibration in sentences."""
+    edges = [rows for rows in evidence if rows.sides[0] >= 0.0]
+    told = []
+    misfits = [np.abs(rows.residuals(camera, depths)) for rows in edges]
+    if misfits:
+        told.append(
+            f"the edges of the cloth fit to {1e3 * np.median(np.concatenate(misfits)):.1f} mm"
+        )
+    if marks:
+        misfit = np.abs([rows.residuals(camera, depths)[0] for rows in marks])
+        told.append(
+            f"{len(marks)} turns at cushions and coordinates of spots fit to {1e3 * np.median(misfit):.1f} mm (median)"
+        )
+    if len(edges) < 3:
+        told.append("fewer than three edges of the cloth are found: a moved camera goes unnoticed")
+    if not marks:
+        told.append(
+            f"no ball turned at a cushion: the cushions are taken as {1e3 * depths.mean():.0f} mm deep, "
+            "and places may be too far out or in by some mm"
+        )
+    if np.abs(depths - bed.depth).max() > _ODD:
+        told.append(
+            f"the cushions come out {1e3 * depths.min():.0f} to {1e3 * depths.max():.0f} mm deep, not "
+            f"{1e3 * bed.depth:.0f}: does the outline of --check lie on the noses?"
+        )
+    x, y, z = camera.eye
+    told.append(
+        f"the camera is at x = {x:.2f}, y = {y:.2f} m, {z:.2f} m above the slate; focal length "
+        f"{camera.focal:.0f} pixels, k1 = {camera.numbers[7]:.3f}"
+    )
+    return told
+
+
+def _rows(path: Path, times: Doubles, bed: Bed) -> tuple[Doubles, int]:
+    """(t, x, y) of the rows in which a ball is seen as a whole and is not about to fall, and how
+    many others there were.
+    """
+    shares = np.array([row["share"] for row in path.blobs])
+    usual = float(np.median(shares))
+    whole = np.array([row["whole"] for row in path.blobs])
+    whole &= shares > _PART * usual
+    whole &= ~bed.near_pocket(path.places)
+    return np.column_stack([times[path.numbers], path.places])[whole], int((~whole).sum())
+
+
+def _shots(
+    paths: list[Path], clock: Clock, bed: Bed, notes: list[str]
+) -> tuple[list[Recording], list[float]]:
+    """The shots of the paths; notes get what each lacks."""
+    times = clock.times
+    rest = [np.diff(path.places, axis=0) for path in paths]
+    noise = float(np.median(np.concatenate([np.abs(step).ravel() for step in rest])))
+    balls: dict[str, list[Doubles]] = {}
+    merged = 0
+    for path in sorted(paths, key=lambda path: path.numbers[0]):
+        rows, bad = _rows(path, times, bed)
+        balls.setdefault(path.name, []).append(rows)
+        merged += bad
+    recordings, begins = [], []
+    for number, (begin, end) in enumerate(spans(paths, times, noise), 1):
+        names, tracks, late = [], [], []
+        for name, parts in balls.items():
+            rows = np.concatenate(parts)
+            rows = rows[np.unique(rows[:, 0], return_index=True)[1]]
+            earlier = rows[rows[:, 0] < begin][-8:]
+            rows = rows[(rows[:, 0] >= begin) & (rows[:, 0] <= end)]
+            if not len(rows):
+                continue
+            least = 0.012 + 6.0 * noise
+            if np.hypot(*np.ptp(rows[:, 1:], axis=0)) < least:
+                # a ball that lies has one row: its mean place
+                rows = np.concatenate([[rows[0, 0]], rows[:, 1:].mean(axis=0)])[None]
+            elif rows[0, 0] > begin + 0.1 and len(earlier):
+                # a ball that is hidden when it is struck lay where it was seen last
+                rows = np.vstack([[begin, *earlier[:, 1:].mean(axis=0)], rows])
+            elif rows[0, 0] > begin + 0.3:
+                late.append(name)
+                continue
+            if len(rows) > 1 and rows[-1, 0] < min(end, times[-1]) - _AWAY:
+                where = (
+                    "is in a pocket" if bed.near_pocket(rows[-1:, 1:], _FALLEN)[0] else "is lost"
+                )
+                notes.append(f"s{number}: {name} {where} from {rows[-1, 0] - begin:.2f} s on")
+            names.append(name)
+            tracks.append(np.column_stack([rows[:, 0] - begin, rows[:, 1:]]))
+        if late:
+            notes.append(f"s{number}: {', '.join(late)} was first seen moving, and is left out")
+        if tracks:
+            recordings.append(Recording(f"s{number}", tuple(names), tuple(tracks)))
+            begins.append(begin)
+    if merged:
+        notes.append(
+            f"{merged} places of balls that were hidden in part, merged or about to fall have no rows"
+        )
+    if not recordings:
+        notes.append("no ball moves by 3 cm: there is no shot")
+    return recordings, begins

@@ -1,0 +1,198 @@
+"""A camera over a table: pinhole, square pixels, the principal point in the middle of the picture,
+and one coefficient of the lens.
+
+With q = rotation r + translation, a point r of the table (m; z up from the slate) is seen at
+middle + f (1 + k1 |p|^2) p, p = (q_x, q_y) / q_z. A pixel and a height give back a place, so noses
+and the centres of balls, which lie lower, are told apart.
+
+All evidence about a camera has one form: a pixel, the height of what is seen there, and what one
+coordinate of its place should be. The edge of the cloth lies outside the noses by the depth of a
+cushion, which is fitted for each side with the camera: where balls turned, and balls on their
+spots, measure it.
+"""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass, replace
+
+import cv2
+import numpy as np
+
+from carom.dtypes import Doubles
+
+_FOCAL = 1.3, 0.7  # of the picture's width, and its deviation as a logarithm: 25 to 110 degrees
+_LENS = 0.03  # deviation of what the lens shifts at half the width of the picture, of this
+_DEPTH = 0.008, 0.008  # m: deviations of a cushion's depth, and of one side from the others
+_ROUNDS = 30
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Where a camera is and how it sees; the calls take and give arrays (n, 2) and (n, 3)."""
+
+    numbers: Doubles  # log f (pixels), rotation vector, translation (m), k1
+    size: tuple[int, int]  # width and height of the picture, pixels
+
+    @property
+    def focal(self) -> float:
+        """Pixels."""
+        return float(np.exp(self.numbers[0]))
+
+    @functools.cached_property
+    def rotation(self) -> Doubles:
+        return np.asarray(cv2.Rodrigues(self.numbers[1:4])[0], np.float64)
+
+    @functools.cached_property
+    def eye(self) -> Doubles:
+        """The camera's place, m."""
+        return -self.rotation.T @ self.numbers[4:7]
+
+    def depths(self, points: Doubles) -> Doubles:
+        """How far points are in front of the camera, m, (n,)."""
+        return np.asarray(points @ self.rotation[2] + self.numbers[6])
+
+    def project(self, points: Doubles) -> Doubles:
+        """The pixels of points, m."""
+        q = points @ self.rotation.T + self.numbers[4:7]
+        p = q[:, :2] / q[:, 2:]
+        lens = 1.0 + self.numbers[7] * (p * p).sum(axis=1, keepdims=True)
+        return np.asarray(self.focal * lens * p + 0.5 * np.array(self.size))
+
+    def places(self, pixels: Doubles, heights: Doubles | float) -> Doubles:
+        """Where the rays through pixels are at heights above the slate, m, (n, 2)."""
+        bent = (pixels - 0.5 * np.array(self.size)) / self.focal
+        p = bent
+        for _ in range(6):  # the lens is weak, so the iteration contracts fast
+            p = bent / (1.0 + self.numbers[7] * (p * p).sum(axis=1, keepdims=True))
+        rays = np.column_stack([p, np.ones(len(p))]) @ self.rotation
+        share = (heights - self.eye[2]) / rays[:, 2]
+        return np.asarray(self.eye[:2] + rays[:, :2] * share[:, None])
+
+    def radii(self, places: Doubles, radius: float) -> Doubles:
+        """The radii in pixels of balls at places, (n,)."""
+        centres = np.column_stack([places, np.full(len(places), radius)])
+        return self.focal * radius / self.depths(centres)
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """Rows about a camera: at `pixels`, at a height, normal . place should be the target."""
+
+    pixels: Doubles  # (n, 2)
+    heights: Doubles  # m, (n,)
+    normals: Doubles  # (n, 2)
+    targets: Doubles  # m, (n,)
+    deviations: Doubles  # pixels and m, (n, 2)
+    sides: Doubles  # (n,): the side whose cushion's depth is added to the place, or -1
+
+    @classmethod
+    def uniform(
+        cls,
+        pixels: Doubles,
+        height: float,
+        normals: Doubles,
+        targets: Doubles,
+        deviation: tuple[float, float],
+        side: int = -1,
+    ) -> Evidence:
+        """Rows of one height, deviation and side."""
+        n = len(pixels)
+        full = functools.partial(np.full, n)
+        deviations = np.broadcast_to(np.array(deviation), (n, 2))
+        return cls(pixels, full(height), normals, targets, deviations, full(float(side)))
+
+    @classmethod
+    def join(cls, parts: list[Evidence]) -> Evidence:
+        return cls(
+            *(np.concatenate([vars(part)[name] for part in parts]) for name in vars(parts[0]))
+        )
+
+    def residuals(self, camera: Camera, depths: Doubles) -> Doubles:
+        """Place less target, m, (n,)."""
+        along = (camera.places(self.pixels, self.heights) * self.normals).sum(axis=1)
+        depth = np.where(self.sides >= 0.0, depths[self.sides.astype(int)], 0.0)
+        return np.asarray(along - depth - self.targets)
+
+    def spreads(self, camera: Camera) -> Doubles:
+        """The deviation of each row, m: a pixel is as long as it is there."""
+        steps = [
+            camera.places(self.pixels + step, self.heights)
+            - camera.places(self.pixels - step, self.heights)
+            for step in 0.5 * np.eye(2)
+        ]
+        pixel = np.hypot(*((step * self.normals).sum(axis=1) for step in steps))
+        return np.asarray(np.hypot(self.deviations[:, 0] * pixel, self.deviations[:, 1]))
+
+
+def begin(corners: Doubles, rectangle: Doubles, height: float, size: tuple[int, int]) -> Camera:
+    """A camera that sees the corners of a rectangle, m, at these pixels, (4, 2) each: the best of
+    several focal lengths.
+    """
+    middle = 0.5 * np.array(size)
+    best: tuple[float, Camera] | None = None
+    for share in np.geomspace(0.5, 5.0, 9):
+        focal = share * size[0]
+        seen = ((corners - middle) / focal).astype(np.float32)
+        H = np.asarray(cv2.getPerspectiveTransform(rectangle.astype(np.float32), seen))
+        # the columns of H are two axes of the table and its origin, all times one number
+        H *= np.sign(H[2, 2]) / np.sqrt(np.linalg.norm(H[:, 0]) * np.linalg.norm(H[:, 1]))
+        u, _, v = np.linalg.svd(np.column_stack([H[:, :2], np.cross(H[:, 0], H[:, 1])]))
+        rotation = u @ np.diag([1.0, 1.0, np.linalg.det(u @ v)]) @ v
+        move = H[:, 2] - rotation[:, 2] * height
+        vector = np.asarray(cv2.Rodrigues(rotation)[0]).ravel()
+        camera = Camera(np.concatenate([[np.log(focal)], vector, move, [0.0]]), size)
+        points = np.column_stack([rectangle, np.full(4, height)])
+        misfit = float(np.linalg.norm(camera.project(points) - corners))
+        if best is None or misfit < best[0]:
+            best = misfit, camera
+    assert best is not None
+    return best[1]
+
+
+def fit(
+    camera: Camera, evidence: Evidence, depth: float, focal: float | None, lens: float | None
+) -> tuple[Camera, Doubles, float]:
+    """The camera and the depths of the four cushions, m, that the evidence wants, and the sum of
+    squares: Gauss-Newton with weights that fall beyond 2 deviations, damped.
+
+    A focal length (pixels) and a k1 that are given stay.
+    """
+    wanted = np.log(focal or _FOCAL[0] * camera.size[0])
+    half = 0.5 * camera.size[0]
+    x = np.concatenate([camera.numbers, np.full(4, depth)])
+    spreads = evidence.spreads(camera)
+
+    def residuals(x: Doubles) -> Doubles:
+        mean = x[8:].mean()
+        bend = x[7] * (half / np.exp(x[0])) ** 2 / _LENS if lens is None else (x[7] - lens) / 1e-6
+        length = (x[0] - wanted) / (_FOCAL[1] if focal is None else 1e-6)
+        prior = [[length, bend, (mean - depth) / _DEPTH[0]]]
+        found = evidence.residuals(Camera(x[:8], camera.size), x[8:]) / spreads
+        return np.concatenate([found, *prior, (x[8:] - mean) / _DEPTH[1]])
+
+    def cost(r: Doubles) -> float:
+        size = np.abs(r)
+        return float(np.where(size < 2.0, size**2, 4.0 * size - 4.0).sum())
+
+    r, damping = residuals(x), 1e-3
+    for _ in range(_ROUNDS):
+        J = np.column_stack(
+            [(residuals(x + h) - residuals(x - h)) / 2e-6 for h in 1e-6 * np.eye(12)]
+        )
+        weights = 2.0 / np.maximum(np.abs(r), 2.0)
+        A, g = (J.T * weights) @ J, (J.T * weights) @ r
+        # a step that does not lower the cost is tried again, shorter
+        while damping < 1e9:
+            step = np.linalg.solve(A + damping * np.diag(A.diagonal()), g)
+            after = residuals(x - step)
+            if np.isfinite(after).all() and cost(after) <= cost(r):
+                break
+            damping *= 10.0
+        else:
+            break
+        done = cost(r) - cost(after) < 1e-6 * cost(r)
+        x, r, damping = x - step, after, max(0.1 * damping, 1e-9)
+        if done:
+            break
+    return replace(camera, numbers=x[:8]), x[8:], cost(r)

@@ -1,0 +1,102 @@
+"""Names of balls by their colours.
+
+The colours of a film are compared with those of the balls of a game after its cue ball, the
+brightest without a colour, is made white. Each name is given once, nearest first.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+
+from carom.dtypes import Doubles
+from carom.pictures import colour
+
+_SNOOKER = {
+    "yellow": "#e6c828",
+    "green": "#006e46",
+    "brown": "#78411e",
+    "blue": "#1e46b4",
+    "pink": "#f08ca0",
+    "black": "#191919",
+}
+_WHITE, _RED = "#f5ebd7", "#b4141e"
+# of the balls of each kind of table: the colour, and how many balls have it
+_KINDS: dict[str, dict[str, tuple[str, int]]] = {
+    "snooker": {"cue": (_WHITE, 1), "red": (_RED, 15)} | {k: (v, 1) for k, v in _SNOOKER.items()},
+    "blackball": {
+        "cue": (_WHITE, 1),
+        "red": (_RED, 7),
+        "yellow": ("#e6c828", 7),
+        "black": ("#191919", 1),
+    },
+    "threecushion": {"white": (_WHITE, 1), "yellow": ("#e6c828", 1), "red": (_RED, 1)},
+    "fourball": {"white": (_WHITE, 1), "yellow": ("#e6c828", 1), "red": (_RED, 2)},
+    "pyramid": {"cue": ("#e6c828", 1), "white": (_WHITE, 15)},
+}
+_POOL = {"cue": (_WHITE, 1)} | {str(k): (colour(k), 1) for k in range(1, 9)}
+_STRIPED = 0.2, 0.9  # share of white of a ball of pool between which it is striped
+_STRANGE = 75.0  # a colour that is farther from all is named "ball"
+
+
+def _lab(colours: Doubles) -> Doubles:
+    """L, a and b of blue, green and red, (n, 3)."""
+    image = np.clip(colours, 0.0, 255.0).astype(np.float32)[None] / 255.0
+    return np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2LAB)[0], np.float64)
+
+
+def _ink(text: str) -> Doubles:
+    return np.array([int(text[k : k + 2], 16) for k in (5, 3, 1)], np.float64)
+
+
+def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) -> list[str]:
+    """The names of balls that are there at one time, by their colours (n, 3), shares of white, and
+    how long each was seen: of two that look alike, the one that is seen longer has the name.
+    """
+    if not len(colours):
+        return []
+    kinds = _KINDS.get(table, _POOL)
+    brightness = colours.mean(axis=1)
+    # the cue ball shows the light
+    plain = (np.ptp(colours, axis=1) < 0.45 * colours.max(axis=1)) & (whites > 0.5)
+    light = np.array([255.0, 255.0, 255.0])
+    if plain.any():
+        light = colours[np.flatnonzero(plain)[brightness[plain].argmax()]] / 0.93
+    seen = _lab(colours / light * 255.0)
+    wanted = _lab(np.array([_ink(ink) for ink, _ in kinds.values()]))
+    costs = np.sqrt(((seen[:, None] - wanted) ** 2 * [0.35, 1.0, 1.0]).sum(axis=2))
+    short = 40.0 * (1.0 - lengths / max(lengths.max(initial=0.0), 1.0))
+    keys = list(kinds)
+    if kinds is _POOL:
+        return _pool(costs, keys, whites, short)
+    names = [""] * len(colours)
+    left = {name: count for name, (_, count) in kinds.items()}
+    for flat in np.argsort(costs + short[:, None], axis=None):
+        ball, kind = divmod(int(flat), len(keys))
+        name, count = keys[kind], kinds[keys[kind]][1]
+        if names[ball] or not left[name] or costs[ball, kind] > _STRANGE:
+            continue
+        left[name] -= 1
+        names[ball] = name if count == 1 else f"{name}{count - left[name]}"
+    return _filled(names)
+
+
+def _pool(costs: Doubles, keys: list[str], whites: Doubles, short: Doubles) -> list[str]:
+    """Numbers of pool: a stripe has white, and the colour of the number 8 less."""
+    names = [""] * len(costs)
+    striped = (whites > _STRIPED[0]) & (whites < _STRIPED[1])
+    for flat in np.argsort(costs + short[:, None], axis=None):
+        ball, kind = divmod(int(flat), len(keys))
+        name = keys[kind]
+        if striped[ball]:
+            name = str(kind + 8) if 1 <= kind <= 7 else ""
+        if name and not names[ball] and name not in names and costs[ball, kind] <= _STRANGE:
+            names[ball] = name
+    return _filled(names)
+
+
+def _filled(names: list[str]) -> list[str]:
+    strangers = [k for k, name in enumerate(names) if not name]
+    for number, k in enumerate(strangers, 1):
+        names[k] = f"ball{number}"
+    return names

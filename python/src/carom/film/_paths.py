@@ -1,0 +1,216 @@
+"""Balls through time: which blob of a picture is which ball, and when a shot is played.
+
+A ball goes on as it went, or stays where it lay; a struck ball leaves at up to 9 m/s, and then its
+colour tells which it is. A ball that is hidden has no row until it is seen again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dtypes import Doubles
+
+_FASTEST = 9.0  # m/s
+_RESTING = 0.03  # m/s: below, a ball lies, however long it is hidden
+_HIDDEN = 0.5  # s: a moving ball that is hidden for longer is another
+_LOST = 3.0  # s: for so long a ball may be lost, and found as another path
+_ALIKE = 60.0  # levels of one colour between which a ball is the same
+_MOMENT = 0.25  # s: a path that is shorter is no ball's
+_WHOLE = 0.72  # of a ball's area: a path of less is a shadow's or a mark's
+_STRAIGHT = 0.006  # m: second differences of rows that no event parts
+_PAUSE = 0.7  # s: balls that rest for longer separate two shots
+_LEAST = 0.03  # m: the longest way of a shot
+_BEFORE, _AFTER = 0.4, 0.2  # s of a shot before the first motion and after the last
+
+
+@dataclass
+class Path:
+    """A ball's rows: the number of the picture, and its blob there."""
+
+    numbers: list[int] = field(default_factory=list[int])
+    blobs: list[np.void] = field(default_factory=list[np.void])
+    name: str = ""
+
+    @property
+    def places(self) -> Doubles:
+        return np.array([blob["place"] for blob in self.blobs])
+
+    def velocity(self, times: Doubles) -> Doubles:
+        """m/s, by the last two rows; of a ball that lies, 0."""
+        if len(self.numbers) < 2:
+            return np.zeros(2)
+        first = -2 if len(self.numbers) < 5 else -5
+        away = self.blobs[-1]["place"] - self.blobs[first]["place"]
+        gap = times[self.numbers[-1]] - times[self.numbers[first]]
+        if np.hypot(*away) < _RESTING * gap + 0.002:
+            return np.zeros(2)
+        last = times[self.numbers[-1]] - times[self.numbers[-2]]
+        velocity: Doubles = (self.blobs[-1]["place"] - self.blobs[-2]["place"]) / last
+        return velocity
+
+
+def linked(found: list[NDArray[np.void]], times: Doubles, radius: float) -> list[Path]:
+    """The paths of the blobs of each picture, longer than a moment."""
+    live: list[Path] = []
+    done: list[Path] = []
+    for k, blobs in enumerate(found):
+        pairs = _pairs(live, blobs, times, k, radius)
+        free, used = set(range(len(live))), set[int]()
+        # the nearest pair first; each path and each blob once
+        for _, i, j in sorted(pairs):
+            if i in free and j not in used:
+                free.discard(i)
+                used.add(j)
+                live[i].numbers.append(k)
+                live[i].blobs.append(blobs[j])
+        new = [Path([k], [blobs[j]]) for j in range(len(blobs)) if j not in used]
+        kept: list[Path] = []
+        for path in live:
+            hidden = times[k] - times[path.numbers[-1]]
+            rests = not path.velocity(times).any() and len(path.numbers) > 5
+            (kept if hidden < _HIDDEN or rests else done).append(path)
+        live = kept + new
+    return _joined(done + live, times)
+
+
+def _joined(paths: list[Path], times: Doubles) -> list[Path]:
+    """The paths that are longer than a moment. One that begins where another of its colour, which
+    something hid, may have come to is the same ball's.
+    """
+    paths = [
+        path
+        for path in paths
+        if times[path.numbers[-1]] - times[path.numbers[0]] >= _MOMENT
+        and len(path.numbers) >= 5
+        and np.median([blob["share"] for blob in path.blobs]) > _WHOLE
+    ]
+    pairs = []
+    for i, path in enumerate(paths):
+        for j, other in enumerate(paths):
+            gap = float(times[other.numbers[0]] - times[path.numbers[-1]])
+            way = float(np.hypot(*(other.blobs[0]["place"] - path.blobs[-1]["place"])))
+            alike = _difference(other.blobs[0], path.blobs[-1]) < _ALIKE
+            if 0.0 < gap < _LOST and way < _FASTEST * gap and alike:
+                pairs.append((gap + way, i, j))
+    after: dict[int, int] = {}
+    for _, i, j in sorted(pairs):
+        if i not in after and j not in after.values():
+            after[i] = j
+    # later parts are added to the first of each chain
+    for i in sorted(set(range(len(paths))) - set(after.values())):
+        part = i
+        while part in after:
+            part = after[part]
+            paths[i].numbers += paths[part].numbers
+            paths[i].blobs += paths[part].blobs
+    later = set(after.values())
+    return [path for i, path in enumerate(paths) if i not in later]
+
+
+def _pairs(
+    live: list[Path], blobs: NDArray[np.void], times: Doubles, k: int, radius: float
+) -> list[tuple[float, int, int]]:
+    """(cost, path, blob) of each blob that may be the next of a path."""
+    pairs = []
+    for i, path in enumerate(live):
+        gap = float(times[k] - times[path.numbers[-1]])
+        last, velocity = path.blobs[-1], path.velocity(times)
+        reach = 0.8 * radius + 0.5 * float(np.hypot(*velocity)) * gap
+        for j, blob in enumerate(blobs):
+            step = blob["place"] - last["place"]
+            way = float(np.hypot(*step))
+            if way > _FASTEST * gap + radius:
+                continue
+            colour = _difference(blob, last)
+            if colour > _ALIKE:
+                continue
+            miss = min(float(np.hypot(*(step - velocity * gap))), 0.6 * way + 0.1 * radius)
+            if miss < reach:
+                pairs.append((miss + 2e-4 * colour, i, j))
+            elif gap < 0.3:
+                # a ball that was struck, or turned: after all that go on as they went
+                pairs.append((10.0 + way + 0.004 * colour, i, j))
+    return pairs
+
+
+def _difference(blob: np.void, other: np.void) -> float:
+    """Of two colours, levels. A ball that rolls shows more or less of its white."""
+    levels = float(np.abs(blob["colour"] - other["colour"]).max())
+    plain = 1.0 - max(float(blob["white"]), float(other["white"]))
+    turned = abs(float(blob["white"] - other["white"]))
+    return 1.3 * plain * levels + 150.0 * max(turned - 0.4, 0.0)
+
+
+def spans(paths: list[Path], times: Doubles, noise: float) -> list[tuple[float, float]]:
+    """Begin and end of each shot, s: of the times when balls move."""
+    moving = np.zeros(len(times), bool)
+    window, least = 0.2, 0.004 + 4.0 * noise
+    for path in paths:
+        t, places = times[path.numbers], path.places
+        grid = [np.interp(times, t, places[:, axis]) for axis in (0, 1)]
+        late = [np.interp(times + window, t, places[:, axis]) for axis in (0, 1)]
+        moves = np.hypot(late[0] - grid[0], late[1] - grid[1]) > least
+        moves &= (times >= t[0]) & (times <= t[-1])
+        moving |= moves
+    runs: list[list[float]] = []
+    for t in times[moving]:
+        if runs and t - runs[-1][1] < _PAUSE:
+            runs[-1][1] = float(t)
+        else:
+            runs.append([float(t), float(t)])
+    shots = []
+    for begin, end in runs:
+        ways = [_way(path, times, begin - 0.05, end + window) for path in paths]
+        if max(ways, default=0.0) >= _LEAST and end > begin:
+            shots.append((begin, end + window))
+    # a shot has no row of its neighbours'
+    ends = [float(times[0]), *(end for _, end in shots)]
+    begins = [*(begin for begin, _ in shots), np.inf]
+    return [
+        (max(begin - _BEFORE, before), min(end + _AFTER, after))
+        for (begin, end), before, after in zip(shots, ends, begins[1:])
+    ]
+
+
+def _way(path: Path, times: Doubles, begin: float, end: float) -> float:
+    """The extent of a path between two times, m."""
+    t = times[path.numbers]
+    places = path.places[(t >= begin) & (t <= end)]
+    return float(np.hypot(*np.ptp(places, axis=0))) if len(places) else 0.0
+
+
+def turns(
+    paths: list[Path], times: Doubles, size: tuple[float, float]
+) -> list[tuple[int, Doubles]]:
+    """(side, place) of each turn at a cushion, m: where the lines through rows before it and after
+    it meet, three of which are straight on either side.
+    """
+    found = []
+    step = float(np.median(np.diff(times)))
+    for path in paths:
+        places, t = path.places, times[path.numbers]
+        whole = np.array([blob["whole"] for blob in path.blobs])
+        for axis in (0, 1):
+            x = places[:, axis]
+            for k in range(3, len(x) - 3):
+                if t[k + 3] - t[k - 3] > 6.5 * step or not whole[k - 3 : k + 4].all():
+                    continue
+                # the row before the turn, and that after
+                v, w = (x[k - 1] - x[k - 2]) / step, (x[k + 2] - x[k + 1]) / step
+                side = axis if v < 0.0 else axis + 2
+                edge = x[k] if v < 0.0 else size[axis] - x[k]
+                if v * w > 0.0 or min(abs(v), abs(w)) < 0.25 or edge > 0.08:
+                    continue
+                later = (x[k + 1] - x[k - 1] - 2.0 * step * w) / (step * (v - w))
+                if not 0.4 < later < 1.6:
+                    continue
+                before = places[k - 1] + later * (places[k - 1] - places[k - 2])
+                after = places[k + 1] + (later - 2.0) * (places[k + 2] - places[k + 1])
+                bends = np.diff(places[[k - 3, k - 2, k - 1, k + 1, k + 2, k + 3]], 2, axis=0)
+                if np.abs(bends[[0, 3]]).max() > _STRAIGHT:
+                    continue
+                found.append((side, 0.5 * (before + after)))
+    return found

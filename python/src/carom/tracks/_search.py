@@ -1,0 +1,274 @@
+"""The search for the strike of a recorded shot among the many minima of its cost.
+
+A small change makes a ball miss another, so the cost of `_strikes` has many minima. The models are
+off by centimetres besides. So the strike that follows the first second best need not lead to the
+one that follows the whole shot best, and a search loses that one if it narrows its choice as more
+and more samples count. Therefore candidates of three kinds meet in contests over the whole shot:
+
+1. starts of many spins, after a short descent by the samples of the first second;
+2. the survivors of each horizon, the samples of the first 0.9, 2, 4 and 8 s: offspring of the
+   survivors of one horizon are candidates of the next;
+3. offspring of the best strikes so far, in rounds, until a round no longer improves the shot or the
+   shot is fitted to its noise.
+
+In a contest all candidates are played, the best of them descend a few iterations, and the best of
+these descend further. Offspring are drawn from the normal distribution that the normal equations of
+a parent give, by the whole shot or by its first second alone, at many widths.
+
+All shots have the same draws. So a strike does not depend on the shots beside it, and those of a
+result do not depend on the seed of a fit, which the search for constants alone takes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dtypes import Doubles
+from carom.tracks import _strikes
+from carom.tracks._strikes import FIRST, HUBER, Integers, Plays, allowed, descend, first_end
+
+Stages = tuple[tuple[int, int], ...]  # how many candidates of a shot descend, and iterations
+
+
+@dataclass(frozen=True)
+class _Effort:
+    """How many candidates of a shot a search takes."""
+
+    starts: int  # whose spins lie between those of the grid
+    horizons: tuple[tuple[float, int, int], ...]  # s, how many descend, and how many survive
+    contest: Stages
+    rounds: int  # at most
+    finalists: int  # that descend at last
+    iterations: int  # of this descent
+
+
+# Found by trial on the shots of docs/understanding/reality.md: where the contest, the offspring or
+# the parents of a round are halved or doubled, the RMSE change by 1 % in the mean. Where _BY_ALL
+# ends at 1.0, they rise by 4 %; without the starts, or without the horizons of 4 and 8 s, by 8
+# and 4 %.
+_QUICK = _Effort(
+    starts=6,
+    horizons=((0.9, 8, 8), (2.0, 3, 3), (4.0, 3, 3), (8.0, 3, 3)),
+    contest=((8, 2), (3, 4)),
+    rounds=0,
+    finalists=1,
+    iterations=10,
+)
+_THOROUGH = _Effort(
+    starts=30,
+    horizons=((0.9, 14, 14), (2.0, 8, 8), (4.0, 7, 6), (8.0, 6, 4)),
+    contest=((30, 3), (10, 4), (6, 6)),
+    rounds=12,
+    finalists=4,
+    iterations=20,
+)
+_START_STEPS, _HORIZON_STEPS, _SQUARES_STEPS = 2, 4, 10  # iterations of one descent
+_TURNED = 0.15  # of the speed: how far the spins of starts are moved off their grid
+# Parents of a shot in a round, offspring of each, and the contest of these; and offspring of each
+# survivor of a horizon
+_PARENTS, _OFFSPRING, _ROUND, _HORIZON_OFFSPRING = 6, 60, ((24, 1), (12, 2), (4, 6)), 30
+# Deviations of offspring are 10^x of those by the normal equations, x uniform in a range
+_BY_HORIZON, _BY_ALL, _BY_FIRST = (0.0, 1.0), (-0.4, 1.5), (-1.0, 0.7)
+_RANKS = max(kept for _, _, kept in _THOROUGH.horizons)  # most parents of a shot
+_BETTER = 0.99  # of the least cost before: a round that leaves more is the last of a shot
+_NOISE = 1.2  # times its noise: a shot that is fitted so well needs no round
+_NEAR = 1e-2  # m/s: strikes that differ by less are one
+_ASKED = 4  # times as many as are chosen: so many of the best are asked whether they are one
+
+
+@dataclass
+class _Candidates:
+    """Strikes of several shots, in the order of the shots, and the sums of `Plays.misfit` there."""
+
+    shots: Integers  # (n,)
+    strikes: Doubles  # (n, 6)
+    sums: Doubles  # (n, ...)
+
+    def __getitem__(self, rows: NDArray[np.generic]) -> _Candidates:
+        return _Candidates(self.shots[rows], self.strikes[rows], self.sums[rows])
+
+    def best(self, keep: int) -> _Candidates:
+        return self[_best(self.shots, self.strikes, self.sums[:, 0], keep)]
+
+    def least(self, count: int) -> Doubles:
+        """The least cost of each of `count` shots; infinite without a candidate."""
+        least = np.full(count, np.inf)
+        np.minimum.at(least, self.shots, self.sums[:, 0])
+        return least
+
+
+def _join(parts: list[_Candidates]) -> _Candidates:
+    return _Candidates(
+        np.concatenate([part.shots for part in parts]),
+        np.concatenate([part.strikes for part in parts]),
+        np.concatenate([part.sums for part in parts]),
+    )
+
+
+def _best(shots: Integers, strikes: Doubles, costs: Doubles, keep: int) -> NDArray[np.intp]:
+    """The rows of the `keep` best strikes of each shot, without those that are near a better one;
+    in the order of the shots.
+    """
+    rows = np.lexsort((costs, shots))
+    ranks = np.arange(len(rows)) - np.searchsorted(shots[rows], shots[rows])
+    rows = rows[(ranks < _ASKED * keep) & np.isfinite(costs[rows])]
+    chosen = [np.zeros(0, np.intp)]
+    while len(rows) and len(chosen) <= keep:
+        # the first row of each shot is its best; that row and those near it leave the list
+        begins = np.append(True, np.diff(shots[rows]) > 0)
+        leaders = rows[begins]
+        gaps = strikes[rows] - strikes[leaders[np.cumsum(begins) - 1]]
+        rows = rows[np.abs(gaps[:, :5]).max(axis=1) > _NEAR]
+        chosen.append(leaders)
+    rows = np.concatenate(chosen)
+    return np.asarray(rows[np.lexsort((rows, shots[rows]))])
+
+
+def _survivors(
+    plays: Plays,
+    shots: Integers,
+    strikes: Doubles,
+    end: Doubles,
+    stages: Stages,
+    huber: float = HUBER,
+) -> _Candidates:
+    """Of strikes in any order, by the samples up to end[shot]: in each stage so many of the best of
+    a shot descend so many iterations.
+    """
+    sums = screened = plays.misfit(shots, strikes, end[shots], -np.inf, huber=huber)
+    for descending, iterations in stages:
+        rows = _best(shots, strikes, sums[:, 0], descending)
+        known = None if sums is screened else sums[rows]  # a screening has no derivatives
+        shots = shots[rows]
+        strikes, sums = descend(
+            plays, shots, strikes[rows], end[shots], iterations, huber=huber, sums=known
+        )
+    return _Candidates(shots, strikes, sums)
+
+
+def _offspring(
+    parents: _Candidates, each: int, widths: tuple[float, float], random: np.random.Generator
+) -> tuple[Integers, Doubles]:
+    """Strikes drawn about those of parents; parents of the same rank in their shots have the same
+    draws.
+    """
+    square, _ = _strikes.normal(parents.sums)
+    values, axes = np.linalg.eigh(square)
+    speed = np.hypot(parents.strikes[:, :1], parents.strikes[:, 1:2])
+    most = 0.5 * np.maximum(speed, 0.3)
+    variance = parents.sums[:, :1] / np.maximum(parents.sums[:, 2:3], 1.0)
+    deviation = np.minimum(np.sqrt(variance / np.maximum(values, 1e-12)), most)
+
+    ranks = np.arange(len(speed)) - np.searchsorted(parents.shots, parents.shots)
+    shape = _RANKS, each
+    wide = 10.0 ** random.uniform(*widths, size=(*shape, 1))
+    drawn = (wide * random.normal(size=(*shape, axes.shape[1])))[ranks]
+    moved = np.einsum("nij,nmj->nmi", axes * deviation[:, None, :], drawn)
+    tried = parents.strikes[:, None] + np.clip(moved, -most[..., None], most[..., None])
+    return np.repeat(parents.shots, each), allowed(tried.reshape(-1, axes.shape[1]))
+
+
+def _starts(plays: Plays) -> tuple[Integers, Doubles, Doubles]:
+    """Strikes to start from, and the same with other spins."""
+    found, moved = [], []
+    for shot, begin in zip(plays.recordings, plays.origins):
+        rows = _strikes.starts(shot, plays.table_size, plays.radius)
+        rows[:, 5] -= begin
+        found.append(rows)
+        speed = np.hypot(rows[:, :1], rows[:, 1:2])
+        turned = np.random.default_rng(0).uniform(-_TURNED, _TURNED, (len(rows), 3))
+        moved.append(rows + np.pad(speed * turned, ((0, 0), (2, 1))))
+    shots = np.repeat(np.arange(len(found), dtype=np.int32), [len(rows) for rows in found])
+    return shots, allowed(np.concatenate(found)), allowed(np.concatenate(moved))
+
+
+def _first_ends(plays: Plays) -> Doubles:
+    """Until when the first samples of each shot go, s."""
+    return np.minimum([first_end(shot) for shot in plays.recordings], plays.ends)
+
+
+def _by_horizons(
+    plays: Plays, effort: _Effort, random: np.random.Generator
+) -> tuple[Integers, Doubles]:
+    """The candidates of kinds 1 and 2."""
+    shots, strikes, moved = _starts(plays)
+    first = _first_ends(plays)
+    front = _survivors(plays, shots, moved, first, ((effort.starts, _START_STEPS),))
+    pool = [front]
+    for horizon, descending, kept in effort.horizons:
+        if horizon > FIRST:
+            drawn_of, drawn = _offspring(front, _HORIZON_OFFSPRING, _BY_HORIZON, random)
+            shots = np.concatenate([front.shots, drawn_of])
+            strikes = np.concatenate([front.strikes, drawn])
+        end = np.minimum(horizon, plays.ends) if horizon > FIRST else first
+        front = _survivors(plays, shots, strikes, end, ((descending, _HORIZON_STEPS),)).best(kept)
+        pool.append(front)
+    candidates = _join(pool)
+    return candidates.shots, candidates.strikes
+
+
+def _next_round(
+    plays: Plays, parents: _Candidates, huber: float, random: np.random.Generator
+) -> _Candidates:
+    """The best offspring of parents."""
+    end = _first_ends(plays)[parents.shots]
+    first = plays.misfit(parents.shots, parents.strikes, end, np.inf)
+    by_first = _Candidates(parents.shots, parents.strikes, first)
+    drawn = [
+        _offspring(parents, _OFFSPRING // 2, _BY_ALL, random),
+        _offspring(by_first, _OFFSPRING // 2, _BY_FIRST, random),
+    ]
+    shots, strikes = (np.concatenate(part) for part in zip(*drawn))
+    return _survivors(plays, shots, strikes, plays.ends, _ROUND, huber)
+
+
+def find(
+    plays: Plays,
+    seed: int = 0,
+    progress: Callable[[str, float], None] | None = None,
+    *,
+    squares: bool = False,
+) -> tuple[Doubles, Doubles]:
+    """The strikes of all shots, (shots, 6), and their costs, (shots,): infinite where no start
+    could be played.
+
+    With `squares`, those of the least plain squares, which the RMSE is made of, by a thorough
+    search; without, those of the least cost, by a quick one. `seed` gives other draws.
+    """
+    random = np.random.default_rng(seed)
+    count, huber, effort = len(plays.recordings), HUBER, _THOROUGH if squares else _QUICK
+    candidates = _by_horizons(plays, effort, random)
+    known = _survivors(plays, *candidates, plays.ends, effort.contest).best(_PARENTS)
+    noise = np.array([2.0 * (_NOISE * shot.noise) ** 2 for shot in plays.recordings])
+    active = np.ones(count, bool)
+    for number in range(effort.rounds):
+        if progress:
+            progress("strikes", (number + 1) / (effort.rounds + 1))
+        if number == 1:  # from here on by squares
+            active[:], huber = True, 0.0
+            end = plays.ends[known.shots]
+            strikes, sums = descend(
+                plays, known.shots, known.strikes, end, _SQUARES_STEPS, huber=huber
+            )
+            known = _Candidates(known.shots, strikes, sums)
+        active[known.shots[known.sums[:, 0] < known.sums[:, 2] * noise[known.shots]]] = False
+        parents = known[active[known.shots]]
+        if len(parents.shots):
+            before = known.least(count)
+            known = _join([known, _next_round(plays, parents, huber, random)]).best(_PARENTS)
+            active &= known.least(count) < _BETTER * before
+
+    # the last descent
+    known = known.best(effort.finalists)
+    shots, end = known.shots, plays.ends[known.shots]
+    strikes, sums = descend(
+        plays, shots, known.strikes, end, effort.iterations, huber=huber, sums=known.sums
+    )
+    known = _Candidates(shots, strikes, sums).best(1)
+    found, cost = np.full((count, strikes.shape[1]), np.nan), np.full(count, np.inf)
+    found[known.shots], cost[known.shots] = known.strikes, known.sums[:, 0]
+    return found, cost
