@@ -234,8 +234,8 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double st
     }
     if (carom_is_sloped(rates) && size > 0.0) {
       begin_on_slope(path, rates, x, y);
-    } else if (!slides && (rates->drag * size * size > 1e-16 * rates->roll ||
-                           carom_varies(rates->drag))) {
+    } else if (!slides &&
+               (rates->drag * size * size > 1e-16 * rates->roll || carom_varies(rates->drag))) {
       begin_pair(path, rates, size);
     } else {
       path->a[0] = -0.5 * friction * path->e[0];

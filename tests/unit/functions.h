@@ -283,7 +283,7 @@ static const carom_tangent_job *played_job(void) {
   return &tangent_job;
 }
 /* The status of this shot in a batch behind a good one, which has a result, unless what is wrong
- * belongs to both: the table, the options, or a height of noses or tops for balls of both. */
+ * belongs to both: the table, the options, or a slope or a height for balls of both. */
 static inline int64_t shoot_pair(void) {
   static carom_shot_ball layouts[2 * CAROM_BALLS_MOST];
   const carom_cue strokes[] = {carom_cue_of(CAROM_GAME_POOL), cue};
@@ -303,7 +303,8 @@ static inline int64_t shoot_pair(void) {
                                .status = said};
   const carom_status returned = carom_shoot_batch(&pair);
   if (said[0] != 99) {
-    const bool both = returned == CAROM_ERROR_NOSE_HEIGHT || table.rail_width > 0.0;
+    const bool both = returned == CAROM_ERROR_NOSE_HEIGHT || returned == CAROM_ERROR_SLOPE ||
+                      table.rail_width > 0.0;
     ck_assert_int_eq(said[0], both ? returned : CAROM_OK);
     ck_assert_int_eq(said[1], returned);
     ck_assert_int_eq(played[0].count > 0, !both);
