@@ -35,8 +35,8 @@ from carom.film._clock import Clock, change, clock_of, pictures
 from carom.film._cloth import NORMALS, Bed, Cloth, FilmError, Picture, area, calibrated
 from carom.film._names import names_of
 from carom.film._paths import Path, linked, spans, turns
-from carom.layouts import radius_on
 from carom.tracks import Recording
+from carom.tracks._constants import ground
 
 __all__ = ["Camera", "Film", "FilmError", "track"]
 __dir__ = listing(__name__)
@@ -170,7 +170,7 @@ def bed_of(table: str) -> Bed:
         measures["length"],
         measures["nose_height"],
         measures["cushion_depth"],
-        radius_on(table),
+        ground(table).radius,
         np.array(pockets, np.float64).reshape(-1, 3),
     )
 

@@ -121,7 +121,7 @@ def design(fit: Any, count: int, seed: int) -> list[Design]:
     variance = min(fit.noise**2 + _joint.ALIKE * excess, _joint.PRIOR_MOST)
 
     random = np.random.default_rng(seed)
-    candidates = []
+    candidates: list[tuple[Doubles, Records, Doubles]] = []
     while len(candidates) < _CANDIDATES:
         places, stroke = _drawn(fit, random)
         try:

@@ -33,7 +33,7 @@ from carom.layouts import balls, cue, struck
 
 NEAR, _TURNED, _FASTER = 0.03, 6.0, 0.3  # of strokes alike: places, m; degrees; of the speed
 LEAST = 4  # strokes beyond the first of their groups
-_RATINGS = np.arange(200.0, 851.0, 2.0)
+_RATINGS: Doubles = np.arange(200.0, 851.0, 2.0)
 _NAMES = ("speed_share", "phi", "a", "b")
 _MOST = np.array([0.5, 10.0, 0.5, 0.5])  # of each error that is likely
 _GRID = 400
@@ -195,7 +195,7 @@ def player_of(fit: Any, groups: Sequence[Sequence[int]] | None = None) -> Player
 
     # all of them by the rating, whose errors grow with the speed of the cue; carom's rated players
     # have a tip that loses nothing, with which cue and ball are about as fast
-    rating = np.zeros(len(_RATINGS))
+    rating: Doubles = np.zeros(len(_RATINGS))
     for row, value in enumerate(_RATINGS):
         rated = lib.carom_player_fargo(float(value))
         for y, m, speed in parts:
@@ -214,4 +214,5 @@ def player_of(fit: Any, groups: Sequence[Sequence[int]] | None = None) -> Player
     record["speed"], record["speed_share"] = 0.0, found[0].mean
     for name, likely in zip(_NAMES[1:], found[1:]):
         record[name] = likely.mean / grown
-    return Player(*found, rated_as, chosen, record)
+    speed_share, phi, a, b = found
+    return Player(speed_share, phi, a, b, rated_as, chosen, record)

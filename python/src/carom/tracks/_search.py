@@ -188,7 +188,7 @@ def _starts(plays: Plays) -> tuple[Integers, Doubles, Doubles]:
 
 def _first_ends(plays: Plays) -> Doubles:
     """Until when the first samples of each shot go, s."""
-    return np.minimum([first_end(shot) for shot in plays.recordings], plays.ends)
+    return np.asarray(np.minimum([first_end(shot) for shot in plays.recordings], plays.ends))
 
 
 def _by_horizons(
