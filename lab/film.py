@@ -101,28 +101,28 @@ def loss(errors):
 def descend(errors, point, step, low, high, turns):
     """The loss and the point where the steps of Levenberg and Marquardt end, within bounds."""
     point, damping = np.clip(point, low, high), 0.01
-    now = errors(point)
+    current = errors(point)
     for _ in range(turns):
         # derivatives by differences, in units of the steps; the weights of the loss
-        slopes = np.array([errors(point + change) - now for change in np.diag(step)])
-        weighted = slopes / np.sqrt(1 + (now / SCALE) ** 2)
-        square, slope = weighted @ slopes.T, weighted @ now
+        slopes = np.array([errors(point + change) - current for change in np.diag(step)])
+        weighted = slopes / np.sqrt(1 + (current / SCALE) ** 2)
+        square, slope = weighted @ slopes.T, weighted @ current
 
         # a shorter step until the loss falls
-        before = loss(now)
+        incoming = loss(current)
         while damping < 1e6:
             damped = square + np.diag(damping * np.diag(square) + 1e-15)
             trial = np.clip(point - step * np.linalg.solve(damped, slope), low, high)
             errors_there = errors(trial)
-            if loss(errors_there) < before:
+            if loss(errors_there) < incoming:
                 break
             damping *= 4
         else:
             break
-        point, now, damping = trial, errors_there, damping / 8
-        if loss(now) > before * (1 - 1e-5):
+        point, current, damping = trial, errors_there, damping / 8
+        if loss(current) > incoming * (1 - 1e-5):
             break
-    return loss(now), point
+    return loss(current), point
 
 
 # ---- Shots
@@ -160,12 +160,12 @@ class Shot:
 
     def use_until(self, time):
         """Counts the rows up to a time only."""
-        kept = [self.rows[ball][self.rows[ball][:, 0] <= time] for ball in self.names]
+        chosen = [self.rows[ball][self.rows[ball][:, 0] <= time] for ball in self.names]
         self.times, which = np.unique(
-            np.concatenate([rows[:, 0] for rows in kept]), return_inverse=True
+            np.concatenate([rows[:, 0] for rows in chosen]), return_inverse=True
         )
-        index = np.repeat(np.arange(len(kept)), [len(rows) for rows in kept])
-        self.which, self.film = (which, index), np.concatenate([rows[:, 1:] for rows in kept])
+        index = np.repeat(np.arange(len(chosen)), [len(rows) for rows in chosen])
+        self.which, self.film = (which, index), np.concatenate([rows[:, 1:] for rows in chosen])
 
     def errors(self, strike, **numbers):
         """carom's places less those of the film, m: x and y of each row."""
@@ -203,13 +203,13 @@ class Shot:
             self.follow_from([1.02 * self.speed, self.direction, f, 0, self.time], 12, **numbers)
             for f in (-1, -0.3, 0.4, 1)
         ]
-        found.sort(key=lambda one: one[0])
+        found.sort(key=lambda candidate: candidate[0])
         starts = [[*best[:3], side, best[4]] for _, best in found[:3] for side in (-0.6, 0, 0.6)]
-        for until, kept, turns in ((1.2, 6, 12), (2.2, 4, 12), (3.6, 3, 15), (np.inf, 1, 40)):
+        for until, chosen, turns in ((1.2, 6, 12), (2.2, 4, 12), (3.6, 3, 15), (np.inf, 1, 40)):
             self.use_until(self.time + until)
             found = [self.follow_from(start, turns, **numbers) for start in starts]
-            found.sort(key=lambda one: one[0])
-            starts = [best for _, best in found[:kept]]
+            found.sort(key=lambda candidate: candidate[0])
+            starts = [best for _, best in found[:chosen]]
         return found[0]
 
     def rms(self, strike, **numbers):
@@ -238,17 +238,17 @@ def jackknife(values):
     return np.sqrt((m - 1) / m * ((values - values.mean(0)) ** 2).sum(0))
 
 
-def normal_equations(shot, strike, now, free):
+def normal_equations(shot, strike, current, free):
     """Square and slope of a shot's loss by the constants, once the strike follows them."""
     step = np.array([FREE[name][0] for name in free])
 
     def slopes(change, point):
         return np.array([(change(d) - change(-d)) / 2 for d in np.diag(point)]).T
 
-    errors = shot.errors(strike, **now)
-    by_strike = slopes(lambda d: shot.errors(strike + d, **now), 10 * shot.STEP)
+    errors = shot.errors(strike, **current)
+    by_strike = slopes(lambda d: shot.errors(strike + d, **current), 10 * shot.STEP)
     by_number = slopes(
-        lambda d: shot.errors(strike, **{n: now[n] + c for n, c in zip(free, d)}), step
+        lambda d: shot.errors(strike, **{n: current[n] + c for n, c in zip(free, d)}), step
     )
 
     # rows that another course of the shot moves tell nothing of a small change
@@ -269,26 +269,26 @@ def normal_equations(shot, strike, now, free):
 def constants(shots, turns=5, free=tuple(FREE)):
     """{name: (built-in value, the films' value, its error)} and the strikes."""
     built_in = {name: getattr(ball(shots[0].game), name) for name in free}
-    now = {name: max(value, FREE[name][0]) for name, value in built_in.items()}
+    current = {name: max(value, FREE[name][0]) for name, value in built_in.items()}
     prior = np.array([FREE[name][1] for name in free]) ** -2.0
-    strikes = {shot.name: shot.strike(**now)[1] for shot in shots}
+    strikes = {shot.name: shot.strike(**current)[1] for shot in shots}
     for turn in range(turns):
         parts = []
         for shot in shots:
-            found = shot.follow_from(strikes[shot.name], 25, **now)
+            found = shot.follow_from(strikes[shot.name], 25, **current)
             if turn == 1:
-                found = min(found, shot.strike(**now), key=lambda one: one[0])
+                found = min(found, shot.strike(**current), key=lambda candidate: candidate[0])
             strikes[shot.name] = found[1]
-            parts.append(normal_equations(shot, found[1], now, free))
+            parts.append(normal_equations(shot, found[1], current, free))
         square, slope = (sum(part[k] for part in parts) for k in (0, 1))
         square = square + np.diag(prior)
-        slope = slope + prior * [now[name] - built_in[name] for name in free]
+        slope = slope + prior * [current[name] - built_in[name] for name in free]
         move = -np.linalg.solve(square, slope)
         without = [np.linalg.solve(square - A, g - slope) for A, g in parts]
         for name, change in zip(free, np.clip(0.8 * move, -0.04, 0.04)):
-            now[name] = min(max(now[name] + change, FREE[name][0]), 1)
+            current[name] = min(max(current[name] + change, FREE[name][0]), 1)
     error = jackknife(without)
-    return {name: (built_in[name], now[name], e) for name, e in zip(free, error)}, strikes
+    return {name: (built_in[name], current[name], e) for name, e in zip(free, error)}, strikes
 
 
 # ---- Free rolls
@@ -336,15 +336,15 @@ def rolls(tracks):
 def rolling(tracks):
     """mu_roll and drag with their errors, and the numbers of stretches and films."""
     found = list(rolls(tracks))
-    names = np.array([one[0] for one in found])
-    speed, slowing, variance = np.array([one[1:] for one in found]).T
+    names = np.array([candidate[0] for candidate in found])
+    speed, slowing, variance = np.array([candidate[1:] for candidate in found]).T
 
-    def fit(kept):
+    def fit(chosen):
         A = (
-            np.array([np.full(kept.sum(), G), speed[kept] ** 2]).T
-            / np.sqrt(variance[kept])[:, None]
+            np.array([np.full(chosen.sum(), G), speed[chosen] ** 2]).T
+            / np.sqrt(variance[chosen])[:, None]
         )
-        return np.linalg.lstsq(A, slowing[kept] / np.sqrt(variance[kept]), rcond=None)[0]
+        return np.linalg.lstsq(A, slowing[chosen] / np.sqrt(variance[chosen]), rcond=None)[0]
 
     films = sorted(set(names))
     errors = jackknife([fit(names != film) for film in films])
@@ -391,19 +391,19 @@ def impacts(rows, width, length, radius):
             k += 1
             if not turns:
                 continue
-            before, after = rows[max(0, k - 7) : k - 1], rows[k : k + 5]
-            gaps = np.ptp(before[:, 0]), np.ptp(after[:, 0]), rows[k, 0] - rows[k - 2, 0]
+            incoming, outgoing = rows[max(0, k - 7) : k - 1], rows[k : k + 5]
+            gaps = np.ptp(incoming[:, 0]), np.ptp(outgoing[:, 0]), rows[k, 0] - rows[k - 2, 0]
             if (np.array(gaps) > np.array([8, 7, 3.2]) * interval).any():
                 continue
 
             # straight lines through what does not touch the cushion
-            before, after = (
-                part[abs(part[:, 1 + axis] - wall) > 0.004] for part in (before, after)
+            incoming, outgoing = (
+                part[abs(part[:, 1 + axis] - wall) > 0.004] for part in (incoming, outgoing)
             )
-            if min(len(before), len(after)) < 3:
+            if min(len(incoming), len(outgoing)) < 3:
                 continue
-            v, off_before = line(before, before[-1, 0])
-            u, off_after = line(after, after[0, 0])
+            v, off_before = line(incoming, incoming[-1, 0])
+            u, off_after = line(outgoing, outgoing[0, 0])
             if max(off_before, off_after) > 0.004:
                 continue
             along = np.sign(v[1 - axis]) or 1
@@ -416,9 +416,9 @@ def impacts(rows, width, length, radius):
 WIDE = (4, 8)  # m: a table on which a ball meets one cushion only
 
 
-def seen(game, radius, before, side=0, **numbers):
+def seen(game, radius, incoming, side=0, **numbers):
     """The mean velocity that the film would see after an impact of a ball that rolls."""
-    x, y = before
+    x, y = incoming
     spin = np.array([-y, x, side * np.hypot(x, y)]) / radius
     start = (WIDE[0] - radius - 1e-4, 2, radius)
     rolls = published.shot_ball(start, (x, y, 0), spin, game, **{"radius": radius, **numbers})
@@ -465,7 +465,7 @@ def hits(tracks):
             continue
 
         # the first five rows of the ball that moves first, away from cushions
-        _, first, rows, gone = min(found, key=lambda one: one[0])
+        _, first, rows, gone = min(found, key=lambda candidate: candidate[0])
         part = slice(first, first + 5)
         x, y = rows[part, 1:].T
         free = np.minimum.reduce([x, width - x, y, length - y]) > radius + 0.02
@@ -477,11 +477,11 @@ def hits(tracks):
         way /= np.hypot(*way)
 
         # the cue ball at that time, by the parabola of the rows before
-        before = cue[(cue[:, 0] < start - 0.2 * interval) & (cue[:, 0] > start - 8.5 * interval)]
-        if len(before) < 6 or start - before[-1, 0] > 3 * interval:
+        incoming = cue[(cue[:, 0] < start - 0.2 * interval) & (cue[:, 0] > start - 8.5 * interval)]
+        if len(incoming) < 6 or start - incoming[-1, 0] > 3 * interval:
             continue
-        fitted, off, _ = parabola(before)
-        v = fitted[1] + 2 * fitted[2] * (start - before[:, 0].mean())
+        fitted, off, _ = parabola(incoming)
+        v = fitted[1] + 2 * fitted[2] * (start - incoming[:, 0].mean())
         along = v @ way
         if off.std() < 0.004 and along > 0.3:
             cut = np.degrees(np.arccos(min(along / np.hypot(*v), 1)))
@@ -544,13 +544,13 @@ def impacts_by_laws(tracks):
                 # a ball that loses more has met another ball
                 if not rolls or game != GAME_SNOOKER or np.hypot(*u) < 0.4 * np.hypot(*v):
                     continue
-                after = [u]
+                outgoing = [u]
                 for model, _ in SNOOKER.values():
                     kind = kind_for(GAME_SNOOKER, model)
                     on_table({name: getattr(kind, name) for name, *_ in kind._fields_}, model)
-                    after.append(seen(GAME_SNOOKER, size[2], v))
+                    outgoing.append(seen(GAME_SNOOKER, size[2], v))
                 on_table({}, 0)
-                motions = [(v[0], v[1])] + [(-w[0], w[1]) for w in after]
+                motions = [(v[0], v[1])] + [(-w[0], w[1]) for w in outgoing]
                 angles = [np.degrees(np.arctan2(along, across)) for across, along in motions]
                 cells = [f"{np.hypot(*w):.2f}, {a:.0f}" for w, a in zip(motions, angles)]
                 row(f"{name} {label}", *cells)

@@ -17,7 +17,7 @@ def filmed(player, kinds, times, seed):
     random = np.random.default_rng(seed)
     table = _constants.ground(TABLE, RADIUS).table
     shots = []
-    for kind in range(kinds):
+    for _ in range(kinds):
         places = np.array([[0.5, 0.4], [1.2, 0.7], [2.3, 1.1]]) + random.uniform(
             -0.15, 0.15, (3, 2)
         )

@@ -65,9 +65,9 @@ def test_what_shots_do_not_tell_is_said(few):
 def test_designed_shots_tell_it(few):
     designed, random = few.design(2, seed=1), np.random.default_rng(7)
     for shot in designed:
-        assert all(shot.after[name] <= shot.before[name] * 1.0001 for name in FREE)
+        assert all(shot.new_errors[name] <= shot.old_errors[name] * 1.0001 for name in FREE)
         assert re.match(r"cue ball at \d\.\d\d, \d\.\d\d m, a ball at .* errors fall: ", str(shot))
-    assert designed[0].after["mu_spin"] < 0.1 * designed[0].before["mu_spin"]
+    assert designed[0].new_errors["mu_spin"] < 0.1 * designed[0].old_errors["mu_spin"]
     further = [recorded(10 + k, shot.places, shot.cue, random) for k, shot in enumerate(designed)]
     whole = of([*few.recordings, *further], constants=few.constants)
     low, high = whole.intervals["mu_spin"]

@@ -127,12 +127,12 @@ def track(
         The file cannot be read.
     """
     clip, bed = FilePath(clip), bed_of(table)
-    given = None if corners is None else _corners(corners)
+    known = None if corners is None else _corners(corners)
     first = _first(clip, start, end)
-    camera, depths, evidence = calibrated(first, bed, given, focal, lens)
-    if given is None and turned is None and table == "snooker":
+    camera, depths, evidence = calibrated(first, bed, known, focal, lens)
+    if known is None and turned is None and table == "snooker":
         turned = _spots_turned(first, camera, bed, depths)
-    if given is None and _turns_round(camera, bed) != bool(turned):
+    if known is None and _turns_round(camera, bed) != bool(turned):
         camera, depths, evidence = calibrated(first, bed, None, focal, lens, half_turn=True)
     seen = _Seen(Cloth(first, camera, bed, depths))
     seen.read(clip, start, end, progress)
@@ -141,7 +141,7 @@ def track(
     paths = linked([seen.blobs[k] for k in new], clock.times, bed.radius)
     paths = [path for path in paths if np.mean(bed.near_pocket(path.places)) < 0.8]
     if not paths:
-        where = "" if given is None else " whose noses meet at the given corners"
+        where = "" if known is None else " whose noses meet at the given corners"
         raise FilmError(f"{clip}: no ball is found; is there a {table} table{where}, with balls?")
 
     _name(table, paths)
@@ -212,7 +212,7 @@ class _Seen:
 
     def read(self, clip: FilePath, start: float, end: float, progress: Progress | None) -> None:
         """Reads until the film ends, or the table is gone."""
-        before, hidden, seen, away = None, list[float](), math.nan, 0
+        previous, hidden, seen, away = None, list[float](), math.nan, 0
         for t, share, picture in pictures(clip, start, end):
             part = picture[self.cloth.part]
             distance = self.cloth.distance(picture)
@@ -224,10 +224,10 @@ class _Seen:
                 hidden.append(t)
                 away += 1
             self.times.append(t)
-            self.changes.append(0.0 if before is None else change(before, part))
+            self.changes.append(0.0 if previous is None else change(previous, part))
             self.blobs.append(rows)
             self.foreign.append(foreign)
-            before = part
+            previous = part
             if hidden and t - hidden[0] > _AWAY:
                 self._end(hidden[0], len(hidden))
                 away -= len(hidden)
@@ -341,35 +341,37 @@ def _told(
 ) -> list[str]:
     """The calibration in sentences."""
     edges = [rows for rows in evidence if rows.sides[0] >= 0.0]
-    told = []
+    sentences = []
     misfits = [np.abs(rows.residuals(camera, depths)) for rows in edges]
     if misfits:
-        told.append(
+        sentences.append(
             f"the edges of the cloth fit to {1e3 * np.median(np.concatenate(misfits)):.1f} mm"
         )
     if marks:
         misfit = np.abs([rows.residuals(camera, depths)[0] for rows in marks])
-        told.append(
+        sentences.append(
             f"{len(marks)} turns at cushions and coordinates of spots fit to {1e3 * np.median(misfit):.1f} mm (median)"
         )
     if len(edges) < 3:
-        told.append("fewer than three edges of the cloth are found: a moved camera goes unnoticed")
+        sentences.append(
+            "fewer than three edges of the cloth are found: a moved camera goes unnoticed"
+        )
     if not marks:
-        told.append(
+        sentences.append(
             f"no ball turned at a cushion: the cushions are taken as {1e3 * depths.mean():.0f} mm deep, "
             "and places may be too far out or in by some mm"
         )
     if np.abs(depths - bed.depth).max() > _ODD:
-        told.append(
+        sentences.append(
             f"the cushions come out {1e3 * depths.min():.0f} to {1e3 * depths.max():.0f} mm deep, not "
             f"{1e3 * bed.depth:.0f}: does the outline of --check lie on the noses?"
         )
     x, y, z = camera.eye
-    told.append(
+    sentences.append(
         f"the camera is at x = {x:.2f}, y = {y:.2f} m, {z:.2f} m above the slate; focal length "
         f"{camera.focal:.0f} pixels, k1 = {camera.numbers[7]:.3f}"
     )
-    return told
+    return sentences
 
 
 def _rows(path: Path, times: Doubles, bed: Bed) -> tuple[Doubles, int]:

@@ -56,8 +56,8 @@ def quadrilateral(picture: Picture) -> Doubles:
     a, b = vivid.T.astype(np.float64)
     counts, _, _ = np.histogram2d(a, b, bins=[bins, bins])
     peak = 4.0 * np.array(np.unravel_index(counts.argmax(), counts.shape)) + 2.0
-    near = vivid[np.abs(vivid - peak).max(axis=1) < 14]
-    away = np.abs(lab[..., 1:] - np.median(near, axis=0)).max(axis=2)
+    close = vivid[np.abs(vivid - peak).max(axis=1) < 14]
+    away = np.abs(lab[..., 1:] - np.median(close, axis=0)).max(axis=2)
     mask = cv2.morphologyEx((away < 14).astype(np.uint8), cv2.MORPH_OPEN, np.ones((5, 5), np.uint8))
     # a dark line under a nose does not part its cushion from the bed
     wide = np.ones((height // 60, height // 60), np.uint8)
@@ -119,10 +119,10 @@ def _crossings(sides: Doubles, outline: Doubles) -> Doubles:
         place, normal = a, np.array([a[1] - b[1], b[0] - a[0]]) / length
         # the corners of the polygon are rough, so the first line looks farther
         for reach in (0.05 * length, 0.02 * length, 3.0):
-            near = outline[middle & (np.abs((outline - place) @ normal) < reach)]
-            if len(near) < 10:
+            close = outline[middle & (np.abs((outline - place) @ normal) < reach)]
+            if len(close) < 10:
                 return np.zeros((0, 2))
-            line = cv2.fitLine(near.astype(np.float32), cv2.DIST_HUBER, 0, 0.01, 0.01).ravel()
+            line = cv2.fitLine(close.astype(np.float32), cv2.DIST_HUBER, 0, 0.01, 0.01).ravel()
             place, normal = line[2:].astype(np.float64), np.array([-line[1], line[0]], np.float64)
         lines.append((normal, normal @ place))
     pairs = [(lines[k - 1], lines[k]) for k in range(4)]
@@ -297,8 +297,8 @@ class Cloth:
         way = colours[rows, np.minimum(k + 5, last)] - inner
         share = ((colours - inner[:, None]) * way[:, None]).sum(axis=2)
         share /= np.maximum((way**2).sum(axis=1), 1.0)[:, None]
-        near = np.abs(np.arange(last) - k[:, None]) < 4
-        half = (share[:, :-1] < 0.5) & (share[:, 1:] >= 0.5) & near
+        close = np.abs(np.arange(last) - k[:, None]) < 4
+        half = (share[:, :-1] < 0.5) & (share[:, 1:] >= 0.5) & close
         j = np.argmax(half, axis=1)
         a, b = share[rows, j], share[rows, j + 1]
         place = j + (0.5 - a) / np.maximum(b - a, 1e-6) - _REACH
@@ -308,8 +308,8 @@ class Cloth:
     def is_seen(self, picture: Picture, distance: Doubles) -> bool:
         """Whether at least three edges are where they were."""
         moved = np.abs(self.edge_offsets(picture, distance) - self.edges)
-        near = (moved < _NEAR).sum(axis=1)
-        return int((near >= _SEEN * np.isfinite(self.edges).sum(axis=1)).sum()) >= 3
+        close = (moved < _NEAR).sum(axis=1)
+        return int((close >= _SEEN * np.isfinite(self.edges).sum(axis=1)).sum()) >= 3
 
     def evidence(self) -> list[Evidence]:
         """The edges as evidence about the camera."""
@@ -336,7 +336,7 @@ def calibrated(
     the depths of the cushions, and the evidence. A table that is found may lie either way.
     """
     size = picture.shape[1], picture.shape[0]
-    given: list[Evidence] = []
+    known: list[Evidence] = []
     best: tuple[float, Camera, Doubles, list[Evidence]] | None = None
     if corners is None:
         outer = np.roll(quadrilateral(picture), 2 * half_turn, axis=0)
@@ -345,11 +345,11 @@ def calibrated(
         outer, away = corners, np.zeros((4, 2))
         for axis in np.eye(2):
             normals, target = np.tile(axis, (4, 1)), bed.corners @ axis
-            given.append(Evidence.uniform(corners, bed.nose, normals, target, (1.5, 0.0)))
+            known.append(Evidence.uniform(corners, bed.nose, normals, target, (1.5, 0.0)))
     # which side of the picture is which of the table: the way that fits better
     for start in range(2 if corners is None else 1):
         camera = begin(np.roll(outer, -start, axis=0), bed.corners + away, bed.nose, size)
-        evidence = list(given)
+        evidence = list(known)
         if corners is None:
             shares = np.linspace(0.1, 0.9, 9)[:, None]
             for side in range(4):
@@ -358,15 +358,15 @@ def calibrated(
                 evidence.append(bed.edge(side, pixels, (3.0, 0.0)))
         camera, depths, cost = fit(camera, Evidence.join(evidence), bed.depth, focal, lens)
         if best is None or cost < best[0]:
-            best = cost, camera, depths, evidence[len(given) :]
+            best = cost, camera, depths, evidence[len(known) :]
     assert best is not None
     _, camera, depths, rough = best
     # the edges are found anew where the better camera expects them; of one that is not, the rough
     # line stands
-    evidence = given
+    evidence = known
     for _ in range(4):
         fine = Cloth(picture, camera, bed, depths).evidence()
         sides = {float(rows.sides[0]) for rows in fine}
-        evidence = [*given, *fine, *(rows for rows in rough if rows.sides[0] not in sides)]
+        evidence = [*known, *fine, *(rows for rows in rough if rows.sides[0] not in sides)]
         camera, depths, _ = fit(camera, Evidence.join(evidence), bed.depth, focal, lens)
     return camera, depths, evidence

@@ -67,12 +67,12 @@ def linked(found: list[NDArray[np.void]], times: Doubles, radius: float) -> list
                 live[i].numbers.append(k)
                 live[i].blobs.append(blobs[j])
         new = [Path([k], [blobs[j]]) for j in range(len(blobs)) if j not in used]
-        kept: list[Path] = []
+        alive: list[Path] = []
         for path in live:
             hidden = times[k] - times[path.numbers[-1]]
             rests = not path.velocity(times).any() and len(path.numbers) > 5
-            (kept if hidden < _HIDDEN or rests else done).append(path)
-        live = kept + new
+            (alive if hidden < _HIDDEN or rests else done).append(path)
+        live = alive + new
     return _joined(done + live, times)
 
 
@@ -89,24 +89,24 @@ def _joined(paths: list[Path], times: Doubles) -> list[Path]:
     ]
     pairs = []
     for i, path in enumerate(paths):
-        for j, other in enumerate(paths):
-            gap = float(times[other.numbers[0]] - times[path.numbers[-1]])
-            way = float(np.hypot(*(other.blobs[0]["place"] - path.blobs[-1]["place"])))
-            alike = _difference(other.blobs[0], path.blobs[-1]) < _ALIKE
+        for j, second in enumerate(paths):
+            gap = float(times[second.numbers[0]] - times[path.numbers[-1]])
+            way = float(np.hypot(*(second.blobs[0]["place"] - path.blobs[-1]["place"])))
+            alike = _difference(second.blobs[0], path.blobs[-1]) < _ALIKE
             if 0.0 < gap < _LOST and way < _FASTEST * gap and alike:
                 pairs.append((gap + way, i, j))
-    after: dict[int, int] = {}
+    following: dict[int, int] = {}
     for _, i, j in sorted(pairs):
-        if i not in after and j not in after.values():
-            after[i] = j
+        if i not in following and j not in following.values():
+            following[i] = j
     # later parts are added to the first of each chain
-    for i in sorted(set(range(len(paths))) - set(after.values())):
+    for i in sorted(set(range(len(paths))) - set(following.values())):
         part = i
-        while part in after:
-            part = after[part]
+        while part in following:
+            part = following[part]
             paths[i].numbers += paths[part].numbers
             paths[i].blobs += paths[part].blobs
-    later = set(after.values())
+    later = set(following.values())
     return [path for i, path in enumerate(paths) if i not in later]
 
 
@@ -136,11 +136,11 @@ def _pairs(
     return pairs
 
 
-def _difference(blob: np.void, other: np.void) -> float:
+def _difference(blob: np.void, second: np.void) -> float:
     """Of two colours, levels. A ball that rolls shows more or less of its white."""
-    levels = float(np.abs(blob["colour"] - other["colour"]).max())
-    plain = 1.0 - max(float(blob["white"]), float(other["white"]))
-    turned = abs(float(blob["white"] - other["white"]))
+    levels = float(np.abs(blob["colour"] - second["colour"]).max())
+    plain = 1.0 - max(float(blob["white"]), float(second["white"]))
+    turned = abs(float(blob["white"] - second["white"]))
     return 1.3 * plain * levels + 150.0 * max(turned - 0.4, 0.0)
 
 
@@ -170,8 +170,8 @@ def spans(paths: list[Path], times: Doubles, noise: float) -> list[tuple[float, 
     ends = [float(times[0]), *(end for _, end in shots)]
     begins = [*(begin for begin, _ in shots), np.inf]
     return [
-        (max(begin - _BEFORE, before), min(end + _AFTER, after))
-        for (begin, end), before, after in zip(shots, ends, begins[1:])
+        (max(begin - _BEFORE, preceding), min(end + _AFTER, following))
+        for (begin, end), preceding, following in zip(shots, ends, begins[1:])
     ]
 
 
@@ -207,10 +207,10 @@ def turns(
                 later = (x[k + 1] - x[k - 1] - 2.0 * step * w) / (step * (v - w))
                 if not 0.4 < later < 1.6:
                     continue
-                before = places[k - 1] + later * (places[k - 1] - places[k - 2])
-                after = places[k + 1] + (later - 2.0) * (places[k + 2] - places[k + 1])
+                preceding = places[k - 1] + later * (places[k - 1] - places[k - 2])
+                following = places[k + 1] + (later - 2.0) * (places[k + 2] - places[k + 1])
                 bends = np.diff(places[[k - 3, k - 2, k - 1, k + 1, k + 2, k + 3]], 2, axis=0)
                 if np.abs(bends[[0, 3]]).max() > _STRAIGHT:
                     continue
-                found.append((side, 0.5 * (before + after)))
+                found.append((side, 0.5 * (preceding + following)))
     return found

@@ -39,18 +39,22 @@ class Design:
 
     places: Doubles  # (2, 2): Of the cue ball and of an object ball, m
     cue: Records  # The stroke, as `carom.simulate` takes it
-    before: dict[str, float]  # The standard error of each constant without the shot,
-    after: dict[str, float]  # and with it and the shots before it
+    old_errors: dict[str, float]  # The standard error of each constant without the shot,
+    new_errors: dict[str, float]  # and with it and the shots before it
 
     def __str__(self) -> str:
         (x, y), (p, q) = self.places
         right, above = 0.0 - float(self.cue["a"]), float(self.cue["b"])
-        gains = sorted(self.before, key=lambda name: self.after[name] / self.before[name])
-        told = ", ".join(f"{k} {self.before[k]:.2g} to {self.after[k]:.2g}" for k in gains[:3])
+        gains = sorted(
+            self.old_errors, key=lambda name: self.new_errors[name] / self.old_errors[name]
+        )
+        gain = ", ".join(
+            f"{k} {self.old_errors[k]:.2g} to {self.new_errors[k]:.2g}" for k in gains[:3]
+        )
         return (
             f"cue ball at {x:.2f}, {y:.2f} m, a ball at {p:.2f}, {q:.2f} m, direction "
             f"{float(self.cue['phi']):.0f} degrees, cue {float(self.cue['speed']):.1f} m/s, tip "
-            f"{right:+.1f} R right and {above:+.1f} R above; errors fall: {told}"
+            f"{right:+.1f} R right and {above:+.1f} R above; errors fall: {gain}"
         )
 
 
@@ -126,20 +130,20 @@ def design(fit: Any, count: int, seed: int) -> list[Design]:
         places, stroke = _drawn(fit, random)
         try:
             shot, strike = _recorded(fit, places, stroke)
-            told = _information(fit, names, scale, shot, strike) / variance
+            gain = _information(fit, names, scale, shot, strike) / variance
         except (CaromError, ValueError):
             continue  # a ball of the drawn layout has no room, or its play has no derivatives
-        candidates.append((places, stroke, told))
+        candidates.append((places, stroke, gain))
 
     chosen = []
     inverse = np.linalg.inv(known)
     for _ in range(count):
-        left = [np.linalg.inv(inverse + told).trace() for _, _, told in candidates]
-        places, stroke, told = candidates.pop(int(np.argmin(left)))
-        before, inverse = np.linalg.inv(inverse), inverse + told
+        left = [np.linalg.inv(inverse + gain).trace() for _, _, gain in candidates]
+        places, stroke, gain = candidates.pop(int(np.argmin(left)))
+        old_errors, inverse = np.linalg.inv(inverse), inverse + gain
         errors = [
             dict(zip(names, (scale * np.sqrt(part.diagonal())).tolist()))
-            for part in (before, np.linalg.inv(inverse))
+            for part in (old_errors, np.linalg.inv(inverse))
         ]
         chosen.append(Design(places, stroke, *errors))
     return chosen

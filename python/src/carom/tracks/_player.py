@@ -33,7 +33,7 @@ from carom.layouts import balls, cue, struck
 
 NEAR, _TURNED, _FASTER = 0.03, 6.0, 0.3  # of strokes alike: places, m; degrees; of the speed
 LEAST = 4  # strokes beyond the first of their groups
-_RATINGS: Doubles = np.arange(200.0, 851.0, 2.0)
+_RATINGS: Doubles = np.arange(200.0, 851.0, 2.0, dtype=np.float64)
 _NAMES = ("speed_share", "phi", "a", "b")
 _MOST = np.array([0.5, 10.0, 0.5, 0.5])  # of each error that is likely
 _GRID = 400

@@ -424,7 +424,7 @@ def fit(
     )
     sought = _priors([] if free[0] in ("none", "events") else free, priors or {}, values)
     values |= {name: values.get(name, 0.0) for name in _constants.SLOPE if name in sought}
-    told = _Told(values, {})
+    outcome = _Told(values, {})
     status = [_status(shot, radius) for shot in recordings]
     played = [k for k, text in enumerate(status) if text != "no ball moves"]
     fitted = [k for k in played if status[k] == "ok" and (train is None or k in set(train))]
@@ -446,11 +446,11 @@ def fit(
             saved,
         )
         if free[0] in ("events", "default"):
-            told = _Told(*_fit_to_events(job, fitted, values, remarks))
+            outcome = _Told(*_fit_to_events(job, fitted, values, remarks))
         if free[0] not in ("none", "events") and fitted:
-            told = _fit_to_shots(job, fitted, told.values, told.spread, remarks)
-        plays, strikes[played], rmse[played] = _strike(job, played, told.values)
-        if told.values != values and fitted:
+            outcome = _fit_to_shots(job, fitted, outcome.values, outcome.spread, remarks)
+        plays, strikes[played], rmse[played] = _strike(job, played, outcome.values)
+        if outcome.values != values and fitted:
             # constants that play the shots worse than those that were given are not taken
             begun = _strike(job, played, values)
             medians = [
@@ -459,7 +459,7 @@ def fit(
             ]
             if _WORSE * medians[0] < medians[1]:
                 plays, strikes[played], rmse[played] = begun
-                told = _Told(values, {})
+                outcome = _Told(values, {})
                 remarks.append(
                     f"the constants that were found play the shots worse, to a median RMSE of "
                     f"{1e3 * medians[1]:.2f} mm, than those that were given, {1e3 * medians[0]:.2f} mm: "
@@ -478,17 +478,17 @@ def fit(
         table,
         radius,
         cushion_model,
-        told.values,
-        told.spread,
+        outcome.values,
+        outcome.spread,
         strikes,
         status,
         rmse,
         part,
-        told.names,
-        told.covariance,
+        outcome.names,
+        outcome.covariance,
         remarks,
         ground.game,
-        dict(told.intervals),
+        dict(outcome.intervals),
     )
     if found.median_rmse > _MANY * noise:
         causes = " and ".join(examination.causes)
