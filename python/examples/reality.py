@@ -297,8 +297,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--pictures", type=Path, metavar="FOLDER")
     options = parser.parse_args(arguments)
-    recordings = carom.tracks.read(options.tracks, table=options.table, radius=options.radius)
-    recordings = [shot for shot in recordings if np.isfinite(shot.moves).any()]
+    reading = carom.tracks.read(options.tracks, table=options.table, radius=options.radius)
+    recordings = [shot for shot in reading if np.isfinite(shot.moves).any()]
     models = options.models.split(",")
     if options.forecast:
         forecasts(

@@ -1076,8 +1076,8 @@ export class Carom {
     this.#writeShot(shot.count);
     const { f64 } = this.#memory;
     f64[(this.#addresses.shot + SHOT.offset.time) / 8] = shot.time;
-    f64[(this.#addresses.shot + SHOT.offset.slope_x) / 8] = shot.table.slope_x ?? 0;
-    f64[(this.#addresses.shot + SHOT.offset.slope_y) / 8] = shot.table.slope_y ?? 0;
+    f64[(this.#addresses.shot + SHOT.offset.slopeX) / 8] = shot.table.slopeX ?? 0;
+    f64[(this.#addresses.shot + SHOT.offset.slopeY) / 8] = shot.table.slopeY ?? 0;
     this.#resident = shot;
   }
 
