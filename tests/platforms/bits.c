@@ -406,8 +406,10 @@ static void shots(void) {
        * fourth with the butt raised */
       const int count = carom_rack_size(games[g].rack);
       carom_rack(games[g].rack, &table, k == 1 ? 0.0 : 1e-4, (uint64_t)k, balls, count);
-      for (int i = 0; i < count; i++)
+      for (int i = 0; i < count; i++) {
         balls[i].kind = carom_ball_kind_of(games[g].game);
+        balls[i].state.r[2] = balls[i].kind.radius;
+      }
       carom_cue cue = carom_cue_of(games[g].game);
       cue.speed = between(0.5, 8.5);
       cue.phi =
@@ -417,6 +419,11 @@ static void shots(void) {
       cue.b = between(-0.4, 0.4);
       carom_shot shot = {.events = events, .room = ROOM, .final = final};
       const carom_status status = carom_shoot(&table, balls, count, &cue, &options, &shot);
+      /* the bits of a refusal say nothing of shots */
+      if (status < 0) {
+        fprintf(stderr, "%s: %s\n", games[g].name, carom_status_string(status));
+        exit(1);
+      }
       hash = add_shot(hash, &shot, count, status);
       if (carom_shot_at(balls, count, &shot, 1.25, later) == CAROM_OK)
         for (int i = 0; i < count; i++)

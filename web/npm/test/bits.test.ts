@@ -101,7 +101,10 @@ function shots(carom: Carom, keys: string[]): Map<string, string> {
       for (let k = 0; k < 4; k++) {
         const balls = carom.rack(rackName, table, { gap: k === 1 ? 0 : 1e-4, seed: k });
         const kind = carom.kind(game);
-        for (const ball of balls) ball.kind = kind;
+        for (const ball of balls) {
+          ball.kind = kind;
+          ball.r[2] = kind.radius;
+        }
         const speed = draws.uniform(0.5, 8.5);
         const phi = rackName === "threecushion" ? draws.uniform(0, 360) : draws.uniform(80, 100);
         const theta = k === 3 ? draws.uniform(0, 60) : 2;
