@@ -110,7 +110,7 @@ static double run_out(const curve *f, const double u[2], double q, double way[2]
 
 /* From u on for a time, by steps of order 4: u there, and the way. */
 static void run_on(const curve *f, double T, double u[2], double way[2]) {
-  const double h = T / RUNGE_STEPS;
+  const double h = T / (double)RUNGE_STEPS;
   way[0] = way[1] = 0.0;
   for (int n = 0; n < RUNGE_STEPS; n++) {
     double rate[4][2], v[2];

@@ -39,7 +39,11 @@ SOLVERS = {
 FOLDERS = [ROOT / folder for folder in ("src", "study/ladder")]
 # Tables of names and of citations, which decide nothing that is measured. Neither do the public
 # headers, which change with every new function.
-TABLES = {ROOT / "study/ladder/kernels.def", ROOT / "src/schema/sources.h"}
+TABLES = {
+    ROOT / "study/ladder/kernels.def",
+    ROOT / "src/schema/numbers.h",
+    ROOT / "src/schema/sources.h",
+}
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*|^# [^\n]*", re.S | re.M)
 
 
