@@ -28,7 +28,7 @@ function bitsOf(number) {
 const keys = (text) => text.split(" ");
 const NUMBERS = {
   recording: keys("format# revision#"),
-  table: keys("width length ball_radius rail_width pocket_back slope_x slope_y rails jaws pockets"),
+  table: keys("width length ball_radius rail_width pocket_back rails jaws pockets slope_x slope_y"),
   rails: keys("p*2 q*2 height line*3 side# mu_cushion restitution"),
   jaws: keys("centre*2 radius height mu_cushion restitution"),
   pockets: keys("centre*2 radius depth"),

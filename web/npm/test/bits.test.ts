@@ -103,7 +103,7 @@ function shots(carom: Carom, keys: string[]): Map<string, string> {
         const kind = carom.kind(game);
         for (const ball of balls) {
           ball.kind = kind;
-          ball.r[2] = kind.radius;
+          ball.state.r[2] = kind.radius;
         }
         const speed = draws.uniform(0.5, 8.5);
         const phi = rackName === "threecushion" ? draws.uniform(0, 360) : draws.uniform(80, 100);
