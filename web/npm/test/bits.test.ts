@@ -103,7 +103,8 @@ function shots(carom: Carom, keys: string[]): Map<string, string> {
         const kind = carom.kind(game);
         for (const ball of balls) {
           ball.kind = kind;
-          ball.state.r[2] = kind.radius;
+          const [x, y] = ball.state.r;
+          ball.state = { ...ball.state, r: [x, y, kind.radius] };
         }
         const speed = draws.uniform(0.5, 8.5);
         const phi = rackName === "threecushion" ? draws.uniform(0, 360) : draws.uniform(80, 100);
