@@ -23,6 +23,8 @@ _WHOLE = 0.72  # of a ball's area: a path of less is a shadow's or a mark's
 _STRAIGHT = 0.006  # m: second differences of rows that no event parts
 _PAUSE = 0.7  # s: balls that rest for longer separate two shots
 _LEAST = 0.03  # m: the longest way of a shot
+_PUT = 0.05  # m: a ball that is so much farther than it could have gone was put there
+_LIES, _CARRIED = 5, 1.0  # rows in which a ball lies; s in which none comes to rest 5 cm farther
 _BEFORE, _AFTER = 0.4, 0.2  # s of a shot before the first motion and after the last
 
 
@@ -144,10 +146,27 @@ def _difference(blob: np.void, second: np.void) -> float:
     return 1.3 * plain * levels + 150.0 * max(turned - 0.4, 0.0)
 
 
+def _layouts(paths: list[Path], times: Doubles) -> Doubles:
+    """When balls are put up anew, s: one is farther from its last place than any could go, or lies
+    elsewhere after a moment, without a stroke that it takes longer to come to rest from.
+    """
+    found = set[float]()
+    for path in paths:
+        t, places = times[path.numbers], path.places
+        ways, gaps = np.hypot(*np.diff(places, axis=0).T), np.diff(t)
+        for k in np.flatnonzero(ways > _PUT).tolist():
+            sides = places[max(k - _LIES, 0) : k + 1], places[k + 1 : k + 2 + _LIES]
+            lies = all(np.hypot(*np.ptp(side, axis=0)) < 0.2 * _PUT for side in sides)
+            if ways[k] > _FASTEST * gaps[k] + _PUT or (lies and gaps[k] < _CARRIED):
+                found.add(float(t[k + 1]))
+    return np.array(sorted(found))
+
+
 def spans(paths: list[Path], times: Doubles, noise: float) -> list[tuple[float, float]]:
-    """Begin and end of each shot, s: of the times when balls move."""
+    """Begin and end of each shot, s: of the times when balls move, between new layouts."""
     moving = np.zeros(len(times), bool)
     window, least = 0.2, 0.004 + 4.0 * noise
+    layouts = _layouts(paths, times)
     for path in paths:
         t, places = times[path.numbers], path.places
         grid = [np.interp(times, t, places[:, axis]) for axis in (0, 1)]
@@ -155,9 +174,13 @@ def spans(paths: list[Path], times: Doubles, noise: float) -> list[tuple[float, 
         moves = np.hypot(late[0] - grid[0], late[1] - grid[1]) > least
         moves &= (times >= t[0]) & (times <= t[-1])
         moving |= moves
+    # how balls are put up is no motion
+    number = np.searchsorted(layouts, times, side="right")
+    moving &= number == np.searchsorted(layouts, times + window, side="right")
     runs: list[list[float]] = []
     for t in times[moving]:
-        if runs and t - runs[-1][1] < _PAUSE:
+        laid = runs and not ((layouts > runs[-1][1]) & (layouts <= t)).any()
+        if laid and t - runs[-1][1] < _PAUSE:
             runs[-1][1] = float(t)
         else:
             runs.append([float(t), float(t)])
@@ -169,10 +192,12 @@ def spans(paths: list[Path], times: Doubles, noise: float) -> list[tuple[float, 
     # a shot has no row of its neighbours'
     ends = [float(times[0]), *(end for _, end in shots)]
     begins = [*(begin for begin, _ in shots), np.inf]
-    return [
-        (max(begin - _BEFORE, preceding), min(end + _AFTER, following))
-        for (begin, end), preceding, following in zip(shots, ends, begins[1:])
-    ]
+    found = []
+    for (begin, end), preceding, following in zip(shots, ends, begins[1:]):
+        low = max([preceding, *layouts[layouts <= begin]])
+        high = min([following, *(layouts[layouts > begin] - 1e-6)])
+        found.append((max(begin - _BEFORE, low), min(end + _AFTER, high)))
+    return found
 
 
 def _way(path: Path, times: Doubles, begin: float, end: float) -> float:
