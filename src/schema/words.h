@@ -23,7 +23,7 @@
   WORD(CUSHION_LAW, CUSHION_LAW_CONSTANT, "constant", "restitution and friction as given")         \
   WORD(CUSHION_LAW, CUSHION_LAW_HAN, "han", "Han's fits over speed and angle")                     \
   WORD(GAME, GAME_POOL, "pool", "typical numbers of pool")                                         \
-  WORD(GAME, GAME_SNOOKER, "snooker", "snooker, in part measured on one table")                    \
+  WORD(GAME, GAME_SNOOKER, "snooker", "snooker, measured on films of broadcasts")                  \
   WORD(GAME, GAME_BILLIARD, "billiard", "three-cushion, measured on one table")                    \
   WORD(GAME, GAME_POOLTOOL_POOL, "pooltool_pool", "pooltool's numbers of pool")                    \
   WORD(GAME, GAME_POOLTOOL_SNOOKER, "pooltool_snooker", "pooltool's numbers of snooker")           \
