@@ -70,6 +70,24 @@ def test_the_player_is_that_of_plans(found):
     assert 0.0 < plans["value"][0] <= 1.0
 
 
+def test_a_fit_without_a_player_is_written(found, tmp_path, capsys):
+    """What cannot be told costs its option, not the fit."""
+    rows = [
+        f"{shot.id},{ball},{t},{x},{y}\n"
+        for shot in found.recordings[::6]
+        for ball, track in zip(shot.balls, shot.tracks)
+        for t, x, y in track
+    ]
+    file, out = tmp_path / "tracks.csv", tmp_path / "fit.json"
+    file.write_text("shot,ball,t,x,y\n" + "".join(rows), encoding="utf-8")
+    asked = f"{file} --table 2.84,1.42 --radius {RADIUS} --free none --player --next 2 -o {out}"
+    assert fit.main(asked.split()) == 0
+    said = capsys.readouterr().err
+    assert "carom.fit: --player: groups: 0 strokes in 0 groups" in said
+    assert "carom.fit: --next: design: whole shots told no constants" in said
+    assert json.loads(out.read_text(encoding="utf-8"))["shots"]
+
+
 def test_strokes_that_repeat_nothing_tell_no_player(found):
     with pytest.raises(
         ValueError, match=r"^groups: 2 strokes in 1 groups tell no errors; a player"

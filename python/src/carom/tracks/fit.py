@@ -581,6 +581,17 @@ def _show(what: str, part: float) -> None:
     )
 
 
+def _asked(option: str, work: Callable[[], Any], is_asked: object) -> Any:
+    """What an option asks of a fit; None, after a word, where these shots do not tell it: the fit
+    itself is written all the same.
+    """
+    try:
+        return work() if is_asked else None
+    except ValueError as error:
+        print(f"carom.fit: --{option}: {error}", file=sys.stderr)
+        return None
+
+
 def _forecasts(found: Fit, duration: float, seed: int) -> list[Forecast]:
     """Of the shots that the constants were not fitted to, or of all; without those of which nothing
     is known after the first seconds.
@@ -752,8 +763,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 _summary.page(found, options.tracks.name, kicks, seen), encoding="utf-8"
             )
         written = found.to_dict(kicks)
-        further = found.design(options.next, seed=options.seed) if options.next else []
-        player = found.player() if options.player else None
+        further = _asked(
+            "next", lambda: found.design(options.next, seed=options.seed), options.next
+        )
+        player = _asked("player", found.player, options.player)
         if player is not None:
             written["player"] = player.to_dict()
         if options.forecast:
@@ -781,7 +794,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for name, interval in found.intervals.items():
         if interval is not None:
             print(f"{name} {found.constants[name]:.4g} ({interval[0]:.4g} to {interval[1]:.4g})")
-    for number, shot in enumerate(further, 1):
+    for number, shot in enumerate(further or [], 1):
         print(f"next {number}: {shot}")
     if player is not None:
         print(player)
