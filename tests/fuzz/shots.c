@@ -238,10 +238,11 @@ static void check_play(const carom_shot *shot) {
     fail("carom_shot_at_times does not know a shot all of whose events were kept");
 
   /* What lies on the cloth at any time is a layout that may be played: nothing is in a cushion,
-   * in a pocket or outside. Balls that leave a cluster may overlap for a moment. */
+   * in a pocket or outside. Balls that leave a cluster may overlap for a moment: two of a rack
+   * that part at 3 mm/s did so, by 61 um, after 39 ms. */
   const int look = choice(looks);
   for (int64_t k = 0; k < shot->count; k++)
-    if (shot->events[k].cluster > 0 && fabs(times[look] - shot->events[k].time) < 5e-3)
+    if (shot->events[k].cluster > 0 && fabs(times[look] - shot->events[k].time) < 0.1)
       return;
   static carom_shot_ball there[MOST];
   memcpy(there, balls, (size_t)count * sizeof *there);
