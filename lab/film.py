@@ -1,5 +1,5 @@
-"""film.py LIBRARY MEASURED.csv, which `carom-lab published --film` runs: filmed shots
-(film.csv beside measured.csv) beside those of carom, in tables of Markdown.
+"""film.py LIBRARY FILM.csv, which `carom-lab published --film FILM.csv` runs: filmed shots beside
+those of carom, in tables of Markdown. data/README.md has the columns.
 
 1. Each shot with its strike alone fitted: speed, direction, follow, side and the time of the
    strike. The loss is robust: an error e counts as 2 (sqrt(1 + (e/s)^2) - 1) with s = 4 mm.
@@ -15,7 +15,6 @@ within two errors of its value, and refutes one beyond three.
 import csv
 import ctypes
 import sys
-from pathlib import Path
 
 import numpy as np
 
@@ -497,6 +496,9 @@ def verdict(built_in, value, error):
 
 
 def judged(name, how, built_in, value, error):
+    if not error > 0:
+        row(name, f"{built_in:.4g}", "-", "not told", how)
+        return
     places = max(0, 1 - int(np.floor(np.log10(error))))
     film = f"{value:.{places}f} ± {error:.{places}f}"
     row(name, f"{built_in:.4g}", film, verdict(built_in, value, error), how)
@@ -557,7 +559,7 @@ def impacts_by_laws(tracks):
 
 
 if __name__ == "__main__":
-    TRACKS = read(Path(sys.argv[2]).parent / "film.csv")
+    TRACKS = read(sys.argv[2])
     SHOTS = [Shot(name, rows) for name, rows in TRACKS.items()]
     strikes(SHOTS)
     numbers([shot for shot in SHOTS if shot.name[0] == "s"], TRACKS)

@@ -9,7 +9,8 @@
 
 typedef struct published_job {
   shared_options shared;
-  bool csv, cushions, film;
+  bool csv, cushions;
+  const char *film;
 } published_job;
 
 OPTION(published_job, published_csv, "csv", csv, 0, NULL, set_flag, 0,
@@ -18,9 +19,9 @@ OPTION(
     published_job, published_cushions, "cushions", cushions, 0, NULL, set_flag, 0,
     "instead: tables of the cushions of pool and snooker (lab/cushions.py), which take a minute");
 
-OPTION(published_job, published_film, "film", film, 0, NULL, set_flag, 0,
-       "instead: the shots of film.csv beside those of carom, and what they tell of the numbers of "
-       "snooker (lab/film.py); half a minute");
+OPTION(published_job, published_film, "film", film, 0, "FILM.csv", set_text, 0,
+       "instead: filmed shots, rows shot,ball,t,x,y (data/README.md), beside those of carom, and "
+       "what they tell of the numbers of snooker (lab/film.py); half a minute for 21 shots");
 
 static const command_form form = {
     .name = "published",
@@ -44,12 +45,14 @@ int command_published(int argc, char **argv) {
   const char *module = "lab.published", *needs = "jinja2 pycparser";
   if (job.cushions)
     module = "lab.cushions";
-  if (job.film) {
-    module = "lab.film";
-    needs = "jinja2 numpy pycparser";
-  }
   char measured[PATH_MAX];
   snprintf(measured, sizeof measured, "%s/measured.csv", data_folder(job.shared.folder));
-  const char *const words[] = {LAB_LIBRARY, measured, text_if(job.csv, "csv"), NULL};
+  const char *input = measured;
+  if (job.film != NULL) {
+    module = "lab.film";
+    needs = "jinja2 numpy pycparser";
+    input = job.film;
+  }
+  const char *const words[] = {LAB_LIBRARY, input, text_if(job.csv, "csv"), NULL};
   return python_command(needs, module, words, job.shared.output);
 }

@@ -6,8 +6,8 @@
 
 For each model of the cushion, constants are fitted to every second shot and used for the others,
 and the other way round. The first table has the RMSE of the shots that the constants were not
-fitted to, of both halves: of each shot only the strike, six numbers, is fitted. Then follow the floor, which is the RMSE of a perfect model;
-how far single impacts are from each model, output by output; how the error grows with the part of a
+fitted to, of both halves: of each shot only the strike, six numbers, is fitted. Then follow the
+floor, which is the RMSE of a perfect model; how far single impacts are from each model, output by output; how the error grows with the part of a
 shot that the strike is fitted to; and the laws of single events. With --few N there is only what
 few shots tell of the table, over N draws of them, asked of the other half; with --forecast, how many places after the first
 seconds lie in the regions that `fit.forecast` gives. Markdown on standard output; the pictures are
@@ -77,10 +77,9 @@ def held_out(
             parts.append(100.0 * found.rmse[found.counts])
         rmse = np.concatenate(parts)
         figures = float(np.median(rmse)), float(np.percentile(rmse, 90)), float(rmse.mean())
-        print(
-            f"| {model} | {' | '.join(f'{value:.2f}' for value in figures)} | {len(rmse)} | {1e3 * spent / len(rmse):.0f} |",
-            flush=True,
-        )
+        cells = [f"{value:.2f}" for value in figures]
+        cells += [str(len(rmse)), f"{1e3 * spent / len(rmse):.0f}"]
+        print(f"| {model} | {' | '.join(cells)} |", flush=True)
         if best is None or figures[0] < best[0]:
             best = figures[0], fitted
     assert best is not None

@@ -51,9 +51,9 @@
  * by the rule of products |u| (A + h) falls at A^2 - c^2, and |u|^2 times a polynomial of e at the
  * components of u. A slope below mu_r and mu_s leaves c < 5/7 A, so every ball comes to rest.
  *
- * A pair ends where u is 0, in that state, if the place within it is good to 1e-5 m, and otherwise
- * after a part h of its speed, in the state of RUNGE_STEPS steps of Runge's and Kutta's method,
- * which is good to 1e-6 m. Its two accelerations are those of a pair with drag, as vectors.
+ * A pair ends in the state where u is 0, if the place within it is good to 1e-5 m. Otherwise it
+ * ends after a part h of its speed, in the state of RUNGE_STEPS steps of Runge's and Kutta's
+ * method, which is good to 1e-6 m. Its two accelerations are those of a pair with drag, as vectors.
  * tests/physics/slope.c measures both errors. With drag the last pair has A (1 + 0.35 y), y = k
  * q^2/A, and times that make it exact for c = 0; it comes when c k q^4/A^3 is below 1e-5 m. */
 #ifndef CAROM_SRC_MOTION_PATH_H

@@ -45,7 +45,7 @@ static void take_pool(carom_ball_kind *kind) {
   kind->roll_loss = 0.09;
 }
 
-/* From filmed shots (carom-lab published --film); mu_slide was measured on one table. */
+/* From filmed shots (data/README.md); mu_slide was measured on one table. */
 static void take_snooker(carom_ball_kind *kind) {
   kind->mu_slide = 2.075 / 9.81;
   kind->mu_roll = 0.0084;

@@ -390,7 +390,8 @@ def test_a_bent_picture_is_told_and_calibrated(bend):
     """By a lens or a camera that looks askew, as it bends the edges; corners are up to 2 cm off."""
     notes, mended = told_and_mended(angle=0.2, bend=bend)
     assert re.match(
-        r"the tracks lie turned by .* times as large as the table, bent by up to (1|2)\d\.\d mm as by a lens, and",
+        r"the tracks lie turned by .* times as large as the table, "
+        r"bent by up to (1|2)\d\.\d mm as by a lens, and",
         notes.warnings[0],
     )
     assert notes.median_rmse > 5e-3

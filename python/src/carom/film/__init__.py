@@ -350,7 +350,8 @@ def _told(
     if marks:
         misfit = np.abs([rows.residuals(camera, depths)[0] for rows in marks])
         sentences.append(
-            f"{len(marks)} turns at cushions and coordinates of spots fit to {1e3 * np.median(misfit):.1f} mm (median)"
+            f"{len(marks)} turns at cushions and coordinates of spots fit to "
+            f"{1e3 * np.median(misfit):.1f} mm (median)"
         )
     if len(edges) < 3:
         sentences.append(

@@ -66,7 +66,8 @@ def quadrilateral(picture: Picture) -> Doubles:
     largest = 1 + int(sizes[1:, cv2.CC_STAT_AREA].argmax()) if len(sizes) > 1 else 0
     if not largest or sizes[largest, cv2.CC_STAT_AREA] < _LEAST * height * width:
         raise FilmError(
-            f"no cloth is found: no piece of one colour covers {100 * _LEAST:.0f} % of the picture; --corners helps"
+            f"no cloth is found: no piece of one colour covers {100 * _LEAST:.0f} % of the picture; "
+            "--corners helps"
         )
     outlines, _ = cv2.findContours(
         (labels == largest).astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
@@ -233,7 +234,8 @@ class Cloth:
             good = (np.abs(b - A @ model) < limits).all(axis=1)
             if good.sum() < 0.3 * len(b):
                 raise FilmError(
-                    "most of the table has not one colour: are the --corners those of the noses, in the order that --help says?"
+                    "most of the table has not one colour: are the --corners those of the noses, "
+                    "in the order that --help says?"
                 )
             model = np.linalg.lstsq(A[good], b[good], rcond=None)[0].astype(np.float32)
             limits = np.maximum(4.0 * 1.4826 * np.median(np.abs(b - A @ model), axis=0), 0.02)
