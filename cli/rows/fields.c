@@ -736,8 +736,7 @@ ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
 
 ROW(option_player, "player", player, 0, "RATING", set_player, 0, ANY_KIND,
     "a player with this Fargo rating, 200 to 850, such as 500; or FIT.json, the player of a film, "
-    "whom "
-    "`python -m carom.fit --player` writes");
+    "whom `python -m carom.fit --player` writes");
 ROW(option_player_errors, "errors", player, 0, "SCALE", set_errors, 0, ANY_KIND,
     "a player with these errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE",
     .else_usual = "1, if there is no --player");
