@@ -162,8 +162,8 @@ static carom_status check_job(const carom_plan_job *job) {
   if (!is_whole(job))
     return CAROM_ERROR_NULL;
   const carom_plan_options *options = or_usual(job->options);
-  const bool good_players = carom_player_is_good(job->player) &&
-                            (options->opponent == NULL || carom_player_is_good(options->opponent));
+  const bool good_players =
+      carom_player_is_good(job->player) && carom_player_is_good(carom_opponent_of(job, options));
   if (check_options(options) != CAROM_OK || !good_players || !good_rules(job->rules) ||
       (uint64_t)job->leave > CAROM_LEAVE_BAULK || !CAROM_RESERVED_IS_ZERO(job))
     return CAROM_ERROR_OPTIONS;

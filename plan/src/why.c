@@ -47,17 +47,13 @@ static carom_status plan_next(const carom_plan_job *job, const carom_ruling *rul
                               carom_plan_stroke *choice) {
   carom_plan_job next = *job;
   carom_plan_rules rules = *job->rules;
-  carom_plan_options options = {0};
-  if (job->options != NULL)
-    options = *job->options;
   rules.state = ruling->state;
   next.rules = &rules;
   next.balls = ruling->balls;
   next.leave = (int64_t)ruling->turn.leave;
-  next.options = &options;
-  if (ruling->turn.outcome == CAROM_TURN_PASS && options.opponent != NULL) {
-    next.player = options.opponent;
-    options.opponent = job->player;
+  if (ruling->turn.outcome == CAROM_TURN_PASS) {
+    next.player = carom_opponent_of(job, job->options);
+    next.opponent = job->player;
   }
 
   int found;
