@@ -105,6 +105,8 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
     fprintf(out, "the cue ball at %.2f, %.2f m; ", cue->r[0], cue->r[1]);
   if ((passes && job->rules->race == CAROM_RACE_ALONE) || ruling->turn.outcome >= CAROM_TURN_WIN)
     fputs("the visit ends\n", out);
+  else if (passes && isnan(why->leave))
+    fputs("the other plays\n", out);
   else if (passes)
     fprintf(out, "the other wins %.0f %%\n", 100.0 * (1.0 - why->leave));
   else if (!why->has_next)
@@ -112,7 +114,8 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
   else if (line->table->table.pockets == 0)
     fprintf(out, "then it scores %.0f %%\n", 100.0 * c->keep);
   else if (c->ball < 0 || c->pocket < 0)
-    fprintf(out, "then no ball is sure, and the player wins %.0f %%\n", 100.0 * why->leave);
+    fprintf(out, "then no ball is sure, and the player wins %.0f %%\n",
+            100.0 * (isnan(why->leave) ? c->value : why->leave));
   else
     fprintf(out, "then %s into %s, %.0f %%\n", named_ball(line->name[c->ball], ball),
             pocket_words(line->table, c->pocket, pocket), 100.0 * c->keep);

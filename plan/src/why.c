@@ -7,6 +7,7 @@
  * so the costs add up to that of all. */
 #include "carom_coach.h"
 #include "coach.h"
+#include "goals.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
 #include "ranking.h"
@@ -23,39 +24,21 @@ static const double luck = 0.1; /* a chance to play on below which balls fall by
 /* What the job's memory has behind the rows of a plan, for a stroke that is ruled. */
 typedef struct workspace {
   carom_event events[EVENTS];
-  carom_facts facts;
-  carom_ball_state final[CAROM_BALLS_MOST];
+  carom_stroke_room room;
   carom_shot_ball balls[CAROM_BALLS_MOST];
 } workspace;
 
 /* Plays a stroke and rules it: what it leaves, to whom, and where a cue ball in hand may be put. */
 static void play(const carom_plan_job *job, const carom_cue *cue, carom_call call, carom_shot *shot,
                  carom_ruling *ruling) {
-  workspace *w = job->memory;
-  shot->final = w->final;
-  shot->facts = &w->facts;
-  const carom_shot *played = shot;
-  if (carom_shoot(job->table, job->balls, (int)job->count, cue, job->shot, shot) < 0)
-    played = NULL;
-  carom_referee(job->rules, job->table, job->balls, (int)job->count, (int)cue->ball, played, call,
-                ruling);
-  ruling->turn = carom_turn_seen(job->rules, &ruling->state, ruling->turn);
+  carom_play_stroke(job, cue, call, &((workspace *)job->memory)->room, shot, ruling);
 }
 
 /* The best stroke from what is left, for whoever plays next. */
 static carom_status plan_next(const carom_plan_job *job, const carom_ruling *ruling,
                               carom_plan_stroke *choice) {
-  carom_plan_job next = *job;
-  carom_plan_rules rules = *job->rules;
-  rules.state = ruling->state;
-  next.rules = &rules;
-  next.balls = ruling->balls;
-  next.leave = (int64_t)ruling->turn.leave;
-  if (ruling->turn.outcome == CAROM_TURN_PASS) {
-    next.player = carom_opponent_of(job, job->options);
-    next.opponent = job->player;
-  }
-
+  carom_plan_rules rules;
+  const carom_plan_job next = carom_job_after(job, ruling, &rules);
   int found;
   if (!ruling->hand)
     return carom_plan(&next, choice, 1, &found);
@@ -199,7 +182,7 @@ static int64_t find_chances(carom_search *plan, carom_why *why) {
   }
   why->misses = (double)passes / n;
   why->opponent = (double)NAN;
-  if (passes > 0 && plan->job.rules->race != CAROM_RACE_ALONE)
+  if (passes > 0 && plan->job.rules->race != CAROM_RACE_ALONE && !carom_has_goal(&plan->job))
     why->opponent = 1.0 - sum / (double)passes;
 
   const double mean = sum / (double)carom_max(passes, 1);
@@ -265,6 +248,8 @@ carom_status carom_why_of(const carom_plan_job *job, const carom_plan_stroke *ch
   find_costs(plan, why);
   if (isnan(why->leave))
     why->leave = why->flawless_value;
+  if (carom_has_goal(job))
+    why->leave = (double)NAN;
 
   /* the aim, and what is left, in the memory of the plan; last the best stroke from there */
   carom_plan_job placed;
