@@ -19,7 +19,6 @@
 #include <string.h>
 
 enum { EVENTS = 64, ALL_ERRORS = (1 << CAROM_WHY_ERRORS) - 1 };
-static const double luck = 0.1; /* a chance to play on below which balls fall by luck */
 
 /* What the job's memory has behind the rows of a plan, for a stroke that is ruled. */
 typedef struct workspace {
@@ -123,7 +122,7 @@ int carom_names_ball(const carom_plan_stroke *choice) {
   if (choice == NULL || choice->ball < 0)
     return 0;
   const bool is_meant = choice->kind == CAROM_PLAN_POT || choice->kind == CAROM_PLAN_GIVEN;
-  return is_meant || choice->keep >= luck;
+  return is_meant || choice->keep >= carom_luck;
 }
 
 /* Whether event k of a shot is a cushion that the ball meets, and no hop along the one before. */
