@@ -1,5 +1,6 @@
 /* `carom match`: matches of two rated players, played, saved, gone on with and told in words, by
  * carom_match.h. */
+#include "game/plan_game.h"
 #include "program/program.h"
 #include "shots/places.h"
 #include "subcommands.h"
@@ -20,24 +21,6 @@ typedef struct match_job {
   int breaks, seed, shots, strokes, target, race;
   bool equal, winner_breaks;
 } match_job;
-
-static bool set_ratings(const option_row *row, char *text, void *field) {
-  double *rating = field;
-  int count = 0, length = 0;
-  bool good = true;
-  for (const char *at = text; good; at += length + 1) {
-    good = count < CAROM_SEATS_MOST && sscanf(at, "%lf%n", &rating[count], &length) == 1 &&
-           rating[count] >= 200.0 && rating[count] <= 850.0;
-    count++;
-    if (at[length] != ',')
-      break;
-  }
-  if (good && count >= 2 && strspn(text, "0123456789.,") == strlen(text))
-    return true;
-  complain("--%s: 2 to 8 Fargo ratings from 200 to 850 are needed, such as 600,500, not %s",
-           row->name, text);
-  return false;
-}
 
 OPTION(match_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES, "the game",
        .else_usual = "eightball, or the game of the file");
@@ -313,6 +296,9 @@ static int play_match(players *p) {
     }
     fwrite(match.text, 1, (size_t)match.size, p->text);
   }
+  const carom_rules_kind rules = (carom_rules_kind)match.record.rules;
+  for (int k = 0; k < CAROM_SEATS_MOST; k++)
+    p->player[k] = carom_player_rated(job->rating[k] > 0.0 ? job->rating[k] : USUAL_RATING, rules);
   for (int k = 0; match.phase != CAROM_MATCH_OVER; k++) {
     if (job->strokes > 0 && k == job->strokes)
       return EXIT_GOOD;
@@ -377,8 +363,6 @@ int command_match(int argc, char **argv) {
     code = EXIT_USAGE;
   if (!job.shows && code == EXIT_GOOD) {
     players p = {.job = &job, .text = text};
-    for (int k = 0; k < CAROM_SEATS_MOST; k++)
-      p.player[k] = carom_player_fargo(job.rating[k] > 0.0 ? job.rating[k] : USUAL_RATING);
     p.options.shots = job.shots;
     p.memory = allocate(carom_plan_memory(&p.options), 1);
     if (strcmp(job.shared.output, "-") != 0)
