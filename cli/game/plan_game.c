@@ -15,24 +15,6 @@ OPTION_SET(set_score) {
   return good;
 }
 
-OPTION_SET(set_ratings) {
-  double *rating = field;
-  int count = 0, length = 0;
-  bool good = true;
-  for (const char *at = text; good; at += length + 1) {
-    good = count < CAROM_SEATS_MOST && sscanf(at, "%lf%n", &rating[count], &length) == 1 &&
-           rating[count] >= 200.0 && rating[count] <= 850.0;
-    count++;
-    if (at[length] != ',')
-      break;
-  }
-  if (good && count >= 2 && strspn(text, "0123456789.,") == strlen(text))
-    return true;
-  complain("--%s: 2 to 8 Fargo ratings from 200 to 850 are needed, such as 600,500, not %s",
-           row->name, text);
-  return false;
-}
-
 enum { YELLOW = 16 }; /* of the balls of snooker: the first colour */
 
 /* The number of a ball by its name; 0 where it has none. */

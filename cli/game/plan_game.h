@@ -19,8 +19,7 @@ typedef struct plan_game {
   bool opening, colour, last_inning;
 } plan_game;
 
-OPTION_SET(set_score);   /* int[2]: OWN,OTHER */
-OPTION_SET(set_ratings); /* double[CAROM_SEATS_MOST]: A,B,... */
+OPTION_SET(set_score); /* int[2]: OWN,OTHER */
 
 /* Whether the options are those of the game; complains where they are not. */
 bool plan_game_fits(const plan_game *game);

@@ -2,7 +2,7 @@
  * ball in hand by a player who errs, or played to the end by two; and how often shots come off
  * and games are won beside the chances that were predicted for them. Of games of points also how
  * many a visit makes. */
-#include "game/plan_game.h"
+#include "game/ratings.h"
 #include "program/command.h"
 #include "program/memory.h"
 #include "program/message.h"

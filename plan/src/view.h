@@ -191,6 +191,7 @@ enum {
   DRAW_TABLES,      /* tables that are not known, */
   DRAW_REPLAY,      /* the errors of the shots that choose nothing, */
   DRAW_MIND,        /* whether a player thinks of nothing but potting, */
+  DRAW_RUN_OUTS,    /* the seeds of the strokes of a run-out, */
   DRAW_ROUND = 16   /* and the errors of the rounds, a stage each. */
 };
 /* between 0 and 1, without the ends */
