@@ -1,6 +1,6 @@
 /* carom_coach.h: advice for a player: every way to pot, to score or to reach a place; why a
- * stroke of a plan is good, and what it leaves; a run-out as one answer; and what comes of many
- * breaks of a rack.
+ * stroke of a plan is good, and what it leaves; a run-out as one answer; what comes of many breaks
+ * of a rack; and the odds of a match.
  *
  *     carom_player player = carom_player_fargo(550.0);
  *     static carom_shot_way ways[1000];
@@ -296,6 +296,44 @@ CAROM_API int carom_break_has_rules(carom_rack_kind rack);
 /* The mean place of the cue balls that stay, m, and the standard deviation of their places, m; all
  * NaN if none stays. If a pointer is NULL, the call returns NaN. */
 CAROM_API double carom_break_spread(const carom_break_counts *counts, double place[2]);
+
+/* ---- Odds ------------------------------------------------------------------------------------ */
+
+/* The largest number of games of a set, and of sets of a match, that a side may need. */
+enum { CAROM_SERIES_MOST = 100 };
+
+/* A match of two rated sides. A game goes to the first side with the odds 2^((r0 - r1)/100) : 1. */
+typedef struct carom_series {
+  double rating[2];    /* Fargo ratings of both sides, 0 to 1000. */
+  double break_points; /* how many points of rating a side has more in a game that it breaks, -1000
+                          to 1000. 0: the break is worth nothing. */
+  int32_t games[2];    /* how many games each side needs to win a set, 1 to CAROM_SERIES_MOST. */
+  int32_t sets[2];     /* how many sets each side needs to win the match, 1 to CAROM_SERIES_MOST;
+                          0: one. */
+  int32_t order;       /* who breaks within a set: a carom_break_order. The sides begin the sets in
+                          turn. */
+  int32_t side;        /* which side breaks first, 0 or 1; -1: either, by lot. */
+  int32_t reserved;    /* must be 0. */
+} carom_series;
+
+/* The chances of a match. Those of the second side are 1 less these. */
+typedef struct carom_odds {
+  double game;  /* that the first side wins a game in which nobody has the break. */
+  double set;   /* that it wins the first set. */
+  double match; /* that it wins the match. */
+  double games; /* the mean number of games of the match. */
+  double score[2][CAROM_SERIES_MOST]; /* score[s][k]: the chance that side s wins while the other
+                                         has k sets; where one set decides, k games. */
+} carom_odds;
+
+/* The odds of a match. Returns CAROM_OK; CAROM_ERROR_NULL; or CAROM_ERROR_OPTIONS for a number out
+ * of its range. */
+CAROM_API carom_status carom_odds_of(const carom_series *match, carom_odds *odds);
+
+/* The match with the fairest handicap: the stronger side needs the larger of match->games, and the
+ * weaker side as many as bring the chance to win the match nearest to a half. Statuses are those of
+ * carom_odds_of(). */
+CAROM_API carom_status carom_fair_series(const carom_series *match, carom_series *fair);
 
 #ifdef __cplusplus
 }

@@ -53,8 +53,8 @@ typedef struct carom_player {
                          speed_most. */
   double only_pots;   /* share of the strokes, without breaks, in which the player thinks of nothing
                          but potting, 0 to 1. carom_plan() and carom_plan_hand() draw from their
-                         seed whether the stroke is one of them. They then plan as if the opponent
-                         made every ball and the player 90 % of the later pots, and
+                         seed and the layout whether the stroke is one of them. They then plan as if
+                         the opponent made every ball and the player 90 % of the later pots, and
                          carom_plan_stroke.value is the chance that this pays. 0 for advice to a
                          player. */
   double shots;       /* of this player's plans, if the options have neither shots nor seconds: 100

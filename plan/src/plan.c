@@ -336,8 +336,13 @@ static carom_status prepare_job(const carom_plan_job *job, bool in_hand, int cho
 /* A player who thinks of nothing but potting believes in later pots, and that a turn which ends
  * before is lost. There is nothing to pot in a break, and another goal comes first. */
 static void think(search *plan) {
-  if (plan->breaks || plan->only_safeties || carom_has_goal(&plan->job) ||
-      !carom_player_only_pots(&plan->player, plan->options.seed))
+  /* the layout takes part in the draw, so that plans of one seed have the share in their mean */
+  uint64_t layout = 1;
+  for (int k = 0; k < plan->view.count; k++)
+    layout = carom_fingerprint(layout, plan->state[k].r, sizeof plan->state[k].r);
+  const double mind = carom_uniform(plan->options.seed, DRAW_MIND, layout, 0);
+  const bool has_other_goal = plan->breaks || plan->only_safeties || carom_has_goal(&plan->job);
+  if (has_other_goal || mind >= plan->player.only_pots)
     return;
   plan->options.chance_me = 0.9;
   plan->options.chance_opponent = 1.0;

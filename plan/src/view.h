@@ -215,7 +215,5 @@ carom_player carom_player_bounded(const carom_player *player, const carom_cue *c
 void carom_player_errs(const carom_player *player, const double z[6], carom_cue *cue);
 /* How much larger the errors of a stroke of this speed are than those of the slowest. */
 double carom_player_growth(const carom_player *player, double speed);
-/* Whether the player thinks of nothing but potting in the stroke whose plan has this seed. */
-bool carom_player_only_pots(const carom_player *player, uint64_t seed);
 
 #endif
