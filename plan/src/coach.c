@@ -1,4 +1,4 @@
-/* The cushions of a table, and cuts. */
+/* The cushions of a table, cuts, and what strokes are worth. */
 #include "coach.h"
 #include "view.h"
 
@@ -22,4 +22,34 @@ double carom_cut_at(const carom_event *contact, int cue_ball) {
   const double x = object->r[0] - striker->r[0], y = object->r[1] - striker->r[1];
   const double cross = striker->v[0] * y - striker->v[1] * x;
   return carom_angle_of(striker->v[0] * x + striker->v[1] * y, cross) / degree;
+}
+
+double carom_worth_left(const carom_plan_job *job, const carom_ruling *ruling) {
+  const carom_turn *turn = &ruling->turn;
+  if (turn->outcome == CAROM_TURN_DRAW)
+    return 0.5;
+  if (turn->outcome > CAROM_TURN_PASS)
+    return turn->outcome == CAROM_TURN_WIN;
+  const bool passes = turn->outcome == CAROM_TURN_PASS;
+  carom_plan_options options = {0};
+  if (job->options != NULL)
+    options = *job->options;
+  carom_plan_rules rules = *job->rules;
+  rules.state = ruling->state;
+  carom_plan_job next = *job;
+  next.rules = &rules;
+  next.balls = ruling->balls;
+  next.leave = (int64_t)turn->leave;
+  next.options = &options;
+
+  /* who plays next errs as that player does */
+  if (passes && options.opponent != NULL) {
+    next.player = options.opponent;
+    options.opponent = job->player;
+  }
+  double value = 0.0;
+  carom_plan_value(&next, ruling->hand, &value);
+  if (passes)
+    return 1.0 - value;
+  return value;
 }
