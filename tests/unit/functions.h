@@ -473,6 +473,7 @@ static const carom_plan_stroke safety = {.ball = -1};
 static OWN carom_shot_way ways[4];
 static OWN carom_ways_result ways_result;
 static OWN carom_break_counts break_counts;
+static OWN carom_break_choice break_choices[CAROM_BREAK_CHOICES];
 static OWN carom_series series;
 static OWN carom_odds odds;
 static OWN carom_why why;
@@ -618,6 +619,7 @@ static carom_match *moving(void) {
   F(plan_continue, carom_plan_continue(PTR(sliced_plan()), PTR(choices), LENGTH(4), PTR(&found)))  \
   F(plan_hand,                                                                                     \
     carom_plan_hand(PTR(&plan), MAYBE(zeros), NULL, PTR(choices), LENGTH(4), PTR(&found)))         \
+  F(break_best, carom_break_best(PTR(break_job()), LENGTH(16), PTR(break_choices), INT(1)))        \
   F(break_has_rules, GIVES(carom_break_has_rules(ANYENUM(carom_rack_kind, 0))))                    \
   F(break_memory, GIVES(carom_break_memory()))                                                     \
   F(break_play, carom_break_play(PTR(break_job()), ANYINT(0), LENGTH(1), PTR(&break_counts)))      \
