@@ -28,6 +28,8 @@ COMMAND(command_plan)
 COMMAND(command_ways)
 COMMAND(command_break)
 COMMAND(command_match)
+COMMAND(command_odds)
+COMMAND(command_rating)
 COMMAND(command_learn)
 
 OPTION_SET(set_leave) {

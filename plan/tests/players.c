@@ -78,15 +78,17 @@ TEST(errors_grow) {
 }
 
 /* A player who thinks of nothing but potting plans as one whose opponent makes every ball; a share
- * of strokes is drawn by the seed; the player's shots count where the options have none, and a
- * player whose errors grow never smashes. */
+ * of strokes is drawn by the seeds of one layout, and by the layouts of one seed; the player's shots
+ * count where the options have none, and a player whose errors grow never smashes. */
 TEST(players_choose) {
-  make_layout(18, 3);
-  player = carom_player_fargo(400.0);
+  enum { PLANS = 8 };
   carom_plan_stroke choice[2];
-  int64_t differ = 0;
-  for (uint64_t seed = 0; seed < 8; seed++) {
-    options = (carom_plan_options){.seed = seed};
+  int differ[2] = {0, 0};
+  for (uint64_t n = 0; n < 2 * PLANS; n++) {
+    const bool of_layouts = n >= PLANS;
+    make_layout(of_layouts ? n : 18, 3);
+    options = (carom_plan_options){.seed = of_layouts ? 0 : n};
+    player = carom_player_fargo(400.0);
     player.only_pots = 0.5;
     player.shots = 300.0;
     plan(false, &choice[0], 1);
@@ -102,12 +104,13 @@ TEST(players_choose) {
       plan(false, &choice[1], 1);
       if (memcmp(&choice[0], &choice[1], sizeof choice[0]) == 0) {
         same++;
-        differ += pots;
+        differ[of_layouts] += pots;
       }
     }
     ck_assert_int_eq(same, 1);
   }
-  ck_assert(differ > 0 && differ < 8);
+  for (int k = 0; k < 2; k++)
+    ck_assert(differ[k] > 0 && differ[k] < PLANS);
 }
 
 /* In straight pool, whose points one visit never makes, a player who only pots takes the ball in

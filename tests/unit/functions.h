@@ -470,6 +470,8 @@ static const carom_plan_stroke safety = {.ball = -1};
 static OWN carom_shot_way ways[4];
 static OWN carom_ways_result ways_result;
 static OWN carom_break_counts break_counts;
+static OWN carom_series series;
+static OWN carom_odds odds;
 static OWN carom_why why;
 static const carom_ways_job *ways_job(void) {
   static OWN carom_ways_job searched;
@@ -520,6 +522,7 @@ static void set_up_games(void) {
   settled = (carom_turn){.spot = 2};
   aimed = cue;
   break_counts = (carom_break_counts){.stays = 2, .x = 1.0, .y = 2.0, .squares = 3.0};
+  series = (carom_series){.rating = {500.0, 600.0}, .games = {5, 3}};
   pot = (carom_pot){.ball = 1, .pocket = variant % 6, .vias = variant % 3};
   pot.via[0] = variant == 1 ? (carom_part){CAROM_PART_RAIL, 0} : (carom_part){CAROM_PART_BALL, 2};
   pot.via[1] = (carom_part){CAROM_PART_RAIL, 2};
@@ -617,7 +620,9 @@ static carom_match *moving(void) {
   F(break_play, carom_break_play(PTR(break_job()), ANYINT(0), LENGTH(1), PTR(&break_counts)))      \
   F(break_spread, is_number(carom_break_spread(MAYBE(&break_counts), MAYBE(numbers))))             \
   F(break_stroke, carom_break_stroke(PTR(break_job()), ANYINT(0), PTR(balls), PTR(&aimed)))        \
+  F(fair_series, carom_fair_series(PTR(&series), PTR(&series)))                                    \
   F(names_ball, GIVES(carom_names_ball(MAYBE(choices))))                                           \
+  F(odds_of, carom_odds_of(PTR(&series), PTR(&odds)))                                              \
   F(plan_replay,                                                                                   \
     carom_plan_replay(PTR(&plan), PTR((carom_plan_stroke *)stroke_choice()), LENGTH(1)))           \
   F(way_chance, carom_way_chance(PTR(ways_job()), PTR(stroke_way())))                              \
