@@ -14,9 +14,6 @@
 #include "shot_support.h"
 
 #include <limits.h>
-#include <math.h>
-#include <stdbool.h>
-#include <string.h>
 
 #ifndef OWN
 #define OWN
