@@ -656,7 +656,7 @@ typedef struct carom_plan_stroke {
   int32_t cushions;     /* impacts of that ball on cushions, in one such stroke. */
   double value;         /* chance to win, and half the chance to draw; without an opponent, the
                            share of the balls that are potted; 0 to 1. In four-ball a stroke that
-                           costs a point counts -1. A foul counts 0.03 less than the position that
+                           costs a point counts -1. A foul counts 0.018 less than the position that
                            follows it, so that the plan chooses a legal stroke among equally good
                            ones. The shots by which a stroke was chosen were partly lucky for it. So
                            all chances of a choice are those of fresh shots, whose errors chose
@@ -723,7 +723,8 @@ typedef struct carom_plan_job {
                                         carom_match_plan() sets it. */
   const carom_plan_goal *goal;       /* NULL: the best chance to win. Otherwise the value of a
                                         choice is the chance that its stroke reaches the goal. */
-  uint64_t reserved[2];              /* must be 0. */
+  const carom_player *opponent;      /* NULL: the one of the options. carom_match_plan() sets it. */
+  uint64_t reserved[1];              /* must be 0. */
 } carom_plan_job;
 
 /* The number of bytes that a plan with these options needs: about 320,000 for the defaults, and

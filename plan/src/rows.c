@@ -178,9 +178,8 @@ static void leave_layout(const search *plan, carom_rules_state *game, const cand
   }
 }
 
-/* The worth of a layout, and of the points that the turn made without an opponent. */
-static double worth_of_layout(const search *plan, const carom_rules_state *game,
-                              const carom_ball_state *layout, const carom_turn *turn) {
+double carom_search_leave(const search *plan, const carom_rules_state *game,
+                          const carom_ball_state *layout, const carom_turn *turn) {
   const carom_plan_rules *rules = plan->job.rules;
   /* any ball may be struck: about as good as the cue ball in hand */
   const bool in_hand = turn->leave >= CAROM_LEAVE_ANYWHERE || rules->any_cue_ball != 0;
@@ -188,8 +187,12 @@ static double worth_of_layout(const search *plan, const carom_rules_state *game,
   double worth = carom_value_of(&plan->view, game, layout, passes, in_hand);
   if (passes)
     worth = 1.0 - worth;
-  if (passes && turn->foul != 0)
-    worth = carom_search_foul(worth);
+  if (passes && turn->foul != 0) {
+    /* values of layouts are right to some hundredths, and a legal stroke that is as good is to be
+     * chosen */
+    const double less = 0.018;
+    worth = carom_within(worth - less, 0.0, 1.0);
+  }
   if (rules->race == CAROM_RACE_ALONE && !passes)
     worth = carom_search_share(plan, turn->points + worth);
   return worth;
@@ -214,7 +217,7 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   if (carom_has_goal(&plan->job))
     o.worth = !taken_back && carom_search_reaches(plan, &game, final, &turn);
   else if (!ends)
-    o.worth = worth_of_layout(plan, &game, final, &turn);
+    o.worth = carom_search_leave(plan, &game, final, &turn);
   return o;
 }
 

@@ -381,7 +381,7 @@ export interface Aim {
 export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   /** Default: `player()`. */
   player?: Player;
-  /** Default: as the player. */
+  /** Default: as the player; in `Match.plan` its `opponent()`. */
   opponent?: Player;
   /**
    * Where a cue ball in hand may be put, as a ruling says it: behind the head string ("kitchen"), in
