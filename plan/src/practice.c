@@ -100,34 +100,46 @@ static void find_costs(const carom_plan_job *job, carom_call call, carom_ruling 
   review->place_cost = total - review->miss_cost;
 }
 
-carom_status carom_review_of(const carom_plan_job *job, const carom_cue *played, carom_call call,
-                             carom_review *review) {
-  if (job == NULL || played == NULL || review == NULL || job->table == NULL || job->balls == NULL ||
-      job->player == NULL || job->rules == NULL)
-    return CAROM_ERROR_NULL;
-  const carom_status status =
-      carom_shot_check(job->table, job->balls, (int)job->count, played, job->shot, NULL);
-  if (status < 0)
-    return status;
-  if (!carom_player_is_good(job->player) || job->rules->race == CAROM_RACE_SEATS ||
-      job->rules->race == CAROM_RACE_ALONE || job->table->pockets == 0)
-    return CAROM_ERROR_OPTIONS;
-  memset(review, 0, sizeof *review);
-  review->ball = review->pocket = -1;
-  review->off = review->cut = review->distance = review->told = (double)NAN;
-  review->aim = *played;
-  carom_ruling ruling;
-  bool keeps;
-  review->came = play(job, played, call, &ruling, &keeps);
-  review->kept = keeps;
-
-  /* the aim that was meant */
-  const int first = ruling.facts.first[0];
+/* Finds the aim that was meant; whether the ball and the pocket were called. */
+static bool find_aim(const carom_plan_job *job, const carom_cue *played, carom_call call, int first,
+                     carom_review *review) {
   const bool is_called = job->rules->calls != 0 && call.ball >= 0 && call.pocket >= 0;
   if (is_called)
     try_aim(job, played, call, review);
   for (int pocket = 0; !is_called && first >= 0 && pocket < job->table->pockets; pocket++)
     try_aim(job, played, (carom_call){first, pocket}, review);
+  return is_called;
+}
+
+/* Whether a stroke of the job, with a player and rules that can be reviewed, can be played. */
+static carom_status check(const carom_plan_job *job, const carom_cue *stroke) {
+  if (job == NULL || stroke == NULL || job->table == NULL || job->balls == NULL ||
+      job->player == NULL || job->rules == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_race race = job->rules->race;
+  if (!carom_player_is_good(job->player) || race == CAROM_RACE_SEATS || race == CAROM_RACE_ALONE ||
+      job->table->pockets == 0)
+    return CAROM_ERROR_OPTIONS;
+  return carom_shot_check(job->table, job->balls, (int)job->count, stroke, job->shot, NULL);
+}
+
+carom_status carom_review_of(const carom_plan_job *job, const carom_cue *played, carom_call call,
+                             carom_review *review) {
+  const carom_status status = check(job, played);
+  if (status < 0 || review == NULL)
+    return review == NULL ? CAROM_ERROR_NULL : status;
+  *review = (carom_review){.aim = *played,
+                           .off = NAN,
+                           .cut = NAN,
+                           .distance = NAN,
+                           .told = NAN,
+                           .ball = -1,
+                           .pocket = -1};
+  carom_ruling ruling;
+  bool keeps;
+  review->came = play(job, played, call, &ruling, &keeps);
+  review->kept = keeps;
+  const bool is_called = find_aim(job, played, call, ruling.facts.first[0], review);
   if (review->ball < 0) {
     review->group = is_called || keeps ? CAROM_PRACTICE_INDIRECT : CAROM_PRACTICE_OTHER;
     return CAROM_OK;
@@ -183,14 +195,14 @@ static double median_radius(const carom_plan_job *job, const carom_drill *drill)
 
 carom_status carom_drill_of(const carom_plan_job *job, const carom_review *review,
                             carom_drill *drill) {
-  if (job == NULL || review == NULL || drill == NULL || job->player == NULL)
+  if (review == NULL || drill == NULL)
     return CAROM_ERROR_NULL;
-  if (review->ball < 0 || review->ball >= job->count || review->pocket < 0)
-    return CAROM_ERROR_OPTIONS;
-  const carom_status status =
-      carom_shot_check(job->table, job->balls, (int)job->count, &review->aim, job->shot, NULL);
+  const carom_status status = check(job, &review->aim);
   if (status < 0)
     return status;
+  if (review->ball < 0 || review->ball >= job->count || review->pocket < 0 ||
+      review->pocket >= job->table->pockets)
+    return CAROM_ERROR_OPTIONS;
   *drill = (carom_drill){.aim = review->aim, .ball = review->ball, .pocket = review->pocket};
   makes_pot(job, drill, NULL, 0, drill->place);
   if (review->place_cost > review->miss_cost)
