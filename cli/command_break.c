@@ -292,7 +292,8 @@ static bool plot(const breaker *b, const shot_line *line, double gap, const char
     shot[k].final = final[k];
     shot_line_play(&each, &b->options, &shot[k]);
   }
-  const drawn_break drawing = {{&each, &shot[0], NULL, &shot[1], drawn}, words};
+  const drawn_break drawing = {
+      {.line = &each, .shot = &shot[0], .others = &shot[1], .others_count = drawn}, words};
   const bool good = svg_draw(b->job->plot, draw, &drawing);
   for (int k = 0; k <= drawn; k++)
     free(shot[k].events);

@@ -6,9 +6,6 @@
 #include "carom_shot.h"
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 enum { ROOM = 12000 };
 static carom_event events[ROOM];
 static carom_ball_state final[CAROM_BALLS_MOST];

@@ -10,11 +10,6 @@
 #include "carom_tangent.h"
 #include "shot_support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { LAYOUT_BALLS = 16, NUMBERS = CAROM_STATE_NUMBERS, LAYOUT_DIRECTIONS = 24 };
 /* Numbers of a table: those of noses, then its slope along x and y. */
 enum { SLOPE = CAROM_NOSE_NUMBERS, TABLE_NUMBERS = SLOPE + 2 };

@@ -1,6 +1,6 @@
 /* carom_coach.h: advice for a player: every way to pot, to score or to reach a place; why a
- * stroke of a plan is good, and what it leaves; what comes of many breaks of a rack; what
- * strokes of a match cost, and drills of them; and the odds of a match.
+ * stroke of a plan is good, and what it leaves; a run-out as one answer; what comes of many breaks
+ * of a rack; what strokes of a match cost, and drills of them; and the odds of a match.
  *
  *     carom_player player = carom_player_fargo(550.0);
  *     static carom_shot_way ways[1000];
@@ -171,6 +171,67 @@ CAROM_API int carom_names_ball(const carom_plan_stroke *choice);
  * carom_plan(); or CAROM_ERROR_OPTIONS if n is below 0. */
 CAROM_API carom_status carom_plan_replay(const carom_plan_job *job, carom_plan_stroke *choices,
                                          int n);
+
+/* ---- Run-outs -------------------------------------------------------------------------------- */
+
+enum {
+  CAROM_ZONE_CORNERS = 36,   /* corners of a landing zone. */
+  CAROM_SEQUENCE_MOST = 36,  /* the largest number of strokes of a run-out. */
+  CAROM_SEQUENCE_TRIES = 100 /* strokes with errors that are played for each of them. */
+};
+
+/* A stroke of a run-out, from the layout that the stroke before it leaves without errors. */
+typedef struct carom_sequence_stroke {
+  carom_plan_stroke choice; /* the stroke; its value is the chance to run out from its layout. */
+  carom_ruling ruling;      /* what the stroke leaves without errors. If it then misses, this is
+                               the first stroke with errors that plays on. */
+  double leave_value;       /* the value of that layout, an estimate for which no shot is played; 1
+                               if the game is won. */
+  double zone[CAROM_ZONE_CORNERS][2]; /* m: the corners of the landing zone, a polygon around the
+                                         cue ball of `ruling`. It has the places in a straight line
+                                         from there for which leave_value falls by at most
+                                         `within`. All corners are one place if the turn ends or
+                                         the cue ball is in hand. */
+  double speed[2], phi[2];            /* m/s, degrees: the speeds and the directions of the cue
+                                         between which the stroke plays on and the cue ball rests in
+                                         the zone, with everything else as in choice.cue. */
+  double zone_share;  /* share of CAROM_SEQUENCE_TRIES strokes with errors that win, or that play on
+                         with the cue ball in the zone. */
+  double stray_share; /* share that plays on with the cue ball outside. */
+  double turn_share;  /* share of some strays, from which another pot than that of the next stroke
+                         is planned: the most frequent one, */
+  int32_t turn_ball, turn_pocket; /* this one; -1: none. */
+} carom_sequence_stroke;
+
+/* How played run-outs ended: how many of them, or sums. All zero before the first one. */
+typedef struct carom_sequence_counts {
+  int64_t plays, runs; /* run-outs that were played, and that won the game or potted all balls. */
+  int64_t strokes;     /* all strokes of them that played on or won. */
+} carom_sequence_counts;
+
+/* The number of bytes that run-outs with these options need. 0 for bad options. */
+CAROM_API size_t carom_sequence_memory(const carom_plan_options *options);
+
+/* Plans a run-out of the player at the table, as with options->chance_opponent 1: stroke by stroke,
+ * each from what the one before leaves without errors. Writes up to `room` strokes, at most
+ * CAROM_SEQUENCE_MOST; *found becomes their number. The last one wins, or is the first that names no
+ * ball. in_hand: 1 if the cue ball is in hand before the first stroke, within the bounds of
+ * job->leave. within: how much value the landing zones may lose, above 0 and below 1. A stroke takes
+ * about as long as two plans, and as eight more of at most 200 shots. If options->stop is set, the
+ * run-out ends with the stroke that is planned. options->slice is not read. Returns CAROM_OK;
+ * CAROM_ERROR_NULL if a pointer is NULL or there is less memory than carom_sequence_memory();
+ * CAROM_ERROR_OPTIONS for another `within`, a goal, or options->safeties; or an error of carom_plan()
+ * for the first layout. */
+CAROM_API carom_status carom_sequence(const carom_plan_job *job, int in_hand, double within,
+                                      carom_sequence_stroke *strokes, int room, int *found);
+
+/* Plays the run-outs of numbers `first` to first + n - 1 from the layout, and adds how they end to
+ * *counts. Before each stroke, the player plans the run-out anew from where the balls lie, by
+ * options->shots; the stroke has the errors of the player. The share runs / plays is the chance of
+ * the run-out for a player who plans with so many shots. The errors depend on options->seed and the
+ * number. Statuses are those of carom_sequence(). */
+CAROM_API carom_status carom_sequence_play(const carom_plan_job *job, int in_hand, int64_t first,
+                                           int64_t n, carom_sequence_counts *counts);
 
 /* ---- Breaks ---------------------------------------------------------------------------------- */
 

@@ -1,6 +1,6 @@
-/* The cushions of a table, cuts, and what strokes are worth. */
+/* The cushions of a table, cuts, strokes that are ruled, and what they are worth. */
 #include "coach.h"
-#include "view.h"
+#include "rules.h"
 
 #include <math.h>
 
@@ -24,6 +24,29 @@ double carom_cut_at(const carom_event *contact, int cue_ball) {
   return carom_angle_of(striker->v[0] * x + striker->v[1] * y, cross) / degree;
 }
 
+void carom_play_stroke(const carom_plan_job *job, const carom_cue *cue, carom_call call,
+                       carom_stroke_room *room, carom_shot *shot, carom_ruling *ruling) {
+  shot->final = room->final;
+  shot->facts = &room->facts;
+  const carom_shot *played = shot;
+  if (carom_shoot(job->table, job->balls, (int)job->count, cue, job->shot, shot) < 0)
+    played = NULL;
+  carom_referee(job->rules, job->table, job->balls, (int)job->count, (int)cue->ball, played, call,
+                ruling);
+  ruling->turn = carom_turn_seen(job->rules, &ruling->state, ruling->turn);
+}
+
+carom_plan_job carom_job_after(const carom_plan_job *job, const carom_ruling *ruling,
+                               carom_plan_rules *rules) {
+  carom_plan_job next = *job;
+  *rules = *job->rules;
+  rules->state = ruling->state;
+  next.rules = rules;
+  next.balls = ruling->balls;
+  next.leave = (int64_t)ruling->turn.leave;
+  return next;
+}
+
 double carom_worth_left(const carom_plan_job *job, const carom_ruling *ruling) {
   const carom_turn *turn = &ruling->turn;
   if (turn->outcome == CAROM_TURN_DRAW)
@@ -34,12 +57,8 @@ double carom_worth_left(const carom_plan_job *job, const carom_ruling *ruling) {
   carom_plan_options options = {0};
   if (job->options != NULL)
     options = *job->options;
-  carom_plan_rules rules = *job->rules;
-  rules.state = ruling->state;
-  carom_plan_job next = *job;
-  next.rules = &rules;
-  next.balls = ruling->balls;
-  next.leave = (int64_t)turn->leave;
+  carom_plan_rules rules;
+  carom_plan_job next = carom_job_after(job, ruling, &rules);
   next.options = &options;
 
   /* who plays next errs as that player does */

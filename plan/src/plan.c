@@ -21,6 +21,7 @@
 #include "anytime.h"
 #include "candidates.h"
 #include "drawn_tables.h"
+#include "goals.h"
 #include "listing.h"
 #include "places.h"
 #include "plan_options.h"
@@ -49,7 +50,7 @@ enum { IN_HAND_LEAST = 600, SHOTS_USUAL = 2000, SHOTS_IN_TIME = 200000, FIRST = 
 
 static carom_status check_options(const carom_plan_options *o) {
   CAROM_PLAN_OPTIONS(CAROM_CHECK_OPTION)
-  if (o->slice < 0 || o->unused != 0 || !CAROM_RESERVED_IS_ZERO(o))
+  if (o->slice < 0 || !CAROM_RESERVED_IS_ZERO(o))
     return CAROM_ERROR_OPTIONS;
   return CAROM_OK;
 }
@@ -143,6 +144,8 @@ static uint64_t fingerprint_of(const carom_plan_job *job) {
     h = carom_fingerprint(h, job->shot, sizeof *job->shot);
   if (job->options != NULL)
     h = carom_fingerprint(h, job->options, sizeof *job->options);
+  if (job->goal != NULL)
+    h = carom_fingerprint(h, job->goal, sizeof *job->goal);
   return h;
 }
 
@@ -164,7 +167,8 @@ static carom_status check_job(const carom_plan_job *job) {
   const bool good_players = carom_player_is_good(job->player) &&
                             (options->opponent == NULL || carom_player_is_good(options->opponent));
   if (check_options(options) != CAROM_OK || !good_players || !good_rules(job->rules) ||
-      (uint64_t)job->leave > CAROM_LEAVE_BAULK || !CAROM_RESERVED_IS_ZERO(job))
+      (uint64_t)job->leave > CAROM_LEAVE_BAULK || !carom_goal_is_good(job) ||
+      !CAROM_RESERVED_IS_ZERO(job))
     return CAROM_ERROR_OPTIONS;
   return CAROM_OK;
 }
@@ -252,7 +256,10 @@ static carom_status ask_rules(search *plan, bool in_hand) {
   plan->breaks = rules->breaks && rules->state.opening == 1;
   if (rules->breaks == 2 && in_hand)
     plan->breaks |= is_packed(plan);
+  plan->only_safeties = carom_goal_has_safeties(&plan->job, &plan->options) && !plan->breaks;
   plan->permissions = (uint32_t)rules->state.may;
+  if (plan->only_safeties || carom_has_goal(&plan->job))
+    plan->permissions &= ~(uint32_t)(CAROM_CHOICE_PASS | CAROM_CHOICE_PUSH);
   plan->pockets = carom_pockets_of(rules, &rules->state);
   plan->first_decides = rules->first_decides && !(plan->permissions & CAROM_CHOICE_PUSH);
   carom_search_lay_out(plan, plan->job.balls);
@@ -327,9 +334,15 @@ static carom_status prepare_job(const carom_plan_job *job, bool in_hand, int cho
 }
 
 /* A player who thinks of nothing but potting believes in later pots, and that a turn which ends
- * before is lost. There is nothing to pot in a break. */
+ * before is lost. There is nothing to pot in a break, and another goal comes first. */
 static void think(search *plan) {
-  if (plan->breaks || !carom_player_only_pots(&plan->player, plan->options.seed))
+  /* the layout takes part in the draw, so that plans of one seed have the share in their mean */
+  uint64_t layout = 1;
+  for (int k = 0; k < plan->view.count; k++)
+    layout = carom_fingerprint(layout, plan->state[k].r, sizeof plan->state[k].r);
+  const double mind = carom_uniform(plan->options.seed, DRAW_MIND, layout, 0);
+  const bool has_other_goal = plan->breaks || plan->only_safeties || carom_has_goal(&plan->job);
+  if (has_other_goal || mind >= plan->player.only_pots)
     return;
   plan->options.chance_me = 0.9;
   plan->options.chance_opponent = 1.0;

@@ -47,10 +47,6 @@ double carom_player_growth(const carom_player *player, double speed) {
   return sqrt(1.0 + grows * grows);
 }
 
-bool carom_player_only_pots(const carom_player *player, uint64_t seed) {
-  return carom_uniform(seed, DRAW_MIND, 0, 0) < player->only_pots;
-}
-
 carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue) {
   carom_player bounded = *player;
   const double gain = carom_tip_gain(cue), usual_least = 0.5 * gain, usual_most = 8.0 * gain;

@@ -4,6 +4,7 @@
 #include "rows.h"
 
 #include "drawn_tables.h"
+#include "goals.h"
 #include "rules.h"
 #include "table/marks.h"
 
@@ -206,17 +207,25 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   carom_turn turn = carom_turn_seen(
       rules, &game, rules->judge(&game, plan->in_play, plan->view.cue_ball, facts, call));
   outcome o = outcome_of(facts, call, &turn, is_good(plan, facts, &game, &turn));
-  if (has_worth(plan, &turn, status, &o.worth))
-    return o;
+  const bool ends = has_worth(plan, &turn, status, &o.worth);
   const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
-  leave_layout(plan, &game, c, final, taken_back, &turn);
-  o.worth = worth_of_layout(plan, &game, final, &turn);
+  if (!ends)
+    leave_layout(plan, &game, c, final, taken_back, &turn);
+  if (carom_has_goal(&plan->job))
+    o.worth = !taken_back && carom_search_reaches(plan, &game, final, &turn);
+  else if (!ends)
+    o.worth = worth_of_layout(plan, &game, final, &turn);
   return o;
 }
 
 /* Whether a stroke of the scan met a ball first that is on. */
 bool carom_search_begins_well(const search *plan, int first) {
   return first >= 0 && (plan->targets >> first & 1);
+}
+
+bool carom_search_may_join(const search *plan, const outcome *o) {
+  const bool passes = o->turn == CAROM_TURN_PASS && !o->foul;
+  return carom_search_begins_well(plan, o->first) && (passes || !plan->only_safeties);
 }
 
 /* The balls in play of a layout become those of shots. */

@@ -24,6 +24,9 @@ carom_cue carom_search_stroke(const carom_search *plan, const carom_candidate *c
                               int64_t row);
 /* Whether a stroke of the scan met a ball first that is on. */
 bool carom_search_begins_well(const carom_search *plan, int first);
+/* Whether a stroke of the scan, or one near the best, may be a candidate after its shot without
+ * errors. */
+bool carom_search_may_join(const carom_search *plan, const carom_outcome *o);
 /* What a foul counts that is worth `worth`. Values of layouts are right to some hundredths, and a
  * legal stroke that is as good is to be chosen. */
 static inline double carom_search_foul(double worth) {

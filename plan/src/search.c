@@ -234,7 +234,7 @@ static bool add_near(search *plan) {
 static void take_near(search *plan) {
   const int64_t first = plan->stage.first;
   for (int64_t k = 0; k < plan->stage.done; k++) {
-    if (!carom_search_begins_well(plan, plan->outcome[k].first))
+    if (!carom_search_may_join(plan, &plan->outcome[k]))
       continue;
     carom_search_take(plan, first + k, &plan->outcome[k]);
     candidate c = plan->found[first + k];

@@ -1,7 +1,7 @@
 /* The state of a search for the best shot: all that its sources share. What they do stands in a
  * header of each. A source knows this file and the headers that stand before its own, in this
- * order: drawn_tables.h, rows.h, ranking.h, choice_kind.h, listing.h, places.h, candidates.h,
- * search.h, anytime.h. */
+ * order: goals.h, drawn_tables.h, rows.h, ranking.h, choice_kind.h, listing.h, places.h,
+ * candidates.h, search.h, anytime.h. */
 #ifndef CAROM_PLAN_SEARCH_STATE_H
 #define CAROM_PLAN_SEARCH_STATE_H
 
@@ -109,6 +109,7 @@ typedef struct carom_search {
   uint32_t pockets;                         /* that count */
   bool breaks;                              /* the stroke is a break */
   bool blind;                               /* no pot is direct */
+  bool only_safeties;                       /* strokes without errors pass the turn, or count not */
   bool first_decides;                       /* a shot ends at a wrong first ball */
   double foul_value;                        /* of a foul at the first contact */
   int32_t left;                             /* balls before the shot */

@@ -191,6 +191,7 @@ enum {
   DRAW_TABLES,      /* tables that are not known, */
   DRAW_REPLAY,      /* the errors of the shots that choose nothing, */
   DRAW_MIND,        /* whether a player thinks of nothing but potting, */
+  DRAW_RUN_OUTS,    /* the seeds of the strokes of a run-out, */
   DRAW_ROUND = 16   /* and the errors of the rounds, a stage each. */
 };
 /* between 0 and 1, without the ends */
@@ -214,7 +215,5 @@ carom_player carom_player_bounded(const carom_player *player, const carom_cue *c
 void carom_player_errs(const carom_player *player, const double z[6], carom_cue *cue);
 /* How much larger the errors of a stroke of this speed are than those of the slowest. */
 double carom_player_growth(const carom_player *player, double speed);
-/* Whether the player thinks of nothing but potting in the stroke whose plan has this seed. */
-bool carom_player_only_pots(const carom_player *player, uint64_t seed);
 
 #endif

@@ -22,23 +22,14 @@ typedef struct workspace {
     carom_search search;        /* then of the values of what strokes leave */
   };
   carom_ruling ruling;
-  carom_facts facts;
-  carom_ball_state final[CAROM_BALLS_MOST];
+  carom_stroke_room room;
   carom_shot_ball balls[CAROM_BALLS_MOST];
 } workspace;
 
 /* Plays a stroke and rules it: what it leaves, to whom, and where a cue ball in hand may be put. */
 static void play(const carom_plan_job *job, const carom_cue *cue, carom_call call, carom_shot *shot,
                  carom_ruling *ruling) {
-  workspace *w = job->memory;
-  shot->final = w->final;
-  shot->facts = &w->facts;
-  const carom_shot *played = shot;
-  if (carom_shoot(job->table, job->balls, (int)job->count, cue, job->shot, shot) < 0)
-    played = NULL;
-  carom_referee(job->rules, job->table, job->balls, (int)job->count, (int)cue->ball, played, call,
-                ruling);
-  ruling->turn = carom_turn_seen(job->rules, &ruling->state, ruling->turn);
+  carom_play_stroke(job, cue, call, &((workspace *)job->memory)->room, shot, ruling);
 }
 
 /* The stroke of a choice with the errors of number n. */
@@ -50,23 +41,11 @@ static carom_cue stroke_of(const carom_plan_job *job, const carom_player *player
   return stroke;
 }
 
-/* A job from what is left, for whoever plays next, with room for the rules. */
-static carom_plan_job job_after(const carom_plan_job *job, const carom_ruling *ruling,
-                                carom_plan_rules *rules) {
-  carom_plan_job next = *job;
-  *rules = *job->rules;
-  rules->state = ruling->state;
-  next.rules = rules;
-  next.balls = ruling->balls;
-  next.leave = (int64_t)ruling->turn.leave;
-  return next;
-}
-
 /* The best stroke from what is left. */
 static carom_status plan_next(const carom_plan_job *job, const carom_ruling *ruling,
                               carom_plan_stroke *choice) {
   carom_plan_rules rules;
-  const carom_plan_job next = job_after(job, ruling, &rules);
+  const carom_plan_job next = carom_job_after(job, ruling, &rules);
   int found;
   if (!ruling->hand)
     return carom_plan(&next, choice, 1, &found);
@@ -97,7 +76,7 @@ static double worth_of(const carom_plan_job *job, const carom_ruling *ruling, do
   if (ruling->turn.outcome >= CAROM_TURN_WIN)
     return ruling->turn.outcome != CAROM_TURN_LOSE;
   carom_plan_rules rules;
-  carom_plan_job next = job_after(job, ruling, &rules);
+  carom_plan_job next = carom_job_after(job, ruling, &rules);
   const bool seats = job->rules->race == CAROM_RACE_SEATS;
   if (seats)
     next.rules = job->rules; /* the seat that has played asks */

@@ -4,10 +4,6 @@
 #include "kept.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 enum { MOST_ROWS = 600, NUMBERS = 21 };
 
 /* Straight at a cushion with top or back spin both contacts may come to hold, and then the

@@ -16,10 +16,6 @@
 #include "ball_ball/kernels.h"
 #include "contact_law/impact.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 /* The reference itself against the data: what it is trusted for. */
 TEST(reference_agrees_with_the_data) {
   case_set cases;

@@ -5,9 +5,6 @@
 #include "cases.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 #endif

@@ -4,10 +4,6 @@
 #include "random_shots.h"
 #include "shot_support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 static const double R = 0.028575, g = 9.81, loss = 0.02, pi = 3.14159265358979323846;
 
 static carom_shot_ball spinning(carom_shot_ball b, double w_x, double w_y, double w_z) {

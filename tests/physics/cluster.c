@@ -4,10 +4,6 @@
 #include "cluster/cluster.h"
 #include "shot_support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 enum { MOST = CAROM_BALLS_MOST, MOST_CONTACTS = 200 };
 static const double R = 0.028575, PI = 3.14159265358979323846;
 

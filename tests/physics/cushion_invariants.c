@@ -4,11 +4,6 @@
 #include "draws.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { DRAWN = 2000 };
 enum { MODELS = CAROM_CUSHION_MODEL_COUNT };
 

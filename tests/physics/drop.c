@@ -3,10 +3,6 @@
 #include "carom_shot.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 enum { COUNT = 10, ROOM = 2000, SAMPLES = 400 };
 
 static carom_event events[ROOM];

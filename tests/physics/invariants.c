@@ -17,9 +17,6 @@
 #include "contact_law/impact.h"
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 enum { COLLISIONS = 1000 };
 
 static carom_solver solving; /* by which solver collide() goes */

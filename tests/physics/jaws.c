@@ -3,9 +3,6 @@
 #include "shot_support.h"
 #include "table/table.h"
 
-#include <math.h>
-#include <stdio.h>
-
 /* A seam: the end of a rail, the normal there, and the direction from the rail to the jaw. */
 typedef struct seam {
   int rail, jaw;

@@ -2,8 +2,6 @@
  * small steps, as energies, by symmetry, and in the limit of a level table. */
 #include "shot_support.h"
 
-#include <stdio.h>
-
 static const double two_pi = 6.283185307179586;
 
 static carom_table sloped(double size, double steepness, double direction) {

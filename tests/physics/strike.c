@@ -7,11 +7,6 @@
 #include "shot_support.h"
 #include "strike_reference.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double R = 0.028575, PI = 3.14159265358979323846, table_size = 4.0;
 static const carom_shot_options gripping = {.friction = CAROM_FRICTION_CONSTANT,
                                             .stop_at = CAROM_STOP_AT(CAROM_EVENT_STRIKE)};

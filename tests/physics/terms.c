@@ -3,10 +3,6 @@
 #include "schema/numbers.h"
 #include "shot_support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 static const double degree = 3.14159265358979323846 / 180.0;
 
 /* ---- Drag */

@@ -7,10 +7,6 @@
 #include "draws.h"
 #include "support.h"
 
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 enum { POINTS = 41 };
 

@@ -5,12 +5,6 @@
 #include "random_shots.h"
 #include "shot_support.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* ---- Invariants */
 
 /* Random shots of every kind, by three models of cushions: a third with the terms of measured

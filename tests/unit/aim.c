@@ -5,9 +5,6 @@
 #include "shot_support.h"
 #include "shots/ball_aim.h"
 
-#include <math.h>
-#include <stdio.h>
-
 enum { LAYOUTS = 2000, MOST_BALLS = 8, DIRECTIONS = 720, HALVINGS = 50 };
 
 /* A cue, what it shoots at, and by which rules. */

@@ -2,8 +2,6 @@
  * radii, balls that separate, and what stands for a default. */
 #include "functions.h"
 
-#include <stdlib.h>
-
 /* Each option beyond its range, and nothing written by a batch. */
 TEST(each_option_is_checked) {
   static const carom_part_kind parts[] = {CAROM_PART_IMPACT_OPTIONS, CAROM_PART_CUSHION_OPTIONS};

@@ -1,8 +1,6 @@
 /* The cushion of a table by three banks. */
 #include "shot_support.h"
 
-#include <math.h>
-
 static carom_table table;
 static carom_ball_kind usual;
 

@@ -2,8 +2,6 @@
 #include "friction/laws.h"
 #include "support.h"
 
-#include <math.h>
-
 TEST(known_slips) {
   carom_impact in = {.a = {.radius = 0.03}, .b = {.r = {0.0, 0.06, 0.0}, .radius = 0.03}};
   const carom_speed_law law = carom_alciatore();

@@ -14,9 +14,6 @@
 #include "shot_support.h"
 
 #include <limits.h>
-#include <math.h>
-#include <stdbool.h>
-#include <string.h>
 
 #ifndef OWN
 #define OWN
@@ -650,6 +647,8 @@ static carom_match *moving(void) {
   F(plan_try, carom_plan_try(PTR(&plan), PTR(&cue), INT(1), PTR(choices)))                         \
   F(plan_value, carom_plan_value(PTR(&plan), ANYINT(0), PTR(numbers)))                             \
   F(player_fargo, (player = carom_player_fargo(ANY(500.0)), ACCEPTED))                             \
+  F(player_rated,                                                                                  \
+    (player = carom_player_rated(ANY(500.0), ANYENUM(carom_rules_kind, 0)), ACCEPTED))             \
   F(player_of, (player = carom_player_of(ANY(1.0)), ACCEPTED))                                     \
   F(player_strike, (carom_player_strike(MAYBE(&player), 1, 1, MAYBE(&aimed)), ACCEPTED))           \
   F(pot_kind, GIVES(carom_pot_kind(MAYBE(&table), MAYBE(&shot), ANYINT(0), ANYINT(1), ANYINT(0)))) \

@@ -7,7 +7,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "functions.h"
 
-#include <stdio.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

@@ -3,9 +3,6 @@
 #include "carom_tangent.h"
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 enum { SHOTS = 60, BALLS = 6, ROOM = 400 };
 
 /* The same layouts, whole and by reference. */

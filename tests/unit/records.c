@@ -2,10 +2,6 @@
 #include "rows/records.h"
 #include "support.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static record_reader *open_text(const char *text, size_t size) {
   char path[32];
   FILE *file = tmpfile();

@@ -2,10 +2,6 @@
 #include "schema/numbers.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 static carom_shot_ball fit(void) {
   return (carom_shot_ball){.kind = carom_ball_kind_of(CAROM_GAME_POOL),
                            .state = {.r = {0.5, 1, 0.028575}}};
