@@ -1,6 +1,6 @@
 /* carom_coach.h: advice for a player: every way to pot, to score or to reach a place; why a
  * stroke of a plan is good, and what it leaves; a run-out as one answer; what comes of many breaks
- * of a rack; and the odds of a match.
+ * of a rack; what strokes of a match cost, and drills of them; and the odds of a match.
  *
  *     carom_player player = carom_player_fargo(550.0);
  *     static carom_shot_way ways[1000];
@@ -338,6 +338,68 @@ typedef struct carom_break_choice {
  * and for a rack of no game with a break. */
 CAROM_API carom_status carom_break_best(const carom_break_job *job, int64_t breaks,
                                         carom_break_choice *choices, int room);
+
+/* ---- Practice -------------------------------------------------------------------------------- */
+
+/* Kinds of strokes that are practised together. A pot is straight below a cut of 15 degrees and
+ * thin above 45, and long where both ways together have more than 1.2 m. */
+typedef enum carom_practice {
+  CAROM_PRACTICE_STRAIGHT = 0, /* short pots by their cuts */
+  CAROM_PRACTICE_CUT = 1,
+  CAROM_PRACTICE_THIN = 2,
+  CAROM_PRACTICE_LONG_STRAIGHT = 3, /* long ones */
+  CAROM_PRACTICE_LONG_CUT = 4,
+  CAROM_PRACTICE_LONG_THIN = 5,
+  CAROM_PRACTICE_INDIRECT = 6, /* a ball was called, or the turn kept, and no pot is direct */
+  CAROM_PRACTICE_OTHER = 7     /* safeties, and strokes at no pocket */
+} carom_practice;
+
+/* The words for a group, such as "long thin cut"; "" for a value not listed. */
+CAROM_API const char *carom_practice_name(carom_practice group);
+
+/* What a stroke of a match meant, and what came of it. */
+typedef struct carom_review {
+  carom_cue aim; /* the stroke that was meant: the one that was played, aimed at the middle of
+                           the pocket. */
+  double off;    /* degrees: how far the stroke was played to the left of that; NaN for
+                           INDIRECT and OTHER, as cut, distance and told. */
+  double cut,
+      distance;       /* degrees, m: the cut as in carom_pot; both ways, of the cue ball to the ball
+                           and of the ball to the pocket. */
+  double told;        /* chance that the meant stroke keeps the turn. */
+  double value, came; /* chance to win of the meant stroke, and after the one that was played. */
+  double miss_cost, place_cost; /* value - came: what the miss cost, or the pot won, and what the
+                                   places of the balls cost. The means are 0 for a player with the
+                                   errors of the job. 0 for INDIRECT and OTHER. */
+  int32_t group;                /* a carom_practice. */
+  int32_t ball, pocket;         /* that were meant, or -1. */
+  int32_t kept;                 /* 1: the stroke kept the turn or won. */
+} carom_review;
+
+/* Reviews a stroke of a game of two sides with pockets. The job has the layout, the rules with
+ * their state and the player before it, and options->seed and options->opponent; it needs no
+ * memory. `call` is that of the match; it is read in games with calls. In others the ball is the
+ * one that was met first, and the pocket that whose aim is nearest, within 10 degrees. Returns
+ * CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_OPTIONS for a bad player, and for other games; or an
+ * error of carom_shot_check(). */
+CAROM_API carom_status carom_review_of(const carom_plan_job *job, const carom_cue *played,
+                                       carom_call call, carom_review *review);
+
+/* A layout to practise a stroke. */
+typedef struct carom_drill {
+  carom_cue aim;   /* the stroke without errors. */
+  double place[2]; /* m: where that leaves the cue ball. */
+  double radius;   /* m: how near to it the cue ball has to come, which half of the player's pots
+                           do; 0 where the pot alone is practised. */
+  double rating;   /* the rating whose errors make the drill in half of the tries, 200 to 850. */
+  int32_t ball, pocket; /* that has to fall, and where. */
+} carom_drill;
+
+/* Makes a drill of a stroke that was reviewed, with the same job: its layout is that of the job.
+ * The place counts where it cost more than the miss. Statuses are those of carom_review_of();
+ * CAROM_ERROR_OPTIONS if the stroke aimed at no pocket directly. */
+CAROM_API carom_status carom_drill_of(const carom_plan_job *job, const carom_review *review,
+                                      carom_drill *drill);
 
 /* ---- Odds ------------------------------------------------------------------------------------ */
 
