@@ -251,6 +251,7 @@ typedef struct carom_break_job {
   int64_t count;                  /* number of balls: carom_rack_size(). */
   const carom_cue *cue;           /* the stroke. */
   const carom_player *player;     /* whose errors each stroke has. */
+  const carom_player *opponent;   /* NULL: who makes the same errors. */
   const carom_shot_options *shot; /* NULL: the defaults. */
   int32_t rack;                   /* a carom_rack_kind. */
   int32_t aim;                    /* a carom_break_aim. */
@@ -270,6 +271,9 @@ typedef struct carom_break_counts {
                                                          the table, a ball at a wing falls. */
   int64_t stays;                                      /* in which the cue ball stays. */
   int64_t fell[CAROM_BALLS_MOST][CAROM_POCKETS_MOST]; /* how often each ball fell where. */
+  double wins, win_squares;                           /* sums of the chances to win by the value of
+                                                         what each break leaves, and of their
+                                                         squares; 0 without rules. */
   double x, y, squares;                               /* m, m^2: sums over the cue balls that stay:
                                                          of their places, and of x^2 + y^2. */
 } carom_break_counts;
@@ -296,6 +300,31 @@ CAROM_API int carom_break_has_rules(carom_rack_kind rack);
 /* The mean place of the cue balls that stay, m, and the standard deviation of their places, m; all
  * NaN if none stays. If a pointer is NULL, the call returns NaN. */
 CAROM_API double carom_break_spread(const carom_break_counts *counts, double place[2]);
+
+enum { CAROM_BREAK_CHOICES = 8 }; /* The largest number of breaks that carom_break_best() gives. */
+
+/* A break that a search proposes. */
+typedef struct carom_break_choice {
+  carom_cue cue;             /* the stroke; its direction is that in the layout of the job. */
+  double place[2];           /* m: where the cue ball lies. */
+  int32_t aim;               /* a carom_break_aim. */
+  int32_t reserved;          /* 0. */
+  carom_break_counts counts; /* of breaks that chose nothing. */
+  double speed_cost, aim_cost, tip_cost; /* how much more often the first choice would win without
+                                            the player's errors of speed, of direction and
+                                            elevation, and of the tip; NaN for the others. */
+  double cost;                           /* the same without any of these errors. */
+} carom_break_choice;
+
+/* Finds breaks that win most often for the player: where the cue ball lies behind the head string,
+ * the speed, at most that of the job, the height of the tip, and a cut of up to half of the ball in
+ * front. 64 strokes, one of which is that of the job, are compared by the same racks and errors, in
+ * rounds each of which keeps the better half. Writes the `room` best to choices[], the best first,
+ * with the results of `breaks` further breaks of each. Statuses are those of carom_break_play();
+ * CAROM_ERROR_OPTIONS also for fewer than 16 breaks, for room that is not 1 to CAROM_BREAK_CHOICES,
+ * and for a rack of no game with a break. */
+CAROM_API carom_status carom_break_best(const carom_break_job *job, int64_t breaks,
+                                        carom_break_choice *choices, int room);
 
 /* ---- Odds ------------------------------------------------------------------------------------ */
 

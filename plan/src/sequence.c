@@ -7,8 +7,8 @@
  * zone. How often strokes with errors do so is played; and some of those that play on outside the
  * zone are planned on, which shows where the plan turns.
  *
- * The chance of the whole is no product of these: it comes from whole run-outs with errors, in which
- * each stroke is planned anew. */
+ * The chance of the whole is no product of these: it comes from whole run-outs with errors, in
+ * which each stroke is planned anew. */
 #include "carom_coach.h"
 #include "coach.h"
 #include "platform/elementary.h"

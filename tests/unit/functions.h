@@ -470,6 +470,7 @@ static const carom_plan_stroke safety = {.ball = -1};
 static OWN carom_shot_way ways[4];
 static OWN carom_ways_result ways_result;
 static OWN carom_break_counts break_counts;
+static OWN carom_break_choice break_choices[CAROM_BREAK_CHOICES];
 static OWN carom_series series;
 static OWN carom_odds odds;
 static OWN carom_why why;
@@ -615,6 +616,7 @@ static carom_match *moving(void) {
   F(plan_continue, carom_plan_continue(PTR(sliced_plan()), PTR(choices), LENGTH(4), PTR(&found)))  \
   F(plan_hand,                                                                                     \
     carom_plan_hand(PTR(&plan), MAYBE(zeros), NULL, PTR(choices), LENGTH(4), PTR(&found)))         \
+  F(break_best, carom_break_best(PTR(break_job()), LENGTH(16), PTR(break_choices), INT(1)))        \
   F(break_has_rules, GIVES(carom_break_has_rules(ANYENUM(carom_rack_kind, 0))))                    \
   F(break_memory, GIVES(carom_break_memory()))                                                     \
   F(break_play, carom_break_play(PTR(break_job()), ANYINT(0), LENGTH(1), PTR(&break_counts)))      \
@@ -636,6 +638,8 @@ static carom_match *moving(void) {
   F(plan_try, carom_plan_try(PTR(&plan), PTR(&cue), INT(1), PTR(choices)))                         \
   F(plan_value, carom_plan_value(PTR(&plan), ANYINT(0), PTR(numbers)))                             \
   F(player_fargo, (player = carom_player_fargo(ANY(500.0)), ACCEPTED))                             \
+  F(player_rated,                                                                                  \
+    (player = carom_player_rated(ANY(500.0), ANYENUM(carom_rules_kind, 0)), ACCEPTED))             \
   F(player_of, (player = carom_player_of(ANY(1.0)), ACCEPTED))                                     \
   F(player_strike, (carom_player_strike(MAYBE(&player), 1, 1, MAYBE(&aimed)), ACCEPTED))           \
   F(pot_kind, GIVES(carom_pot_kind(MAYBE(&table), MAYBE(&shot), ANYINT(0), ANYINT(1), ANYINT(0)))) \

@@ -34,6 +34,7 @@ import type {
   Seat,
   ShotBall,
   ShotOptions,
+  Skill,
   Standing,
   StopOptions,
   Table,
@@ -72,7 +73,7 @@ export interface Host extends RecordingHost {
   writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer;
   /** The last shot of a match, with its events. */
   film(match: Pointer, table: Table, balls: readonly ShotBall[], cue: Cue): Shot;
-  player(of: { fargo: number }): Player;
+  player(of: Skill): Player;
   readRuling(pointer: Pointer, game: Rules, balls: readonly ShotBall[]): Ruling;
   think(
     table: Table,
@@ -551,7 +552,7 @@ export class Match extends Owner<Host> {
     const { ball, ...stick } = this.cue;
     const { rating } = this.seats[this.seat]!;
     const request: PlanOptions = {
-      ...(rating > 0 && { player: this.#host.player({ fargo: rating }) }),
+      ...(rating > 0 && { player: this.#host.player({ fargo: rating, rules: this.#rules.rules }) }),
       ...options,
       ...this.game,
       cue: { ...stick, ...options.cue, ...(this.strikable.length === 1 && { ball }) },

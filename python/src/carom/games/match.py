@@ -662,7 +662,8 @@ class Match:
 
         is_own = isinstance(self.rules, Rules)
         if rating := self._c.seating.seat[self.seat].rating:
-            wanted = {"player": player(fargo=rating), **wanted}
+            game = "eightball" if is_own else self.rules
+            wanted = {"player": player(fargo=rating, rules=game), **wanted}
         return plan(
             self.table,
             self.balls,
