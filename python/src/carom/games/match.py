@@ -663,7 +663,7 @@ class Match:
 
         is_own = isinstance(self.rules, Rules)
         if rating := self._c.seating.seat[self.seat].rating:
-            game = "eightball" if is_own else self.rules
+            game: Game = "eightball" if isinstance(self.rules, Rules) else self.rules
             wanted = {"player": player(fargo=rating, rules=game), **wanted}
         return plan(
             self.table,
