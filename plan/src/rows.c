@@ -311,7 +311,12 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     /* a stroke of the scan that begins with a foul is dropped: its layout is not judged */
     outcome *o = &plan->outcome[row];
     if (s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(plan, first_hit))
-      *o = (outcome){.first = (int8_t)first_hit};
+      *o = (outcome){.worth = plan->foul_value,
+                     .turn = CAROM_TURN_PASS,
+                     .foul = 1,
+                     .ball = -1,
+                     .pocket = -1,
+                     .first = (int8_t)first_hit};
     else
       *o = judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
     o->events = (uint8_t)carom_min(shot.count, UINT8_MAX);
