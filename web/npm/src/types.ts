@@ -211,7 +211,7 @@ export type RackName = C.RackKind;
 /** How the strokes of a player differ from those that are meant. What is missing is 0. */
 export type Player = Optional<
   C.Player,
-  "speedShare" | "speedLeast" | "speedMost" | "tipMost" | "growth" | "onlyPots" | "shots"
+  "speedShare" | "speedLeast" | "speedMost" | "tipMost" | "growth" | "onlyPots" | "shots" | "eye"
 >;
 
 /** Games won and lost against a player of a Fargo rating, 0 to 1000. */
