@@ -198,9 +198,9 @@ typedef struct carom_sequence_stroke {
   double zone_share;  /* share of CAROM_SEQUENCE_TRIES strokes with errors that win, or that play on
                          with the cue ball in the zone. */
   double stray_share; /* share that plays on with the cue ball outside. */
-  double turn_share;  /* share of some strays, from which another pot than that of the next stroke
-                         is planned: the most frequent one, */
-  int32_t turn_ball, turn_pocket; /* this one; -1: none. */
+  double turn_share;  /* share of some strays from which a plan has the pot of turn_ball. */
+  int32_t turn_ball, turn_pocket; /* the ball and the pocket of the most frequent pot from strays
+                                     that is not the pot of the next stroke; -1: none. */
 } carom_sequence_stroke;
 
 /* How played run-outs ended: how many of them, or sums. All zero before the first one. */
