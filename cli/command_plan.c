@@ -175,33 +175,61 @@ static void write_lines(FILE *out, const plan_job *job, const shot_line *line,
   }
 }
 
+/* Options that do not go together: one of `options` with one of `others`. */
+enum asked_option {
+  TRY = 1,
+  VALUE = 2,
+  HAND = 4,
+  JSON = 8,
+  CSV = 16,
+  WHY = 32,
+  PLOT = 64,
+  SEQUENCE = 128,
+  ONLY = 256,
+  LEAVE = 512,
+  RUN_OUT = 1024
+};
+static const struct {
+  unsigned option, others;
+  const char *text;
+} clashes[] = {
+    {TRY, VALUE | HAND,
+     "--try plays strokes from where the cue ball lies: give it without --value and --in-hand"},
+    {JSON, CSV | VALUE | WHY,
+     "--json writes strokes alone: give it without --csv, --value and --why"},
+    {WHY, CSV | VALUE, "--why explains shots in words: give it without --csv and --value"},
+    {SEQUENCE, CSV | VALUE | WHY | TRY | ONLY | LEAVE,
+     "--sequence plans a whole run-out: give it without --csv, --value, --why, --try, --only and "
+     "--leave"},
+    {LEAVE, VALUE | WHY | RUN_OUT,
+     "--leave asks for the chance of a goal: give it without --value, --why and --run-out"},
+    {VALUE, PLOT, "--value finds no shot that --plot could draw"}};
+
+static unsigned asked_of(const plan_job *job) {
+  const bool leaves = job->goal.kind != CAROM_GOAL_WIN, plots = job->plot != NULL;
+  return job->tries * TRY | job->value * VALUE | job->hand * HAND | job->json * JSON |
+         job->csv * CSV | job->why * WHY | plots * PLOT | job->sequence * SEQUENCE |
+         (job->only != 0) * ONLY | leaves * LEAVE | job->run_out * RUN_OUT;
+}
+
 /* Whether the options go together; complains where they do not. */
 static bool are_together(const plan_job *job) {
   carom_player player;
+  const unsigned asked = asked_of(job);
   if (!player_of(&job->flags.shared.player, &player))
     return false;
   if (!plan_game_fits(&job->game))
     return false;
-  if (job->tries && (job->value || job->hand))
-    complain(
-        "--try plays strokes from where the cue ball lies: give it without --value and --in-hand");
-  else if (job->value && is_carom(job))
+  for (size_t k = 0; k < sizeof clashes / sizeof clashes[0]; k++)
+    if ((asked & clashes[k].option) != 0 && (asked & clashes[k].others) != 0) {
+      complain("%s", clashes[k].text);
+      return false;
+    }
+  if (job->value && is_carom(job))
     complain("--value: no estimate of a layout of %s is known; a plan reports chances",
              carom_rules_about_of((carom_rules_kind)job->game.rules)->text);
-  else if (job->json && (job->csv || job->value || job->why))
-    complain("--json writes strokes alone: give it without --csv, --value and --why");
-  else if (job->why && (job->csv || job->value))
-    complain("--why explains shots in words: give it without --csv and --value");
-  else if (job->sequence &&
-           (job->csv || job->value || job->why || job->tries || job->only || job->goal.kind))
-    complain("--sequence plans a whole run-out: give it without --csv, --value, --why, --try, "
-             "--only and --leave");
-  else if (job->goal.kind != CAROM_GOAL_WIN && (job->value || job->why || job->run_out))
-    complain("--leave asks for the chance of a goal: give it without --value, --why and --run-out");
   else if (job->sequence && is_carom(job))
     complain("--sequence needs a game with pockets, such as --rules eightball");
-  else if (job->value && job->plot != NULL)
-    complain("--value finds no shot that --plot could draw");
   else
     return true;
   return false;
@@ -391,6 +419,7 @@ static const command_form form = {
                                            &option_value,
                                            &option_player,
                                            &option_player_errors,
+                                           &option_player_eye,
                                            &option_with_of_shots,
                                            &option_cue_ball,
                                            &options_of_plan,

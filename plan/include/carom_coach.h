@@ -1,6 +1,6 @@
 /* carom_coach.h: advice for a player: every way to pot, to score or to reach a place; why a
  * stroke of a plan is good, and what it leaves; a run-out as one answer; what comes of many breaks
- * of a rack; and the odds of a match.
+ * of a rack; what strokes of a match cost, and drills of them; and the odds of a match.
  *
  *     carom_player player = carom_player_fargo(550.0);
  *     static carom_shot_way ways[1000];
@@ -211,9 +211,9 @@ typedef struct carom_sequence_stroke {
   double zone_share;  /* share of CAROM_SEQUENCE_TRIES strokes with errors that win, or that play on
                          with the cue ball in the zone. */
   double stray_share; /* share that plays on with the cue ball outside. */
-  double turn_share;  /* share of some strays, from which another pot than that of the next stroke
-                         is planned: the most frequent one, */
-  int32_t turn_ball, turn_pocket; /* this one; -1: none. */
+  double turn_share;  /* share of some strays from which a plan has the pot of turn_ball. */
+  int32_t turn_ball, turn_pocket; /* the ball and the pocket of the most frequent pot from strays
+                                     that is not the pot of the next stroke; -1: none. */
 } carom_sequence_stroke;
 
 /* How played run-outs ended: how many of them, or sums. All zero before the first one. */
@@ -227,14 +227,14 @@ CAROM_API size_t carom_sequence_memory(const carom_plan_options *options);
 
 /* Plans a run-out of the player at the table, as with options->chance_opponent 1: stroke by stroke,
  * each from what the one before leaves without errors. Writes up to `room` strokes, at most
- * CAROM_SEQUENCE_MOST; *found becomes their number. The last one wins, or is the first that names no
- * ball. in_hand: 1 if the cue ball is in hand before the first stroke, within the bounds of
- * job->leave. within: how much value the landing zones may lose, above 0 and below 1. A stroke takes
- * about as long as two plans, and as eight more of at most 200 shots. If options->stop is set, the
- * run-out ends with the stroke that is planned. options->slice is not read. Returns CAROM_OK;
- * CAROM_ERROR_NULL if a pointer is NULL or there is less memory than carom_sequence_memory();
- * CAROM_ERROR_OPTIONS for another `within`, a goal, or options->safeties; or an error of carom_plan()
- * for the first layout. */
+ * CAROM_SEQUENCE_MOST; *found becomes their number. The last one wins, or is the first after which
+ * the player hardly ever plays on. in_hand: 1 if the cue ball is in hand before the first stroke,
+ * within the bounds of job->leave. within: how much value the landing zones may lose, above 0 and
+ * below 1. A stroke takes about as long as two plans, and as eight more of at most 200 shots. If
+ * options->stop is set, the run-out ends with the stroke that is planned. options->slice is not
+ * read. Returns CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is less memory than
+ * carom_sequence_memory(); CAROM_ERROR_OPTIONS for another `within`, a goal, or options->safeties;
+ * or an error of carom_plan() for the first layout. */
 CAROM_API carom_status carom_sequence(const carom_plan_job *job, int in_hand, double within,
                                       carom_sequence_stroke *strokes, int room, int *found);
 
@@ -264,6 +264,7 @@ typedef struct carom_break_job {
   int64_t count;                  /* number of balls: carom_rack_size(). */
   const carom_cue *cue;           /* the stroke. */
   const carom_player *player;     /* whose errors each stroke has. */
+  const carom_player *opponent;   /* NULL: who makes the same errors. */
   const carom_shot_options *shot; /* NULL: the defaults. */
   int32_t rack;                   /* a carom_rack_kind. */
   int32_t aim;                    /* a carom_break_aim. */
@@ -283,6 +284,9 @@ typedef struct carom_break_counts {
                                                          the table, a ball at a wing falls. */
   int64_t stays;                                      /* in which the cue ball stays. */
   int64_t fell[CAROM_BALLS_MOST][CAROM_POCKETS_MOST]; /* how often each ball fell where. */
+  double wins, win_squares;                           /* sums of the chances to win by the value of
+                                                         what each break leaves, and of their
+                                                         squares; 0 without rules. */
   double x, y, squares;                               /* m, m^2: sums over the cue balls that stay:
                                                          of their places, and of x^2 + y^2. */
 } carom_break_counts;
@@ -309,6 +313,93 @@ CAROM_API int carom_break_has_rules(carom_rack_kind rack);
 /* The mean place of the cue balls that stay, m, and the standard deviation of their places, m; all
  * NaN if none stays. If a pointer is NULL, the call returns NaN. */
 CAROM_API double carom_break_spread(const carom_break_counts *counts, double place[2]);
+
+enum { CAROM_BREAK_CHOICES = 8 }; /* The largest number of breaks that carom_break_best() gives. */
+
+/* A break that a search proposes. */
+typedef struct carom_break_choice {
+  carom_cue cue;             /* the stroke; its direction is that in the layout of the job. */
+  double place[2];           /* m: where the cue ball lies. */
+  int32_t aim;               /* a carom_break_aim. */
+  int32_t reserved;          /* 0. */
+  carom_break_counts counts; /* of breaks that chose nothing. */
+  double speed_cost, aim_cost, tip_cost; /* how much more often the first choice would win without
+                                            the player's errors of speed, of direction and
+                                            elevation, and of the tip; NaN for the others. */
+  double cost;                           /* the same without any of these errors. */
+} carom_break_choice;
+
+/* Finds breaks that win most often for the player: where the cue ball lies behind the head string,
+ * the speed, at most that of the job, the height of the tip, and a cut of up to half of the ball in
+ * front. 64 strokes, one of which is that of the job, are compared by the same racks and errors, in
+ * rounds each of which keeps the better half. Writes the `room` best to choices[], the best first,
+ * with the results of `breaks` further breaks of each. Statuses are those of carom_break_play();
+ * CAROM_ERROR_OPTIONS also for fewer than 16 breaks, for room that is not 1 to CAROM_BREAK_CHOICES,
+ * and for a rack of no game with a break. */
+CAROM_API carom_status carom_break_best(const carom_break_job *job, int64_t breaks,
+                                        carom_break_choice *choices, int room);
+
+/* ---- Practice -------------------------------------------------------------------------------- */
+
+/* Kinds of strokes that are practised together. A pot is straight below a cut of 15 degrees and
+ * thin above 45, and long where both ways together have more than 1.2 m. */
+typedef enum carom_practice {
+  CAROM_PRACTICE_STRAIGHT = 0, /* short pots by their cuts */
+  CAROM_PRACTICE_CUT = 1,
+  CAROM_PRACTICE_THIN = 2,
+  CAROM_PRACTICE_LONG_STRAIGHT = 3, /* long ones */
+  CAROM_PRACTICE_LONG_CUT = 4,
+  CAROM_PRACTICE_LONG_THIN = 5,
+  CAROM_PRACTICE_INDIRECT = 6, /* a ball was called, or the turn kept, and no pot is direct */
+  CAROM_PRACTICE_OTHER = 7     /* safeties, and strokes at no pocket */
+} carom_practice;
+
+/* The words for a group, such as "long thin cut"; "" for a value not listed. */
+CAROM_API const char *carom_practice_name(carom_practice group);
+
+/* What a stroke of a match meant, and what came of it. */
+typedef struct carom_review {
+  carom_cue aim; /* the stroke that was meant: the one that was played, aimed at the middle of
+                           the pocket. */
+  double off;    /* degrees: how far the stroke was played to the left of that; NaN for
+                           INDIRECT and OTHER, as cut, distance and told. */
+  double cut,
+      distance;       /* degrees, m: the cut as in carom_pot; both ways, of the cue ball to the ball
+                           and of the ball to the pocket. */
+  double told;        /* chance that the meant stroke keeps the turn. */
+  double value, came; /* chance to win of the meant stroke, and after the one that was played. */
+  double miss_cost, place_cost; /* value - came: what the miss cost, or the pot won, and what the
+                                   places of the balls cost. The means are 0 for a player with the
+                                   errors of the job. 0 for INDIRECT and OTHER. */
+  int32_t group;                /* a carom_practice. */
+  int32_t ball, pocket;         /* that were meant, or -1. */
+  int32_t kept;                 /* 1: the stroke kept the turn or won. */
+} carom_review;
+
+/* Reviews a stroke of a game of two sides with pockets. The job has the layout, the rules with
+ * their state and the player before it, and options->seed and options->opponent; it needs no
+ * memory. `call` is that of the match; it is read in games with calls. In others the ball is the
+ * one that was met first, and the pocket that whose aim is nearest, within 10 degrees. Returns
+ * CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_OPTIONS for a bad player, and for other games; or an
+ * error of carom_shot_check(). */
+CAROM_API carom_status carom_review_of(const carom_plan_job *job, const carom_cue *played,
+                                       carom_call call, carom_review *review);
+
+/* A layout to practise a stroke. */
+typedef struct carom_drill {
+  carom_cue aim;   /* the stroke without errors. */
+  double place[2]; /* m: where that leaves the cue ball. */
+  double radius;   /* m: how near to it the cue ball has to come, which half of the player's pots
+                           do; 0 where the pot alone is practised. */
+  double rating;   /* the rating whose errors make the drill in half of the tries, 200 to 850. */
+  int32_t ball, pocket; /* that has to fall, and where. */
+} carom_drill;
+
+/* Makes a drill of a stroke that was reviewed, with the same job: its layout is that of the job.
+ * The place counts where it cost more than the miss. Statuses are those of carom_review_of();
+ * CAROM_ERROR_OPTIONS if the stroke aimed at no pocket directly. */
+CAROM_API carom_status carom_drill_of(const carom_plan_job *job, const carom_review *review,
+                                      carom_drill *drill);
 
 /* ---- Odds ------------------------------------------------------------------------------------ */
 

@@ -32,7 +32,8 @@ extern "C" {
 /* ---- Players --------------------------------------------------------------------------------- */
 
 /* How the stroke of a player differs from the intended one: standard deviations of independent
- * normal errors. The stroke with errors stays within the bounds. Each number is 0 to 1000. */
+ * normal errors. The stroke with errors stays within the bounds. Each number except `eye` is 0 to
+ * 1000. */
 typedef struct carom_player {
   double speed;       /* m/s, for a cue whose tip loses nothing. With a tip of restitution e it is
                          2/(1 + e) times as much, so that the error of the ball's speed is the
@@ -59,12 +60,19 @@ typedef struct carom_player {
                          player. */
   double shots;       /* of this player's plans, if the options have neither shots nor seconds: 100
                          to 2000. 0: 2000. */
+  double eye;         /* m, at most 0.01: how exactly the player sees where balls lie, the standard
+                         deviation each way of the place of each ball. Whenever a plan plays a
+                         stroke with errors, the balls lie elsewhere by such errors, the same for
+                         all strokes that it compares. A gap between balls, or to a cushion, becomes
+                         at most twice as wide, so balls that touch stay in touch. 0: 0.0002, which
+                         is 0.2 mm. Below 0: none, the balls lie where they are given. */
 } carom_player;
 
 /* A player with all errors proportional to `scale` >= 0: 0.1 m/s, 0.1 degrees of direction and of
  * elevation, and 0.003 radii each way, times scale, for all strokes. These are the errors of a
- * public benchmark of eight-ball (AI3603, 2025). One scale for all errors is a convention. The
- * scale is not checked here: carom_plan() refuses a player with an error that is not 0 to 1000. */
+ * public benchmark of eight-ball (AI3603, 2025). One scale for all errors is a convention. The eye
+ * is the usual one, but with scale 0 the player also sees places exactly. The scale is not checked
+ * here: carom_plan() refuses a player with an error that is not 0 to 1000. */
 CAROM_API carom_player carom_player_of(double scale);
 
 /* A player with a Fargo rating, 200 to 850; other numbers count as the nearest of these. The player
@@ -441,6 +449,13 @@ CAROM_API const char *carom_rules_fault(carom_rules_kind kind, const carom_rules
 
 /* The rules, with the state after the break; those of EIGHTBALL for a value not listed. */
 CAROM_API carom_plan_rules carom_plan_rules_of(carom_rules_kind kind);
+
+/* A player with a rating in a game, as the seats of a match have it: 100 points are odds of 2 to 1 in
+ * a rack, a frame of snooker, 15 points of three-cushion or 15 of straight pool. A 500 has the
+ * errors of carom_player_fargo() in each game. Where a game lets the better player win more often
+ * than eight-ball does, others have errors that differ less from those. A kind that is none counts
+ * as eight-ball. */
+CAROM_API carom_player carom_player_rated(double rating, carom_rules_kind rules);
 
 /* Puts balls[ball] on the foot spot, or as near to it as there is room on the long string: behind
  * the spot if possible, otherwise before it. Returns CAROM_OK, CAROM_ERROR_OFF_TABLE if there is no

@@ -156,7 +156,7 @@ void carom_match_look(carom_match *match) {
   match->cue.b = usual.b;
   memset(&match->player, 0, sizeof match->player);
   if (seat->rating != 0.0)
-    match->player = carom_player_fargo(seat->rating);
+    match->player = carom_player_rated(seat->rating, (carom_rules_kind)match->record.rules);
   match->on =
       match->rules.on(&match->rules.state, in_play(record)) & ~(UINT32_C(1) << match->cue_ball);
   match->touching = 0;

@@ -78,7 +78,7 @@ carom_status carom_match_opponent(const carom_match *match, const carom_player *
   const int32_t next = carom_seat_of_side(match, 1 - match->record.player);
   const double rating = match->seating.seat[next].rating;
   if (rating != 0.0) {
-    *opponent = carom_player_fargo(rating);
+    *opponent = carom_player_rated(rating, (carom_rules_kind)match->record.rules);
     return CAROM_OK;
   }
 

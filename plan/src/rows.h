@@ -16,9 +16,11 @@ void carom_search_stage(carom_search *plan, int64_t first, int64_t candidates, i
 bool carom_search_play(carom_search *plan);
 /* Takes the cost of a shot with so many events from the slice. */
 void carom_search_spend(carom_search *plan, int64_t events);
-/* The layout of a row of a candidate, whose cue ball, *struck, lies where it is put. */
+/* The layout of a row of a candidate, whose cue ball lies where it is put; draws above 0: as the
+ * player may see it. */
 carom_prepared carom_search_layout(const carom_search *plan, const carom_candidate *c,
-                                   uint32_t draws, int64_t row, carom_ball_state *struck);
+                                   uint32_t draws, int64_t row,
+                                   carom_ball_state drawn[CAROM_BALLS_MOST]);
 /* The stroke of a candidate, with the errors of a row; draws 0: without errors. */
 carom_cue carom_search_stroke(const carom_search *plan, const carom_candidate *c, uint32_t draws,
                               int64_t row);

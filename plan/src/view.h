@@ -207,6 +207,8 @@ enum {
 };
 /* between 0 and 1, without the ends */
 double carom_uniform(uint64_t seed, uint32_t stage, uint64_t row, uint32_t number);
+/* two normal numbers, of the uniform ones `number` and the next; and the first six */
+void carom_normal_pair(uint64_t seed, uint32_t stage, uint64_t row, uint32_t number, double z[2]);
 void carom_normals(uint64_t seed, uint32_t stage, uint64_t row, double z[6]);
 
 /* stick.c: the least elevation, degrees, with which the stick of a cue is over the cushions and the

@@ -164,7 +164,9 @@ TEST(breaks_add_up) {
   expect_ok(carom_break_play(&breaks, FIRST, BREAKS - FIRST, &parts));
   expect_ok(carom_break_play(&breaks, 0, FIRST, &parts));
   ck_assert_double_eq_tol(whole.squares, parts.squares, 1e-9);
+  ck_assert_double_eq_tol(whole.win_squares, parts.win_squares, 1e-9);
   parts.x = whole.x, parts.y = whole.y, parts.squares = whole.squares;
+  parts.wins = whole.wins, parts.win_squares = whole.win_squares;
   ck_assert_int_eq(memcmp(&whole, &parts, sizeof whole), 0);
 
   int64_t fell = 0;
@@ -197,5 +199,59 @@ TEST(breaks_add_up) {
   ck_assert_int_eq(carom_break_play(&breaks, 0, 1, &whole), CAROM_ERROR_NULL);
   ck_assert(carom_break_has_rules(CAROM_RACK_NINEONSPOT) == 1);
   ck_assert(carom_break_has_rules(CAROM_RACK_SNOOKER) == 0);
+  edge_free(&space);
+}
+
+/* The best breaks win more often than the soft one of the job at other racks too, in the order that
+ * is told; their place is legal, and a player without errors pays nothing for them. */
+TEST(the_best_break_wins_more_often) {
+  enum { BREAKS = 128, ROOM = 3, RACK = 10 };
+  make_layout(1, 1);
+  carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, balls, BALLS);
+  cue.speed = 9.0;
+  player = carom_player_fargo(700.0);
+  carom_break_job breaks = {.table = &table,
+                            .balls = balls,
+                            .count = RACK,
+                            .cue = &cue,
+                            .player = &player,
+                            .rack = CAROM_RACK_NINEBALL,
+                            .gap = 1e-4,
+                            .seed = 7,
+                            .memory_size = carom_break_memory()};
+  edge space = edge_make(breaks.memory_size, true);
+  breaks.memory = space.memory;
+  static carom_break_choice choice[CAROM_BREAK_CHOICES];
+  expect_ok(carom_break_best(&breaks, BREAKS, choice, ROOM));
+  for (int k = 0; k < ROOM; k++) {
+    const carom_break_choice *c = &choice[k];
+    ck_assert(c->counts.breaks == BREAKS && c->cue.speed <= cue.speed);
+    ck_assert(c->place[1] <= 0.25 * table.length && fabs(c->cue.phi - 90.0) < 40.0);
+    ck_assert(k == 0 || c->counts.wins <= choice[k - 1].counts.wins);
+    ck_assert(isnan(c->cost) == (k > 0));
+  }
+
+  /* at racks of another seed, beside a third of the speed */
+  carom_break_counts again = {0}, soft = {0};
+  breaks.seed = 90000;
+  cue.speed = 3.0;
+  expect_ok(carom_break_play(&breaks, 0, BREAKS, &soft));
+  memcpy(balls[0].state.r, choice[0].place, sizeof choice[0].place);
+  cue = choice[0].cue;
+  breaks.aim = choice[0].aim;
+  expect_ok(carom_break_play(&breaks, 0, BREAKS, &again));
+  ck_assert(again.wins > soft.wins + 4.0);
+  const double spread = sqrt(choice[0].counts.win_squares - pow(choice[0].counts.wins, 2) / BREAKS);
+  ck_assert(fabs(again.wins - choice[0].counts.wins) < 5.0 * 1.5 * spread);
+
+  /* without errors; and what is refused */
+  player = carom_player_of(0.0);
+  expect_ok(carom_break_best(&breaks, 16, choice, 1));
+  ck_assert(choice[0].cost == 0.0 && choice[0].aim_cost == 0.0 && choice[0].tip_cost == 0.0);
+  ck_assert_int_eq(carom_break_best(&breaks, 15, choice, 1), CAROM_ERROR_OPTIONS);
+  ck_assert_int_eq(carom_break_best(&breaks, 16, choice, CAROM_BREAK_CHOICES + 1),
+                   CAROM_ERROR_OPTIONS);
+  breaks.memory = NULL;
+  ck_assert_int_eq(carom_break_best(&breaks, 16, choice, 1), CAROM_ERROR_NULL);
   edge_free(&space);
 }

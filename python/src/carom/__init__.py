@@ -6,7 +6,8 @@
     shots        simulate, simulate_batch, simulate_arrow, resume, Options, ALL_THREADS
     results      Shot, Shots, Features, EventType, Label, Status, CaromError
     derivatives  tangents, jacobian, hessian, aim_slope, Tangents, Hessian, Flag
-    plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating
+    plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating; Goal, sequence,
+                 RunOut
     rules        Match, a whole game; referee, Rules, Ruling, Facts, Turn, Foul
     other        dtypes, the structured dtypes; cite, physics_revision, isa_in_force
     modules      record, tracks, fit, jax, torch, pooltool; games: potting, drills, pool, matches,
@@ -93,11 +94,13 @@ if _TYPE_CHECKING:
     from carom.games import (
         Facts as Facts,
         Foul as Foul,
+        Goal as Goal,
         Match as Match,
         Pot as Pot,
         Rating as Rating,
         Rules as Rules,
         Ruling as Ruling,
+        RunOut as RunOut,
         Turn as Turn,
         aim as aim,
         chances as chances,
@@ -105,6 +108,7 @@ if _TYPE_CHECKING:
         player as player,
         rating as rating,
         referee as referee,
+        sequence as sequence,
         value as value,
         with_errors as with_errors,
     )
@@ -120,6 +124,7 @@ _OFFERED = [
     "Features",
     "Flag",
     "Foul",
+    "Goal",
     "Hessian",
     "Label",
     "Match",
@@ -129,6 +134,7 @@ _OFFERED = [
     "Rating",
     "Rules",
     "Ruling",
+    "RunOut",
     "Shot",
     "Shots",
     "Status",
@@ -162,6 +168,7 @@ _OFFERED = [
     "rating",
     "referee",
     "resume",
+    "sequence",
     "simulate",
     "simulate_arrow",
     "simulate_batch",
@@ -175,8 +182,8 @@ _OFFERED = [
 
 # Names of the folder games, and modules of folders, which are loaded when they are asked for.
 _OF_GAMES = frozenset(
-    "Facts Foul Match Pot Rating Rules Ruling Turn aim chances plan player rating referee value "
-    "with_errors".split()
+    "Facts Foul Goal Match Pot Rating Rules Ruling RunOut Turn aim chances plan player rating "
+    "referee sequence value with_errors".split()
 )
 _MODULES_OF_FOLDERS = frozenset(
     "drills fit gymnasium matches pettingzoo plans pool potting rules sb3".split()

@@ -34,6 +34,7 @@ import type {
   Seat,
   ShotBall,
   ShotOptions,
+  Skill,
   Standing,
   StopOptions,
   Table,
@@ -72,7 +73,7 @@ export interface Host extends RecordingHost {
   writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer;
   /** The last shot of a match, with its events. */
   film(match: Pointer, table: Table, balls: readonly ShotBall[], cue: Cue): Shot;
-  player(of: { fargo?: number }): Player;
+  player(of: Skill): Player;
   readRuling(pointer: Pointer, game: Rules, balls: readonly ShotBall[]): Ruling;
   think(
     table: Table,
@@ -562,7 +563,8 @@ export class Match extends Owner<Host> {
     if (this.phase === "moving") throw new RangeError("plan: balls move: continue() the shot");
     const { ball, ...stick } = this.cue;
     const { rating } = this.seats[this.seat]!;
-    const player = options.player ?? this.#host.player(rating > 0 ? { fargo: rating } : {});
+    const skill = rating > 0 ? { fargo: rating, rules: this.#rules.rules } : {};
+    const player = options.player ?? this.#host.player(skill);
     const request: PlanOptions = {
       player,
       opponent: this.opponent(player),

@@ -211,11 +211,16 @@ export type RackName = C.RackKind;
 /** How the strokes of a player differ from those that are meant. What is missing is 0. */
 export type Player = Optional<
   C.Player,
-  "speedShare" | "speedLeast" | "speedMost" | "tipMost" | "growth" | "onlyPots" | "shots"
+  "speedShare" | "speedLeast" | "speedMost" | "tipMost" | "growth" | "onlyPots" | "shots" | "eye"
 >;
 
 /** Games won and lost against a player of a Fargo rating, 0 to 1000. */
 export type Score = C.Score;
+/** Errors, or a Fargo rating in a game, for `carom.player()`. */
+export interface Skill extends Pick<Partial<GameState>, "rules"> {
+  errors?: number;
+  fargo?: number;
+}
 /** A rating by games: the mean of the likely ones, and the interval that has 95 % of them. */
 export type Rating = Omit<C.Rating, "row">;
 

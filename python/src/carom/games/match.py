@@ -663,7 +663,8 @@ class Match:
 
         is_own = isinstance(self.rules, Rules)
         if rating := self._c.seating.seat[self.seat].rating:
-            wanted = {"player": player(fargo=rating), **wanted}
+            game: Game = "eightball" if isinstance(self.rules, Rules) else self.rules
+            wanted = {"player": player(fargo=rating, rules=game), **wanted}
         return plan(
             self.table,
             self.balls,
