@@ -104,6 +104,8 @@ static carom_tally repeat(carom_search *plan, uint32_t errors) {
     plan->player.speed = plan->player.speed_share = 0.0;
   if (!(errors >> CAROM_WHY_TIP & 1))
     plan->player.a = plan->player.b = 0.0;
+  if (!(errors >> CAROM_WHY_EYE & 1))
+    plan->player.eye = 0.0;
   if (errors == 0 && plan->drawn == NULL)
     strokes = 1;
   carom_search_stage(plan, 0, 1, strokes, DRAW_REASONS);
