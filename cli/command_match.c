@@ -1,5 +1,6 @@
 /* `carom match`: matches of two rated players, played, saved, gone on with and told in words, by
  * carom_match.h. */
+#include "game/ratings.h"
 #include "program/program.h"
 #include "shots/places.h"
 #include "subcommands.h"
@@ -20,24 +21,6 @@ typedef struct match_job {
   int breaks, seed, shots, strokes, target, race;
   bool equal, winner_breaks;
 } match_job;
-
-static bool set_ratings(const option_row *row, char *text, void *field) {
-  double *rating = field;
-  int count = 0, length = 0;
-  bool good = true;
-  for (const char *at = text; good; at += length + 1) {
-    good = count < CAROM_SEATS_MOST && sscanf(at, "%lf%n", &rating[count], &length) == 1 &&
-           rating[count] >= 200.0 && rating[count] <= 850.0;
-    count++;
-    if (at[length] != ',')
-      break;
-  }
-  if (good && count >= 2 && strspn(text, "0123456789.,") == strlen(text))
-    return true;
-  complain("--%s: 2 to 8 Fargo ratings from 200 to 850 are needed, such as 600,500, not %s",
-           row->name, text);
-  return false;
-}
 
 OPTION(match_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES, "the game",
        .else_usual = "eightball, or the game of the file");
@@ -74,8 +57,8 @@ static const command_form match_form = {
     .usage = "[OPTIONS] [GAME]",
     .about = "Plays a match between players who err as their ratings say, by the rules of a "
              "game, and writes its recording, which `carom verify` judges. With GAME it goes on "
-             "with a match that was saved: give the ratings, the seed and the shots again, and the "
-             "match ends as if it had not been interrupted. GAME may be -.\n",
+             "with a match that was saved: give the seed and the shots again, and the match ends "
+             "as if it had not been interrupted. GAME may be -.\n",
     .options =
         (const option_row *const[]){&option_rules, &option_table, &option_players, &option_breaks,
                                     &option_race, &option_winner_breaks, &option_target,
@@ -178,38 +161,39 @@ static void tell_act(FILE *out, const char *line, int64_t player, int64_t ruling
 
 /* ---- Reading */
 
-/* Reads and judges the lines of a saved match; keeps them in *text, and tells them to `words`
- * unless it is NULL. Returns an exit code. */
-static int read_match(const char *path, FILE *text, FILE *words) {
+/* A saved match that is read: its file, where its lines are kept, and where they are told; NULL:
+ * nowhere. */
+typedef struct saved_match {
+  const char *path;
+  FILE *text, *words;
+  bool failed;
+} saved_match;
+
+static bool read_line(void *context, const char *line, size_t size) {
   static carom_record scratch;
-  FILE *in = input_open(path);
-  if (in == NULL)
-    return EXIT_USAGE;
-  char *line = NULL;
-  size_t space = 0;
-  ssize_t size;
-  int code = EXIT_GOOD;
-  while (code == EXIT_GOOD && (size = getline(&line, &space, in)) >= 0) {
-    const int64_t player = match.seat, rulings = match.rulings;
-    const bool goes_on = match.phase != CAROM_MATCH_NONE && match.phase != CAROM_MATCH_OVER;
-    if (carom_match_read(&match, &scratch, line, (size_t)size) != CAROM_OK) {
-      complain("%s: %s", path, match.fault);
-      code = EXIT_SOME;
-      break;
-    }
-    if (goes_on && (match.phase != CAROM_MATCH_OVER || match.winner != 0))
-      tell_act(words, line, player, rulings);
-    fwrite(line, 1, (size_t)size, text);
+  saved_match *saved = context;
+  const int64_t player = match.seat, rulings = match.rulings;
+  const bool goes_on = match.phase != CAROM_MATCH_NONE && match.phase != CAROM_MATCH_OVER;
+  if (carom_match_read(&match, &scratch, line, size) != CAROM_OK) {
+    complain("%s: %s", saved->path, match.fault);
+    saved->failed = true;
+    return false;
   }
-  if (code == EXIT_GOOD && match.phase == CAROM_MATCH_NONE) {
-    complain("%s: no line tells how a match begins", path);
-    code = EXIT_USAGE;
-  }
-  fwrite(match.text, 1, (size_t)match.size, text); /* what a file that was cut off lacks */
-  free(line);
-  if (in != stdin)
-    fclose(in);
-  return code;
+  if (goes_on && (match.phase != CAROM_MATCH_OVER || match.winner != 0))
+    tell_act(saved->words, line, player, rulings);
+  fwrite(line, 1, size, saved->text);
+  return true;
+}
+
+/* Reads and judges the lines of a saved match. Returns an exit code. */
+static int read_match(saved_match *saved) {
+  if (!input_lines(saved->path, read_line, saved))
+    return saved->failed ? EXIT_SOME : EXIT_USAGE;
+  fwrite(match.text, 1, (size_t)match.size, saved->text); /* what a file that was cut off lacks */
+  if (match.phase != CAROM_MATCH_NONE)
+    return EXIT_GOOD;
+  complain("%s: no line tells how a match begins", saved->path);
+  return EXIT_USAGE;
 }
 
 /* ---- Playing */
@@ -275,6 +259,15 @@ static int count_players(const match_job *job) {
   return count;
 }
 
+/* The rating of a seat: the one that was given, or that of the file, or the usual one. */
+static double rating_of(const match_job *job, int seat) {
+  if (job->rating[seat] > 0.0)
+    return job->rating[seat];
+  if (match.seating.seat[seat].rating >= 200.0)
+    return match.seating.seat[seat].rating;
+  return USUAL_RATING;
+}
+
 /* Begins the match, unless one was read, and plays it; an exit code. */
 static int play_match(players *p) {
   const match_job *job = p->job;
@@ -295,14 +288,15 @@ static int play_match(players *p) {
                                .seed = (uint64_t)job->seed,
                                .side = job->breaks};
     const int seats = count_players(job);
-    const bool of_seats = carom_plan_rules_of(rules).race == CAROM_RACE_SEATS;
-    if (seats > 2 || (seats == 2 && of_seats)) {
+    if (seats > 0) {
       setup.seating = &seating;
       if (carom_seating_make(rules, seats, &seating) != CAROM_OK) {
         complain("--players: %s is not played by %d", carom_word(CAROM_WORDS_RULES, (int)rules),
                  seats);
         return EXIT_USAGE;
       }
+      for (int k = 0; k < seats; k++)
+        seating.seat[k].rating = job->rating[k];
     }
     if (job->race > 0)
       setup.set = &set;
@@ -313,6 +307,9 @@ static int play_match(players *p) {
     }
     fwrite(match.text, 1, (size_t)match.size, p->text);
   }
+  const carom_rules_kind rules = (carom_rules_kind)match.record.rules;
+  for (int k = 0; k < CAROM_SEATS_MOST; k++)
+    p->player[k] = carom_player_rated(rating_of(job, k), rules);
   for (int k = 0; match.phase != CAROM_MATCH_OVER; k++) {
     if (job->strokes > 0 && k == job->strokes)
       return EXIT_GOOD;
@@ -372,13 +369,11 @@ int command_match(int argc, char **argv) {
     out = output_open(job.shared.output);
   code = EXIT_GOOD;
   if (path != NULL)
-    code = read_match(path, text, out);
+    code = read_match(&(saved_match){.path = path, .text = text, .words = out});
   if (code == EXIT_GOOD && !is_of_rules(&job, path))
     code = EXIT_USAGE;
   if (!job.shows && code == EXIT_GOOD) {
     players p = {.job = &job, .text = text};
-    for (int k = 0; k < CAROM_SEATS_MOST; k++)
-      p.player[k] = carom_player_fargo(job.rating[k] > 0.0 ? job.rating[k] : USUAL_RATING);
     p.options.shots = job.shots;
     p.memory = allocate(carom_plan_memory(&p.options), 1);
     if (strcmp(job.shared.output, "-") != 0)

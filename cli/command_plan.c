@@ -1,6 +1,9 @@
 /* `carom plan`: which shot to play from a layout. */
 #include "game/plan_game.h"
+#include "game/plan_goal.h"
+#include "game/plan_sequence.h"
 #include "game/plan_why.h"
+#include "game/plan_words.h"
 #include "game/ways.h"
 #include "pictures/picture.h"
 #include "pictures/plan_picture.h"
@@ -29,7 +32,9 @@ typedef struct plan_job {
   shoot_flags flags;       /* --threads, --output; and a layout from words */
   carom_plan_options plan; /* --shots, --seed */
   plan_game game;
-  bool hand, csv, json, tries, value, why, run_out;
+  bool hand, csv, json, tries, value, why, run_out, sequence;
+  int only, plays; /* 1: only safeties; run-outs to play */
+  given_goal goal;
   const char *plot;
 } plan_job;
 
@@ -65,6 +70,25 @@ OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
        "the cue ball is in hand: the plan also says where to put it, within the rules");
 OPTION(plan_job, option_run_out, "run-out", run_out, 0, NULL, set_flag, 0,
        "plan to run out: a turn that ends before the game is won is worth nothing");
+OPTION(plan_job, option_only, "only", only, 0, "any|safeties", set_choice, 0,
+       "safeties: strokes that pass the turn without a foul, which carom lists by their directions",
+       .usual = "any");
+OPTION(
+    plan_job, option_goal, "leave", goal, 0, GOAL_ARGUMENT, set_goal, 0,
+    "what the stroke is to leave; carom reports the chance of that. hidden: a safety after which "
+    "the other can hit no ball that is on in a straight line; snooker: one after which balls are "
+    "in the way to an edge of BALL; near: the cue ball within R, else 0.15 m, of a place as in "
+    "`carom ways --leave`; apart: the balls at least a ball's width from all others. For the "
+    "last two the player plays on, or with --only safeties passes the turn");
+OPTION(
+    plan_job, option_sequence, "sequence", sequence, 0, NULL, set_flag, 0,
+    "plan the run-out as a whole: stroke by stroke, how much speed and direction may err, where "
+    "the cue ball may land, and which ball comes next if it lands elsewhere. In the landing zone "
+    "the chance of the rest falls by at most 3 %, as --value estimates it");
+OPTION(plan_job, option_plays, "plays", plays, 0, "N", set_count, 0,
+       "with --sequence: how many run-outs with errors to play for the chance of the whole, each "
+       "stroke planned anew by at most 300 shots",
+       .usual = "100");
 static const option_row options_of_plan = {
     .set = set_option, .field = offsetof(plan_job, plan), .part = CAROM_PART_PLAN_OPTIONS};
 OPTION(plan_job, option_try, "try", tries, 0, NULL, set_flag, 0,
@@ -84,49 +108,6 @@ OPTION(
     plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0,
     "draw the best shot: its paths without errors, thin lines with errors, and what can go wrong");
 
-/* What a choice that names no ball does. */
-static const char *words_without_ball(const shot_line *line, const carom_plan_stroke *c) {
-  static const double often = 0.15; /* fouls of a stroke that is no safe one */
-  if (line->table->table.pockets == 0)
-    return "no point";
-  if (c->keep >= 0.1) /* below it balls fall by luck, as for carom_names_ball() */
-    return "no sure pot: which ball falls is luck";
-  if (c->foul >= often)
-    return "a risky safety: it often fouls";
-  return c->keep < 0.005 ? "a safety: nothing is potted" : "a safety: balls fall by luck alone";
-}
-
-/* By which kind of stroke a ball falls: ", by a bank"; nothing where it is direct. */
-static void kind_words(const carom_plan_stroke *c, char text[40]) {
-  text[0] = '\0';
-  if (c->kind == CAROM_PLAN_SCAN)
-    snprintf(text, 40, ", by several ways");
-  else if (c->kind != CAROM_PLAN_POT && c->kind != CAROM_PLAN_GIVEN)
-    snprintf(text, 40, ", by a %s", carom_plan_kind_name((carom_plan_kind)c->kind));
-}
-
-/* What a choice does, by the names of the file. */
-static void describe(const shot_line *line, const carom_plan_stroke *c, char text[200]) {
-  char pocket[WHERE_TEXT], ball[BALL_TEXT], way_words[40];
-  if (c->kind == CAROM_PLAN_FOUL)
-    snprintf(text, 200, "no shot without a foul was found");
-  else if (c->kind == CAROM_PLAN_PASS)
-    snprintf(text, 200, "pass: the other plays");
-  else if (c->kind == CAROM_PLAN_PUSH || c->kind == CAROM_PLAN_BREAK)
-    snprintf(text, 200, "a %s", carom_plan_kind_name((carom_plan_kind)c->kind));
-  else if (!carom_names_ball(c))
-    snprintf(text, 200, "%s", words_without_ball(line, c));
-  else if (line->table->table.pockets == 0)
-    snprintf(text, 200,
-             c->kind == CAROM_PLAN_KICK ? "a point, off a cushion, %s first" : "a point, %s first",
-             named_ball(line->name[c->ball], ball));
-  else {
-    kind_words(c, way_words);
-    snprintf(text, 200, "%s into %s%s", named_ball(line->name[c->ball], ball),
-             pocket_words(line->table, c->pocket, pocket), way_words);
-  }
-}
-
 /* Whether the game is one of points on a table without pockets. */
 static bool is_carom(const plan_job *job) {
   const int balls = carom_rules_about_of((carom_rules_kind)job->game.rules)->balls;
@@ -134,6 +115,8 @@ static bool is_carom(const plan_job *job) {
 }
 
 static const char *value_words(const plan_job *job) {
+  if (job->goal.kind != CAROM_GOAL_WIN)
+    return "reaches the goal";
   if (job->game.rules == CAROM_RULES_POTTING)
     return "share potted";
   return is_carom(job) ? "scores" : "wins";
@@ -143,15 +126,10 @@ static void tell(FILE *out, const plan_job *job, const carom_plan_job *request,
                  const shot_line *line, const carom_plan_stroke *choices, int n) {
   for (int k = 0; k < n; k++) {
     const carom_plan_stroke *c = &choices[k];
-    char text[200];
-    describe(line, c, text);
+    char text[PLAN_TEXT];
+    plan_describe(line, c, text);
     fprintf(out, "%d. %s\n", k + 1, text);
-    if (job->hand)
-      fprintf(out, "   cue ball at  %.4f, %.4f m\n", c->place[0], c->place[1]);
-    fprintf(out, "   stroke       speed %.3g m/s, direction %.3f degrees, raised %.1f, ",
-            c->cue.speed, c->cue.phi, c->cue.theta);
-    fprintf(out, "tip %.2f %s, %.2f %s\n", fabs(c->cue.a), left_or_right(c->cue.a), fabs(c->cue.b),
-            above_or_below(c->cue.b));
+    plan_tell_stroke(out, c, job->hand);
     fprintf(out,
             "   chances      %s %.1f %% (error %.1f), plays on %.0f %%, foul %.0f %%; played %lld "
             "times\n",
@@ -186,8 +164,8 @@ static void write_lines(FILE *out, const plan_job *job, const shot_line *line,
       placed.ball[0].state =
           (carom_ball_state){.r = {c->place[0], c->place[1], line->ball[0].kind.radius},
                              .label = CAROM_BALL_STATIONARY};
-    char text[200];
-    describe(line, c, text);
+    char text[PLAN_TEXT];
+    plan_describe(line, c, text);
     json_t *written = shot_line_json(&placed, json_string(text), &c->cue);
     json_object_set_new(written, "plan",
                         json_pack("{s: s, s: f, s: f, s: f, s: f}", "kind",
@@ -197,25 +175,61 @@ static void write_lines(FILE *out, const plan_job *job, const shot_line *line,
   }
 }
 
+/* Options that do not go together: one of `options` with one of `others`. */
+enum asked_option {
+  TRY = 1,
+  VALUE = 2,
+  HAND = 4,
+  JSON = 8,
+  CSV = 16,
+  WHY = 32,
+  PLOT = 64,
+  SEQUENCE = 128,
+  ONLY = 256,
+  LEAVE = 512,
+  RUN_OUT = 1024
+};
+static const struct {
+  unsigned option, others;
+  const char *text;
+} clashes[] = {
+    {TRY, VALUE | HAND,
+     "--try plays strokes from where the cue ball lies: give it without --value and --in-hand"},
+    {JSON, CSV | VALUE | WHY,
+     "--json writes strokes alone: give it without --csv, --value and --why"},
+    {WHY, CSV | VALUE, "--why explains shots in words: give it without --csv and --value"},
+    {SEQUENCE, CSV | VALUE | WHY | TRY | ONLY | LEAVE,
+     "--sequence plans a whole run-out: give it without --csv, --value, --why, --try, --only and "
+     "--leave"},
+    {LEAVE, VALUE | WHY | RUN_OUT,
+     "--leave asks for the chance of a goal: give it without --value, --why and --run-out"},
+    {VALUE, PLOT, "--value finds no shot that --plot could draw"}};
+
+static unsigned asked_of(const plan_job *job) {
+  const bool leaves = job->goal.kind != CAROM_GOAL_WIN, plots = job->plot != NULL;
+  return job->tries * TRY | job->value * VALUE | job->hand * HAND | job->json * JSON |
+         job->csv * CSV | job->why * WHY | plots * PLOT | job->sequence * SEQUENCE |
+         (job->only != 0) * ONLY | leaves * LEAVE | job->run_out * RUN_OUT;
+}
+
 /* Whether the options go together; complains where they do not. */
 static bool are_together(const plan_job *job) {
   carom_player player;
+  const unsigned asked = asked_of(job);
   if (!player_of(&job->flags.shared.player, &player))
     return false;
   if (!plan_game_fits(&job->game))
     return false;
-  if (job->tries && (job->value || job->hand))
-    complain(
-        "--try plays strokes from where the cue ball lies: give it without --value and --in-hand");
-  else if (job->value && is_carom(job))
+  for (size_t k = 0; k < sizeof clashes / sizeof clashes[0]; k++)
+    if ((asked & clashes[k].option) != 0 && (asked & clashes[k].others) != 0) {
+      complain("%s", clashes[k].text);
+      return false;
+    }
+  if (job->value && is_carom(job))
     complain("--value: no estimate of a layout of %s is known; a plan reports chances",
              carom_rules_about_of((carom_rules_kind)job->game.rules)->text);
-  else if (job->json && (job->csv || job->value || job->why))
-    complain("--json writes strokes alone: give it without --csv, --value and --why");
-  else if (job->why && (job->csv || job->value))
-    complain("--why explains shots in words: give it without --csv and --value");
-  else if (job->value && job->plot != NULL)
-    complain("--value finds no shot that --plot could draw");
+  else if (job->sequence && is_carom(job))
+    complain("--sequence needs a game with pockets, such as --rules eightball");
   else
     return true;
   return false;
@@ -277,10 +291,13 @@ static carom_status ask(const plan_job *job, const carom_plan_job *request,
     return carom_plan_try(request, strokes, tried, choices);
   if (!job->hand)
     return carom_plan(request, choices, BEST, n);
+  return carom_plan_hand(request, NULL, NULL, choices, BEST, n);
+}
+
+/* Within which bounds a cue ball in hand is put. */
+static int64_t leave_in_hand(const plan_job *job) {
   const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)job->game.rules);
-  carom_plan_job placed = *request;
-  placed.leave = job->game.opening ? about->opening : about->hand;
-  return carom_plan_hand(&placed, NULL, NULL, choices, BEST, n);
+  return job->game.opening ? about->opening : about->hand;
 }
 
 /* Of a layout without an eight there is no eight-ball: where no game was asked for, all balls
@@ -309,6 +326,10 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   carom_plan_options options = job->plan;
   options.threads = job->flags.shared.options.threads;
   options.chance_opponent = job->run_out ? 1.0 : 0.0;
+  options.safeties = job->only;
+  carom_plan_goal goal;
+  if (!plan_goal_of(&job->goal, line, &p->rules, &goal))
+    return EXIT_USAGE;
   carom_plan_job request = {.table = &line->table->table,
                             .balls = line->ball,
                             .count = line->count,
@@ -318,10 +339,19 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
                             .shot = &job->flags.shared.shot,
                             .options = &options,
                             .memory_size = carom_plan_memory(&options)};
+  if (job->goal.kind != CAROM_GOAL_WIN)
+    request.goal = &goal;
+  if (job->hand)
+    request.leave = leave_in_hand(job);
   request.memory = allocate(1, request.memory_size);
   static carom_plan_stroke choices[TRIED_MOST];
   int n;
-  const carom_status status = ask(job, &request, strokes, tried, choices, &n, out);
+  const sequence_question question = {job->hand, job->json, job->plays};
+  carom_status status;
+  if (job->sequence)
+    status = plan_sequence(out, &request, line, &question);
+  else
+    status = ask(job, &request, strokes, tried, choices, &n, out);
   char fault[FAULT_TEXT];
   if (status != CAROM_OK && shot_fault(line, &job->flags.shared.shot, fault)) {
     free(request.memory);
@@ -338,6 +368,10 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     return EXIT_USAGE;
   }
 
+  if (job->sequence) {
+    free(request.memory);
+    return EXIT_GOOD;
+  }
   if (job->why && tried == 0)
     carom_plan_replay(&request, choices, n);
   if (job->json)
@@ -367,7 +401,8 @@ static const command_form form = {
             &option_rules,         &option_table,      &option_cue,           &option_balls,
             &option_one_gap,       &option_group,      &option_permission,    &option_score,
             &option_target,        &option_own_pocket, &option_colour,        &option_opening,
-            &option_last_inning,   &option_hand,       &option_run_out,       &option_try,
+            &option_last_inning,   &option_hand,       &option_run_out,       &option_only,
+            &option_goal,          &option_sequence,   &option_plays,         &option_try,
             &option_value,         &option_player,     &option_player_errors, &option_player_eye,
             &option_with_of_shots, &option_cue_ball,   &options_of_plan,      &options_of_motion,
             &option_layout,        &option_csv,        &option_plan_json,     &option_why,
@@ -391,7 +426,8 @@ int command_plan(int argc, char **argv) {
   static plan_job job;
   const char *path;
   job = (plan_job){.flags = {.shared = {.options = COMMAND_OPTIONS}},
-                   .game = {.rules = NOT_GIVEN, .pocket = NOT_GIVEN}};
+                   .game = {.rules = NOT_GIVEN, .pocket = NOT_GIVEN},
+                   .plays = 100};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
@@ -422,9 +458,11 @@ int command_plan(int argc, char **argv) {
         output_abandon();
       else if (!output_commit())
         code = EXIT_USAGE;
+      else if (job.plot != NULL && job.sequence)
+        code = plan_sequence_draw(job.plot) ? code : EXIT_SOME;
       else if (job.plot != NULL) {
-        char what[200];
-        describe(&line, &result.best, what);
+        char what[PLAN_TEXT];
+        plan_describe(&line, &result.best, what);
         code = plan_draw(job.plot, &line, &result, job.plan.seed, what) ? code : EXIT_SOME;
       }
     }

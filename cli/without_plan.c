@@ -28,6 +28,9 @@ COMMAND(command_plan)
 COMMAND(command_ways)
 COMMAND(command_break)
 COMMAND(command_match)
+COMMAND(command_odds)
+COMMAND(command_practice)
+COMMAND(command_rating)
 COMMAND(command_learn)
 
 OPTION_SET(set_leave) {

@@ -1,7 +1,8 @@
 /* The best shot of a plan as a picture: without errors, some strokes with errors, and what comes of
- * many. */
+ * many; and a run-out with its landing zones. */
 #include "pictures/plan_picture.h"
 
+#include "game/plan_words.h"
 #include "pictures/picture.h"
 #include "pictures/shot_picture.h"
 #include "program/memory.h"
@@ -110,11 +111,49 @@ bool plan_draw(const char *path, shot_line *line, const planned *p, uint64_t see
   if (drawn > 0)
     say_failures(p, line, seed, strokes, stream);
   close_text(stream, &words);
-  const best_shot best = {{line, &shot, NULL, strokes, drawn}, words};
+  const best_shot best = {{.line = line, .shot = &shot, .others = strokes, .others_count = drawn},
+                          words};
   const bool good = svg_draw(path, draw, &best);
   for (int n = 0; n < drawn; n++)
     free(strokes[n].events);
   free(shot.events);
   free(words);
+  return good;
+}
+
+/* The strokes of a run-out as a picture. */
+typedef struct drawn_sequence {
+  played shots[CAROM_SEQUENCE_MOST];
+  int count;
+} drawn_sequence;
+
+static void draw_sequence(FILE *out, const void *data) {
+  const drawn_sequence *sequence = data;
+  shots_draw(out, sequence->shots, sequence->count,
+             "Areas: where the cue ball may land, each in the colour of its stroke.");
+}
+
+bool sequence_draw(const char *path, shot_line *layouts, const carom_sequence_stroke *strokes,
+                   int n) {
+  static carom_ball_state final[CAROM_SEQUENCE_MOST][CAROM_BALLS_MOST];
+  static carom_shot shots[CAROM_SEQUENCE_MOST];
+  static drawn_sequence sequence;
+  sequence.count = n;
+  for (int k = 0; k < n; k++) {
+    char text[PLAN_TEXT];
+    shots[k] = (carom_shot){.final = final[k]};
+    shot_line_play(&layouts[k], NULL, &shots[k]);
+    plan_describe(&layouts[k], &strokes[k].choice, text);
+    layouts[k].json = json_pack("{s: s}", "id", text);
+    sequence.shots[k] = (played){.line = &layouts[k],
+                                 .shot = &shots[k],
+                                 .zone = strokes[k].zone,
+                                 .zone_corners = CAROM_ZONE_CORNERS};
+  }
+  const bool good = svg_draw(path, draw_sequence, &sequence);
+  for (int k = 0; k < n; k++) {
+    json_decref(layouts[k].json);
+    free(shots[k].events);
+  }
   return good;
 }

@@ -319,7 +319,8 @@ static void draw_side(const view *v, const shot_line *line, const carom_shot *sh
   for (int ball = line->count - 1; ball >= 0; ball--) {
     if (rise_of(line, shot, ball) > 1e-3)
       draw_heights(v, line, shot, ball, cloth);
-    draw_start(v, line, ball, cloth - v->scale * line->ball[ball].state.r[2]);
+    if (!is_missing(line, ball))
+      draw_start(v, line, ball, cloth - v->scale * line->ball[ball].state.r[2]);
   }
 }
 
@@ -396,6 +397,19 @@ static void draw_paths(const view *v, const played *shots, int count) {
     }
 }
 
+static void draw_zones(const view *v, const played *shots, int count) {
+  for (int shot = 0; shot < count; shot++) {
+    const char *colour = shot_colour(shot);
+    if (shots[shot].zone_corners == 0)
+      continue;
+    fputs("<path class=\"zone\" d=\"", v->out);
+    for (int k = 0; k < shots[shot].zone_corners; k++)
+      fprintf(v->out, "%c%.1f %.1f", k == 0 ? 'M' : 'L', across(v, shots[shot].zone[k]),
+              down(v, shots[shot].zone[k]));
+    fprintf(v->out, "Z\" fill=\"%s\" fill-opacity=\"0.25\" stroke=\"%s\"/>\n", colour, colour);
+  }
+}
+
 /* Where they end, kept free of labels and then drawn; what does not move, once. */
 static void draw_ends(const view *v, const played *shots, int count) {
   for (int drawn = 0; drawn < 2; drawn++)
@@ -463,7 +477,7 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   for (int shot = 0; shot < count && side > 0.0; shot++)
     draw_side(&v, shots[shot].line, shots[shot].shot, high + side, wide);
   for (int k = 0; k < shots[0].line->count; k++)
-    for (int shot = 0; shot < count && !is_missing(shots[0].line, k); shot++) {
+    for (int shot = 0; shot < count && !is_missing(shots[shot].line, k); shot++) {
       const double *r = shots[shot].line->ball[k].state.r, *first = shots[0].line->ball[k].state.r;
       if (shot == 0 || r[0] != first[0] || r[1] != first[1])
         draw_start(&v, shots[shot].line, k, down(&v, r));
@@ -471,6 +485,7 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   for (int shot = count - 1; shot >= 0; shot--)
     for (int k = shots[shot].line->count - 1; k >= 0 && shots[shot].spread != NULL; k--)
       draw_band(&v, shots[shot].line, shots[shot].spread, k);
+  draw_zones(&v, shots, count);
   draw_paths(&v, shots, count);
   draw_ends(&v, shots, count);
   if (count == 1)

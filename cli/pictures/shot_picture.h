@@ -14,6 +14,8 @@ typedef struct played {
   const spread *spread;     /* a player's, with bands; or NULL */
   const carom_shot *others; /* what else may come of it, with all their events, as thin paths; */
   int others_count;         /* as many; or 0 */
+  const double (*zone)[2];  /* where the cue ball may end: corners, m, */
+  int zone_corners;         /* as many; or 0 */
 } played;
 
 /* Whether the shot has this id; any has NULL. */

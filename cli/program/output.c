@@ -148,6 +148,27 @@ FILE *input_open(const char *path) {
   return in;
 }
 
+bool input_lines(const char *path, bool (*read)(void *context, const char *line, size_t size),
+                 void *context) {
+  FILE *in = input_open(path);
+  if (in == NULL)
+    return false;
+  char *line = NULL;
+  size_t space = 0;
+  ssize_t size;
+  bool good = true;
+  while (good && (size = getline(&line, &space, in)) >= 0)
+    good = read(context, line, (size_t)size);
+  if (good && ferror(in)) {
+    complain("cannot read %s: %s", path, strerror(errno));
+    good = false;
+  }
+  free(line);
+  if (in != stdin)
+    fclose(in);
+  return good;
+}
+
 const char *input_name(const char *path) {
   return strcmp(path, "-") == 0 ? "standard input" : path;
 }

@@ -19,6 +19,11 @@
 /* Opens a file for reading, "-" as stdin. Complains and returns NULL if that fails. */
 FILE *input_open(const char *path);
 
+/* Gives each line of a file to read(), with its end of line, until that returns false. Returns
+ * whether all lines were read; complains of a file that cannot be. */
+bool input_lines(const char *path, bool (*read)(void *context, const char *line, size_t size),
+                 void *context);
+
 /* What messages call a file that is read. */
 const char *input_name(const char *path);
 

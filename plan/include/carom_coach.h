@@ -1,5 +1,6 @@
 /* carom_coach.h: advice for a player: every way to pot, to score or to reach a place; why a
- * stroke of a plan is good, and what it leaves; and what comes of many breaks of a rack.
+ * stroke of a plan is good, and what it leaves; a run-out as one answer; what comes of many breaks
+ * of a rack; what strokes of a match cost, and drills of them; and the odds of a match.
  *
  *     carom_player player = carom_player_fargo(550.0);
  *     static carom_shot_way ways[1000];
@@ -125,8 +126,16 @@ CAROM_API int carom_way_succeeds(const carom_ways_job *job, const carom_shot *sh
 
 enum {
   CAROM_WHY_STROKES = 300, /* strokes with errors that are played for a choice. */
-  CAROM_WHY_RAILS = 16     /* the largest number of rails that carom_why lists. */
+  CAROM_WHY_RAILS = 16,    /* the largest number of rails that carom_why lists. */
+  CAROM_WHY_ERRORS = 3     /* values of carom_why_error. */
 };
+
+/* The errors of a player, by what the stroke loses by them. */
+typedef enum carom_why_error {
+  CAROM_WHY_AIM = 0,   /* of direction and elevation */
+  CAROM_WHY_SPEED = 1, /* of speed */
+  CAROM_WHY_TIP = 2    /* of the place of the tip */
+} carom_why_error;
 
 /* Why a choice of a plan is good. */
 typedef struct carom_why {
@@ -138,24 +147,29 @@ typedef struct carom_why {
                                      carom_pot; NaN: none is met. */
   double part;                        /* how much of that ball is hit, 0 to 1; NaN: none is met. */
   double speed;                       /* m/s: of the cue ball, just after the stroke. */
-  carom_ruling ruling;         /* what the stroke leaves without errors. If luck alone makes its
-                                     balls fall, it is the first stroke with errors that ends the
-                                     turn. */
-  carom_plan_stroke next;      /* the best stroke of the player who plays next. */
-  int32_t has_next;            /* 1 if `next` has a stroke, otherwise 0. */
-  double misses, loses;        /* shares of the strokes with errors that pass the turn, and that
-                                     lose the game. */
-  double opponent;             /* the opponent's chance to win after those that pass; NaN if none
-                                     do, and without an opponent. */
-  double speed_cost, aim_cost; /* how much more the choice would be worth, in value, without the
-                                     player's errors of speed, and without those of aim. */
-  int64_t strokes;             /* CAROM_WHY_STROKES. */
+  carom_ruling ruling; /* what the stroke leaves without errors. If carom_names_ball() is 0, the
+                             stroke has errors, and leaves about the mean of those that pass. */
+  double leave; /* the value of that leave to the player who strikes; NaN for a goal of the job. */
+  carom_plan_stroke next; /* the best stroke of the player who plays next. */
+  int32_t has_next;       /* 1 if `next` has a stroke, otherwise 0. */
+  double value;           /* of the choice, as carom_plan_replay() finds it. */
+  double misses, loses;   /* shares of the strokes with errors that pass the turn, and that lose the
+                             game. */
+  double opponent;        /* the opponent's chance to win after those that pass; NaN if none do,
+                             without an opponent, and for a goal. */
+  double flawless_value;  /* of the choice without errors of the player. */
+  double cost[CAROM_WHY_ERRORS]; /* of each carom_why_error, in value: the mean of what it costs
+                                    where it is added to the errors before it, and to those behind
+                                    it. Together flawless_value - value. Below 0: the error helps,
+                                    as where the stroke without errors leaves more than most. */
+  int64_t strokes;               /* CAROM_WHY_STROKES. */
 } carom_why;
 
 /* Explains a choice of a plan: how it is aimed, what it leaves, how often it misses and what the
- * errors of the player cost. The job is that of the plan; its memory is overwritten. Returns
- * CAROM_OK; CAROM_ERROR_NULL as in carom_plan(); CAROM_ERROR_OPTIONS for a choice to pass, which
- * has no stroke; or an error of carom_place_ball(). */
+ * errors of the player cost. All values are those of the plan's own estimate of what a stroke
+ * leaves. The job is that of the plan; its memory is overwritten. Returns
+ * CAROM_OK; CAROM_ERROR_OPTIONS for a choice to pass, which has no stroke; or an error of
+ * carom_plan() or carom_place_ball(). */
 CAROM_API carom_status carom_why_of(const carom_plan_job *job, const carom_plan_stroke *choice,
                                     carom_why *why);
 
@@ -166,10 +180,71 @@ CAROM_API int carom_names_ball(const carom_plan_stroke *choice);
 /* Plays n choices of a plan CAROM_WHY_STROKES times each, with the same errors for all, and sorts
  * them by the values of these strokes, best first. value, error, keep, foul, lose and seen become
  * those of these strokes. A choice to pass keeps its value. The chances of a plan are partly lucky
- * for choices that were seldom played; these are not. Returns CAROM_OK; CAROM_ERROR_NULL as in
- * carom_plan(); or CAROM_ERROR_OPTIONS if n is below 0. */
+ * for choices that were seldom played; these are not. Returns CAROM_OK; CAROM_ERROR_OPTIONS if n is
+ * below 0; or an error of carom_plan() or carom_place_ball(), with the choices before it sorted. */
 CAROM_API carom_status carom_plan_replay(const carom_plan_job *job, carom_plan_stroke *choices,
                                          int n);
+
+/* ---- Run-outs -------------------------------------------------------------------------------- */
+
+enum {
+  CAROM_ZONE_CORNERS = 36,   /* corners of a landing zone. */
+  CAROM_SEQUENCE_MOST = 36,  /* the largest number of strokes of a run-out. */
+  CAROM_SEQUENCE_TRIES = 100 /* strokes with errors that are played for each of them. */
+};
+
+/* A stroke of a run-out, from the layout that the stroke before it leaves without errors. */
+typedef struct carom_sequence_stroke {
+  carom_plan_stroke choice; /* the stroke; its value is the chance to run out from its layout. */
+  carom_ruling ruling;      /* what the stroke leaves without errors. If it then misses, this is
+                               the first stroke with errors that plays on. */
+  double leave_value;       /* the value of that layout, an estimate for which no shot is played; 1
+                               if the game is won. */
+  double zone[CAROM_ZONE_CORNERS][2]; /* m: the corners of the landing zone, a polygon around the
+                                         cue ball of `ruling`. It has the places in a straight line
+                                         from there for which leave_value falls by at most
+                                         `within`. All corners are one place if the turn ends or
+                                         the cue ball is in hand. */
+  double speed[2], phi[2];            /* m/s, degrees: the speeds and the directions of the cue
+                                         between which the stroke plays on and the cue ball rests in
+                                         the zone, with everything else as in choice.cue. */
+  double zone_share;  /* share of CAROM_SEQUENCE_TRIES strokes with errors that win, or that play on
+                         with the cue ball in the zone. */
+  double stray_share; /* share that plays on with the cue ball outside. */
+  double turn_share;  /* share of some strays, from which another pot than that of the next stroke
+                         is planned: the most frequent one, */
+  int32_t turn_ball, turn_pocket; /* this one; -1: none. */
+} carom_sequence_stroke;
+
+/* How played run-outs ended: how many of them, or sums. All zero before the first one. */
+typedef struct carom_sequence_counts {
+  int64_t plays, runs; /* run-outs that were played, and that won the game or potted all balls. */
+  int64_t strokes;     /* all strokes of them that played on or won. */
+} carom_sequence_counts;
+
+/* The number of bytes that run-outs with these options need. 0 for bad options. */
+CAROM_API size_t carom_sequence_memory(const carom_plan_options *options);
+
+/* Plans a run-out of the player at the table, as with options->chance_opponent 1: stroke by stroke,
+ * each from what the one before leaves without errors. Writes up to `room` strokes, at most
+ * CAROM_SEQUENCE_MOST; *found becomes their number. The last one wins, or is the first that names no
+ * ball. in_hand: 1 if the cue ball is in hand before the first stroke, within the bounds of
+ * job->leave. within: how much value the landing zones may lose, above 0 and below 1. A stroke takes
+ * about as long as two plans, and as eight more of at most 200 shots. If options->stop is set, the
+ * run-out ends with the stroke that is planned. options->slice is not read. Returns CAROM_OK;
+ * CAROM_ERROR_NULL if a pointer is NULL or there is less memory than carom_sequence_memory();
+ * CAROM_ERROR_OPTIONS for another `within`, a goal, or options->safeties; or an error of carom_plan()
+ * for the first layout. */
+CAROM_API carom_status carom_sequence(const carom_plan_job *job, int in_hand, double within,
+                                      carom_sequence_stroke *strokes, int room, int *found);
+
+/* Plays the run-outs of numbers `first` to first + n - 1 from the layout, and adds how they end to
+ * *counts. Before each stroke, the player plans the run-out anew from where the balls lie, by
+ * options->shots; the stroke has the errors of the player. The share runs / plays is the chance of
+ * the run-out for a player who plans with so many shots. The errors depend on options->seed and the
+ * number. Statuses are those of carom_sequence(). */
+CAROM_API carom_status carom_sequence_play(const carom_plan_job *job, int in_hand, int64_t first,
+                                           int64_t n, carom_sequence_counts *counts);
 
 /* ---- Breaks ---------------------------------------------------------------------------------- */
 
@@ -189,6 +264,7 @@ typedef struct carom_break_job {
   int64_t count;                  /* number of balls: carom_rack_size(). */
   const carom_cue *cue;           /* the stroke. */
   const carom_player *player;     /* whose errors each stroke has. */
+  const carom_player *opponent;   /* NULL: who makes the same errors. */
   const carom_shot_options *shot; /* NULL: the defaults. */
   int32_t rack;                   /* a carom_rack_kind. */
   int32_t aim;                    /* a carom_break_aim. */
@@ -208,6 +284,9 @@ typedef struct carom_break_counts {
                                                          the table, a ball at a wing falls. */
   int64_t stays;                                      /* in which the cue ball stays. */
   int64_t fell[CAROM_BALLS_MOST][CAROM_POCKETS_MOST]; /* how often each ball fell where. */
+  double wins, win_squares;                           /* sums of the chances to win by the value of
+                                                         what each break leaves, and of their
+                                                         squares; 0 without rules. */
   double x, y, squares;                               /* m, m^2: sums over the cue balls that stay:
                                                          of their places, and of x^2 + y^2. */
 } carom_break_counts;
@@ -234,6 +313,131 @@ CAROM_API int carom_break_has_rules(carom_rack_kind rack);
 /* The mean place of the cue balls that stay, m, and the standard deviation of their places, m; all
  * NaN if none stays. If a pointer is NULL, the call returns NaN. */
 CAROM_API double carom_break_spread(const carom_break_counts *counts, double place[2]);
+
+enum { CAROM_BREAK_CHOICES = 8 }; /* The largest number of breaks that carom_break_best() gives. */
+
+/* A break that a search proposes. */
+typedef struct carom_break_choice {
+  carom_cue cue;             /* the stroke; its direction is that in the layout of the job. */
+  double place[2];           /* m: where the cue ball lies. */
+  int32_t aim;               /* a carom_break_aim. */
+  int32_t reserved;          /* 0. */
+  carom_break_counts counts; /* of breaks that chose nothing. */
+  double speed_cost, aim_cost, tip_cost; /* how much more often the first choice would win without
+                                            the player's errors of speed, of direction and
+                                            elevation, and of the tip; NaN for the others. */
+  double cost;                           /* the same without any of these errors. */
+} carom_break_choice;
+
+/* Finds breaks that win most often for the player: where the cue ball lies behind the head string,
+ * the speed, at most that of the job, the height of the tip, and a cut of up to half of the ball in
+ * front. 64 strokes, one of which is that of the job, are compared by the same racks and errors, in
+ * rounds each of which keeps the better half. Writes the `room` best to choices[], the best first,
+ * with the results of `breaks` further breaks of each. Statuses are those of carom_break_play();
+ * CAROM_ERROR_OPTIONS also for fewer than 16 breaks, for room that is not 1 to CAROM_BREAK_CHOICES,
+ * and for a rack of no game with a break. */
+CAROM_API carom_status carom_break_best(const carom_break_job *job, int64_t breaks,
+                                        carom_break_choice *choices, int room);
+
+/* ---- Practice -------------------------------------------------------------------------------- */
+
+/* Kinds of strokes that are practised together. A pot is straight below a cut of 15 degrees and
+ * thin above 45, and long where both ways together have more than 1.2 m. */
+typedef enum carom_practice {
+  CAROM_PRACTICE_STRAIGHT = 0, /* short pots by their cuts */
+  CAROM_PRACTICE_CUT = 1,
+  CAROM_PRACTICE_THIN = 2,
+  CAROM_PRACTICE_LONG_STRAIGHT = 3, /* long ones */
+  CAROM_PRACTICE_LONG_CUT = 4,
+  CAROM_PRACTICE_LONG_THIN = 5,
+  CAROM_PRACTICE_INDIRECT = 6, /* a ball was called, or the turn kept, and no pot is direct */
+  CAROM_PRACTICE_OTHER = 7     /* safeties, and strokes at no pocket */
+} carom_practice;
+
+/* The words for a group, such as "long thin cut"; "" for a value not listed. */
+CAROM_API const char *carom_practice_name(carom_practice group);
+
+/* What a stroke of a match meant, and what came of it. */
+typedef struct carom_review {
+  carom_cue aim; /* the stroke that was meant: the one that was played, aimed at the middle of
+                           the pocket. */
+  double off;    /* degrees: how far the stroke was played to the left of that; NaN for
+                           INDIRECT and OTHER, as cut, distance and told. */
+  double cut,
+      distance;       /* degrees, m: the cut as in carom_pot; both ways, of the cue ball to the ball
+                           and of the ball to the pocket. */
+  double told;        /* chance that the meant stroke keeps the turn. */
+  double value, came; /* chance to win of the meant stroke, and after the one that was played. */
+  double miss_cost, place_cost; /* value - came: what the miss cost, or the pot won, and what the
+                                   places of the balls cost. The means are 0 for a player with the
+                                   errors of the job. 0 for INDIRECT and OTHER. */
+  int32_t group;                /* a carom_practice. */
+  int32_t ball, pocket;         /* that were meant, or -1. */
+  int32_t kept;                 /* 1: the stroke kept the turn or won. */
+} carom_review;
+
+/* Reviews a stroke of a game of two sides with pockets. The job has the layout, the rules with
+ * their state and the player before it, and options->seed and options->opponent; it needs no
+ * memory. `call` is that of the match; it is read in games with calls. In others the ball is the
+ * one that was met first, and the pocket that whose aim is nearest, within 10 degrees. Returns
+ * CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_OPTIONS for a bad player, and for other games; or an
+ * error of carom_shot_check(). */
+CAROM_API carom_status carom_review_of(const carom_plan_job *job, const carom_cue *played,
+                                       carom_call call, carom_review *review);
+
+/* A layout to practise a stroke. */
+typedef struct carom_drill {
+  carom_cue aim;   /* the stroke without errors. */
+  double place[2]; /* m: where that leaves the cue ball. */
+  double radius;   /* m: how near to it the cue ball has to come, which half of the player's pots
+                           do; 0 where the pot alone is practised. */
+  double rating;   /* the rating whose errors make the drill in half of the tries, 200 to 850. */
+  int32_t ball, pocket; /* that has to fall, and where. */
+} carom_drill;
+
+/* Makes a drill of a stroke that was reviewed, with the same job: its layout is that of the job.
+ * The place counts where it cost more than the miss. Statuses are those of carom_review_of();
+ * CAROM_ERROR_OPTIONS if the stroke aimed at no pocket directly. */
+CAROM_API carom_status carom_drill_of(const carom_plan_job *job, const carom_review *review,
+                                      carom_drill *drill);
+
+/* ---- Odds ------------------------------------------------------------------------------------ */
+
+/* The largest number of games of a set, and of sets of a match, that a side may need. */
+enum { CAROM_SERIES_MOST = 100 };
+
+/* A match of two rated sides. A game goes to the first side with the odds 2^((r0 - r1)/100) : 1. */
+typedef struct carom_series {
+  double rating[2];    /* Fargo ratings of both sides, 0 to 1000. */
+  double break_points; /* how many points of rating a side has more in a game that it breaks, -1000
+                          to 1000. 0: the break is worth nothing. */
+  int32_t games[2];    /* how many games each side needs to win a set, 1 to CAROM_SERIES_MOST. */
+  int32_t sets[2];     /* how many sets each side needs to win the match, 1 to CAROM_SERIES_MOST;
+                          0: one. */
+  int32_t order;       /* who breaks within a set: a carom_break_order. The sides begin the sets in
+                          turn. */
+  int32_t side;        /* which side breaks first, 0 or 1; -1: either, by lot. */
+  int32_t reserved;    /* must be 0. */
+} carom_series;
+
+/* The chances of a match. Those of the second side are 1 less these. */
+typedef struct carom_odds {
+  double game;  /* that the first side wins a game in which nobody has the break. */
+  double set;   /* that it wins the first set. */
+  double match; /* that it wins the match. */
+  double games; /* the mean number of games of the match. */
+  double score[2][CAROM_SERIES_MOST]; /* score[s][k]: the chance that side s wins while the other
+                                         has k sets; where one set decides, k games. */
+} carom_odds;
+
+/* The odds of a match. Returns CAROM_OK; CAROM_ERROR_NULL; or CAROM_ERROR_OPTIONS for a number out
+ * of its range. */
+CAROM_API carom_status carom_odds_of(const carom_series *match, carom_odds *odds);
+
+/* The match with the fairest handicap: the stronger side needs the larger of match->games, and the
+ * weaker side as many as bring the chance to win the match nearest to a half. Statuses are those of
+ * carom_odds_of(). */
+CAROM_API carom_status carom_fair_series(const carom_series *match, carom_series *fair);
 
 #ifdef __cplusplus
 }

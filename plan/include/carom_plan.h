@@ -54,8 +54,8 @@ typedef struct carom_player {
                          speed_most. */
   double only_pots;   /* share of the strokes, without breaks, in which the player thinks of nothing
                          but potting, 0 to 1. carom_plan() and carom_plan_hand() draw from their
-                         seed whether the stroke is one of them. They then plan as if the opponent
-                         made every ball and the player 90 % of the later pots, and
+                         seed and the layout whether the stroke is one of them. They then plan as if
+                         the opponent made every ball and the player 90 % of the later pots, and
                          carom_plan_stroke.value is the chance that this pays. 0 for advice to a
                          player. */
   double shots;       /* of this player's plans, if the options have neither shots nor seconds: 100
@@ -451,6 +451,13 @@ CAROM_API const char *carom_rules_fault(carom_rules_kind kind, const carom_rules
 /* The rules, with the state after the break; those of EIGHTBALL for a value not listed. */
 CAROM_API carom_plan_rules carom_plan_rules_of(carom_rules_kind kind);
 
+/* A player with a rating in a game, as the seats of a match have it: 100 points are odds of 2 to 1 in
+ * a rack, a frame of snooker, 15 points of three-cushion or 15 of straight pool. A 500 has the
+ * errors of carom_player_fargo() in each game. Where a game lets the better player win more often
+ * than eight-ball does, others have errors that differ less from those. A kind that is none counts
+ * as eight-ball. */
+CAROM_API carom_player carom_player_rated(double rating, carom_rules_kind rules);
+
 /* Puts balls[ball] on the foot spot, or as near to it as there is room on the long string: behind
  * the spot if possible, otherwise before it. Returns CAROM_OK, CAROM_ERROR_OFF_TABLE if there is no
  * room, or an error of carom_place_ball(). */
@@ -523,14 +530,15 @@ CAROM_API size_t carom_ruling_string(const carom_ruling *ruling, char *text, siz
 /* Enumerations of games whose values have words. carom_words has those of the physics, and that of
  * carom_rules_kind. */
 typedef enum carom_game_words {
-  CAROM_GAME_WORDS_TURN = 0,   /* carom_turn_outcome */
-  CAROM_GAME_WORDS_LEAVE = 1,  /* carom_leave */
-  CAROM_GAME_WORDS_FOUL = 2,   /* carom_foul; the text of NONE is "" */
-  CAROM_GAME_WORDS_CHOICE = 3, /* carom_choice */
-  CAROM_GAME_WORDS_GROUP = 4,  /* carom_group */
-  CAROM_GAME_WORDS_PHASE = 5,  /* carom_match_phase of carom_match.h */
-  CAROM_GAME_WORDS_ACT = 6,    /* carom_act of carom_match.h */
-  CAROM_GAME_WORDS_REFUSAL = 7 /* carom_refusal of carom_match.h; the text of NOT is "" */
+  CAROM_GAME_WORDS_TURN = 0,    /* carom_turn_outcome */
+  CAROM_GAME_WORDS_LEAVE = 1,   /* carom_leave */
+  CAROM_GAME_WORDS_FOUL = 2,    /* carom_foul; the text of NONE is "" */
+  CAROM_GAME_WORDS_CHOICE = 3,  /* carom_choice */
+  CAROM_GAME_WORDS_GROUP = 4,   /* carom_group */
+  CAROM_GAME_WORDS_PHASE = 5,   /* carom_match_phase of carom_match.h */
+  CAROM_GAME_WORDS_ACT = 6,     /* carom_act of carom_match.h */
+  CAROM_GAME_WORDS_REFUSAL = 7, /* carom_refusal of carom_match.h; the text of NOT is "" */
+  CAROM_GAME_WORDS_GOAL = 8     /* carom_goal_kind */
 } carom_game_words;
 
 /* The word of a value ("double_hit"), which all languages share, and its meaning in a few words;
@@ -587,7 +595,10 @@ typedef struct carom_plan_options {
                                    calls have taken this time together is stopped as with `stop`; 0:
                                    none. */
   int32_t once;                 /* 1: all shots make one plan, although it may be stopped. */
-  int32_t unused;               /* must be 0. */
+  int32_t safeties;             /* 1: the plan tries only safeties: strokes that without errors
+                                   pass the turn without a foul. It lists several, whose
+                                   directions differ by more than 5 degrees. A break stays as it
+                                   is. */
   uint64_t reserved[1];         /* must be 0. */
 } carom_plan_options;
 
@@ -654,7 +665,7 @@ typedef struct carom_plan_stroke {
   int32_t cushions;     /* impacts of that ball on cushions, in one such stroke. */
   double value;         /* chance to win, and half the chance to draw; without an opponent, the
                            share of the balls that are potted; 0 to 1. In four-ball a stroke that
-                           costs a point counts -1. A foul counts 0.03 less than the position that
+                           costs a point counts -1. A foul counts 0.018 less than the position that
                            follows it, so that the plan chooses a legal stroke among equally good
                            ones. The shots by which a stroke was chosen were partly lucky for it. So
                            all chances of a choice are those of fresh shots, whose errors chose
@@ -671,6 +682,31 @@ typedef struct carom_plan_stroke {
                            before that; the value is then that of the shot without errors. */
   uint64_t reserved[4]; /* 0. */
 } carom_plan_stroke;
+
+/* What a stroke is to leave, without a foul. */
+typedef enum carom_goal_kind {
+  CAROM_GOAL_WIN = 0,     /* nothing but the best chance to win */
+  CAROM_GOAL_HIDDEN = 1,  /* the turn passes, and the opponent can hit no ball that is on in a
+                             straight line */
+  CAROM_GOAL_SNOOKER = 2, /* the turn passes, and other balls are in the way to an edge of `ball`,
+                             or to both */
+  CAROM_GOAL_NEAR = 3,    /* the cue ball rests within `distance` of `place` */
+  CAROM_GOAL_APART = 4    /* each ball of `balls` is down, or at least `distance` from every other
+                             object ball */
+} carom_goal_kind;
+
+/* The goal of a plan. A stroke that reaches NEAR or APART keeps the turn; with options->safeties it
+ * passes it. HIDDEN and SNOOKER need pockets, an opponent and the cue ball 0, and have safeties
+ * alone. */
+typedef struct carom_plan_goal {
+  int32_t kind;     /* a carom_goal_kind. */
+  int32_t ball;     /* of SNOOKER: the ball, which is in play. */
+  uint32_t balls;   /* of APART: the set of the balls, which are in play. */
+  int32_t reserved; /* must be 0. */
+  double place[2];  /* m: of NEAR: the place, on the table. */
+  double distance;  /* m: of NEAR: the largest distance of the centre of the cue ball; of APART: the
+                       smallest gap between the surfaces of balls. Above 0. */
+} carom_plan_goal;
 
 /* The position for which a plan is made. */
 typedef struct carom_plan_job {
@@ -694,7 +730,10 @@ typedef struct carom_plan_job {
                                         carom_plan_hand() places it. With KITCHEN, the stroke may
                                         not first meet a ball behind the head string (WPA 6.11).
                                         carom_match_plan() sets it. */
-  uint64_t reserved[3];              /* must be 0. */
+  const carom_plan_goal *goal;       /* NULL: the best chance to win. Otherwise the value of a
+                                        choice is the chance that its stroke reaches the goal. */
+  const carom_player *opponent;      /* NULL: the one of the options. carom_match_plan() sets it. */
+  uint64_t reserved[1];              /* must be 0. */
 } carom_plan_job;
 
 /* The number of bytes that a plan with these options needs: about 320,000 for the defaults, and
@@ -706,7 +745,8 @@ CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
  * safety that was found is always among them. *found becomes their number, at least 1.
  *
  * Returns CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is too little memory;
- * CAROM_ERROR_OPTIONS for bad options, a bad player, or rules without on(), judge() or left();
+ * CAROM_ERROR_OPTIONS for bad options, a bad player, a goal that the layout or the rules do not
+ * have, or rules without on(), judge() or left();
  * CAROM_ERROR_IN_MOTION for a ball that is not at rest; CAROM_ERROR_GAME_OVER if on() names no ball
  * in play; or an error of the layout, as in carom_shot_check(). With an error nothing is written.
  * The choice depends only on the arguments, not on the number of threads. Unless shot->fast is set,

@@ -218,7 +218,10 @@ static void draw_order(const search *plan, uint32_t stage, int *order, int count
 void carom_search_pots(search *plan, int64_t most) {
   carom_pot_found *way = plan->pot;
   int ways = 0;
-  for (int k = 0; k < plan->view.count; k++)
+  int balls = plan->view.count;
+  if (plan->only_safeties)
+    balls = 0;
+  for (int k = 0; k < balls; k++)
     for (int p = 0; p < plan->view.pockets && (plan->targets >> k & 1); p++) {
       /* ball k into pocket p, if that is likely at all */
       if (!(plan->pockets >> p & 1))
@@ -406,7 +409,7 @@ void carom_search_scanned(search *plan) {
   plan->count = first;
   for (int64_t k = 0; k < added && plan->count < plan->scan_end; k++)
     if (plan->found[first + k].kind == CAROM_PLAN_PUSH ||
-        carom_search_begins_well(plan, plan->outcome[k].first)) {
+        carom_search_may_join(plan, &plan->outcome[k])) {
       plan->found[plan->count] = plan->found[first + k];
       plan->found[plan->count].order = (int32_t)plan->count;
       plan->count++;

@@ -162,4 +162,18 @@ static const learned learned_of[] = {
          .edge = 1.0},
 };
 
+/* By how many rating points of eight-ball players differ who differ by 100 points in a game: below a
+ * rating of 500, and above it. With these, 100 points are odds of 2 to 1 in the game of the comment,
+ * as carom-lab plan --rules GAME --players A,B shows; twice as many points are odds of about 4 to
+ * 1. Other games have those of eight-ball. */
+static const double rating_steps[][2] = {
+    [CAROM_RULES_EIGHTBALL] = {100.0, 100.0},  /* a rack */
+    [CAROM_RULES_THREECUSHION] = {40.0, 40.0}, /* --target 15 */
+    [CAROM_RULES_STRAIGHT] = {47.0, 47.0},     /* --target 15, about a rack */
+    [CAROM_RULES_SNOOKER] = {43.0, 43.0},      /* a frame */
+    [CAROM_RULES_ONEPOCKET] = {70.0, 60.0},    /* a rack */
+    [CAROM_RULES_BANK] = {80.0, 40.0},         /* a rack */
+    [CAROM_RULES_TENBALL] = {90.0, 80.0},      /* a rack */
+};
+
 #endif

@@ -125,14 +125,20 @@ carom_plan_stroke carom_search_choice(const search *plan, const candidate *c) {
   return choice;
 }
 
-static bool is_same(const carom_plan_stroke *a, const carom_plan_stroke *b) {
-  return a->ball == b->ball && a->pocket == b->pocket && a->kind == b->kind;
+/* Whether two choices have the same ball, pocket and kind; of safeties alone, also about the same
+ * direction. */
+static bool is_same(const search *plan, const carom_plan_stroke *a, const carom_plan_stroke *b) {
+  static const double apart = 5.0; /* degrees */
+  const double turn = fabs(a->cue.phi - b->cue.phi);
+  const bool is_near = !plan->only_safeties || fmin(turn, 360.0 - turn) <= apart;
+  return a->ball == b->ball && a->pocket == b->pocket && a->kind == b->kind && is_near;
 }
 
-/* Whether n choices hold one of the same ball, pocket and kind. */
-static bool has_same(const carom_plan_stroke *choices, int n, const carom_plan_stroke *choice) {
+/* Whether n choices hold the same one. */
+static bool has_same(const search *plan, const carom_plan_stroke *choices, int n,
+                     const carom_plan_stroke *choice) {
   for (int k = 0; k < n; k++)
-    if (is_same(&choices[k], choice))
+    if (is_same(plan, &choices[k], choice))
       return true;
   return false;
 }
@@ -195,7 +201,7 @@ bool carom_search_list(search *plan) {
     if (!is_listed(plan, c))
       continue;
     listed[plan->listed] = with_kind(plan, c);
-    if (!has_same(listed, plan->listed, &listed[plan->listed]))
+    if (!has_same(plan, listed, plan->listed, &listed[plan->listed]))
       swap(&plan->found[plan->listed++], c);
   }
 
@@ -256,7 +262,7 @@ int carom_search_give(search *plan, carom_plan_stroke *choices, int room) {
     const bool safety = choice_list[k].kind == CAROM_PLAN_SAFETY;
     const bool is_close = choice_list[k].value >= choice_list[0].value - points_most ||
                           choice_list[k].kind == CAROM_PLAN_PASS;
-    if (has_same(choices, written, &choice_list[k]) || !(is_close || safety))
+    if (has_same(plan, choices, written, &choice_list[k]) || !(is_close || safety))
       continue;
     if (written < room)
       choices[written++] = choice_list[k];

@@ -26,6 +26,8 @@
          "about any table. Its cushions and cloth are drawn at random, like the errors")          \
   OPTION(seconds, "seconds", NUMBER("s"), 0, 1e6, OPTIONS,                                        \
          "time of the calls of a plan, s, at which it is stopped; 0: none")                       \
-  OPTION(once, "", FLAG, 0, 1, OPTIONS, "1: all shots make one plan, although it may be stopped")
+  OPTION(once, "", FLAG, 0, 1, OPTIONS, "1: all shots make one plan, although it may be stopped") \
+  OPTION(safeties, "", FLAG, 0, 1, OPTIONS,                                                       \
+         "1: only safeties: strokes that without errors pass the turn without a foul")
 
 #endif

@@ -54,10 +54,6 @@ double carom_player_growth(const carom_player *player, double speed) {
   return sqrt(1.0 + grows * grows);
 }
 
-bool carom_player_only_pots(const carom_player *player, uint64_t seed) {
-  return carom_uniform(seed, DRAW_MIND, 0, 0) < player->only_pots;
-}
-
 /* m: twice the gap that an eye of normal acuity sees at 0.3 m, CAROM_RULES_TOUCH. A convention. */
 static const double usual_eye = 2.0 * CAROM_RULES_TOUCH;
 

@@ -1,6 +1,7 @@
 /* What candidates are worth, and which is better. */
 #include "ranking.h"
 
+#include "goals.h"
 #include "platform/promise.h"
 
 typedef carom_candidate candidate;
@@ -14,23 +15,28 @@ typedef carom_search search;
  * 0.001 and 0.018 lost 281 */
 static const double softer = 0.001;
 
-static double merit_of(const candidate *c) {
-  const double mean = c->chose.sum / (double)c->chose.seen;
+/* and for a foul, where a goal is reached by none of two strokes or as often by both */
+static const double legal = 0.01;
+
+static double merit_of(const search *plan, const candidate *c) {
+  double mean = c->chose.sum / (double)c->chose.seen;
+  if (carom_has_goal(&plan->job))
+    mean -= legal * c->chose.foul / (double)c->chose.seen;
   if (c->kind == CAROM_PLAN_BREAK)
     return mean;
   return mean - softer * c->speed;
 }
 
-static bool is_better(const candidate *a, const candidate *b) {
+static bool is_better(const search *plan, const candidate *a, const candidate *b) {
   if (a->round != b->round)
     return a->round > b->round;
-  const double of_a = merit_of(a), of_b = merit_of(b);
+  const double of_a = merit_of(plan, a), of_b = merit_of(plan, b);
   return of_a > of_b || (of_a == of_b && a->order < b->order);
 }
 
 /* Puts candidate k first if it is better than the first. */
 void carom_search_lead(search *plan, int64_t k) {
-  if (is_better(&plan->found[k], &plan->found[0])) {
+  if (is_better(plan, &plan->found[k], &plan->found[0])) {
     const candidate first = plan->found[0];
     plan->found[0] = plan->found[k];
     plan->found[k] = first;
@@ -84,7 +90,7 @@ void carom_search_sort(const search *plan, int64_t n) {
     for (int64_t k = gap; k < n && !carom_is_stopped(plan); k++) {
       const candidate moved = c[k];
       int64_t index = k;
-      for (; index >= gap && is_better(&moved, &c[index - gap]); index -= gap)
+      for (; index >= gap && is_better(plan, &moved, &c[index - gap]); index -= gap)
         c[index] = c[index - gap];
       c[index] = moved;
     }

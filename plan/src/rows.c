@@ -5,6 +5,7 @@
 
 #include "drawn_tables.h"
 #include "eye.h"
+#include "goals.h"
 #include "rules.h"
 #include "table/marks.h"
 
@@ -184,9 +185,8 @@ static void leave_layout(const search *plan, carom_rules_state *game, const cand
   }
 }
 
-/* The worth of a layout, and of the points that the turn made without an opponent. */
-static double worth_of_layout(const search *plan, const carom_rules_state *game,
-                              const carom_ball_state *layout, const carom_turn *turn) {
+double carom_search_leave(const search *plan, const carom_rules_state *game,
+                          const carom_ball_state *layout, const carom_turn *turn) {
   const carom_plan_rules *rules = plan->job.rules;
   /* any ball may be struck: about as good as the cue ball in hand */
   const bool in_hand = turn->leave >= CAROM_LEAVE_ANYWHERE || rules->any_cue_ball != 0;
@@ -194,8 +194,12 @@ static double worth_of_layout(const search *plan, const carom_rules_state *game,
   double worth = carom_value_of(&plan->view, game, layout, passes, in_hand);
   if (passes)
     worth = 1.0 - worth;
-  if (passes && turn->foul != 0)
-    worth = carom_search_foul(worth);
+  if (passes && turn->foul != 0) {
+    /* values of layouts are right to some hundredths, and a legal stroke that is as good is to be
+     * chosen */
+    const double less = 0.018;
+    worth = carom_within(worth - less, 0.0, 1.0);
+  }
   if (rules->race == CAROM_RACE_ALONE && !passes)
     worth = carom_search_share(plan, turn->points + worth);
   return worth;
@@ -213,17 +217,25 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   carom_turn turn = carom_turn_seen(
       rules, &game, rules->judge(&game, plan->in_play, plan->view.cue_ball, facts, call));
   outcome o = outcome_of(facts, call, &turn, is_good(plan, facts, &game, &turn));
-  if (has_worth(plan, &turn, status, &o.worth))
-    return o;
+  const bool ends = has_worth(plan, &turn, status, &o.worth);
   const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
-  leave_layout(plan, &game, c, final, taken_back, &turn);
-  o.worth = worth_of_layout(plan, &game, final, &turn);
+  if (!ends)
+    leave_layout(plan, &game, c, final, taken_back, &turn);
+  if (carom_has_goal(&plan->job))
+    o.worth = !taken_back && carom_search_reaches(plan, &game, final, &turn);
+  else if (!ends)
+    o.worth = carom_search_leave(plan, &game, final, &turn);
   return o;
 }
 
 /* Whether a stroke of the scan met a ball first that is on. */
 bool carom_search_begins_well(const search *plan, int first) {
   return first >= 0 && (plan->targets >> first & 1);
+}
+
+bool carom_search_may_join(const search *plan, const outcome *o) {
+  const bool passes = o->turn == CAROM_TURN_PASS && !o->foul;
+  return carom_search_begins_well(plan, o->first) && (passes || !plan->only_safeties);
 }
 
 /* The balls in play of a layout become those of shots. */

@@ -26,12 +26,14 @@ carom_cue carom_search_stroke(const carom_search *plan, const carom_candidate *c
                               int64_t row);
 /* Whether a stroke of the scan met a ball first that is on. */
 bool carom_search_begins_well(const carom_search *plan, int first);
-/* What a foul counts that is worth `worth`. Values of layouts are right to some hundredths, and a
- * legal stroke that is as good is to be chosen. */
-static inline double carom_search_foul(double worth) {
-  const double less = 0.018;
-  return carom_within(worth - less, 0.0, 1.0);
-}
+/* Whether a stroke of the scan, or one near the best, may be a candidate after its shot without
+ * errors. */
+bool carom_search_may_join(const carom_search *plan, const carom_outcome *o);
+/* What a turn leaves, as the player who made it values it: the points of a player who is alone, and
+ * the value of the layout to whoever plays next. Plans, fouls, passes and reasons all take it from
+ * here. */
+double carom_search_leave(const carom_search *plan, const carom_rules_state *game,
+                          const carom_ball_state *layout, const carom_turn *turn);
 /* Points as a share of the balls left before the shot. */
 double carom_search_share(const carom_search *plan, double points);
 

@@ -1,7 +1,7 @@
 /* The state of a search for the best shot: all that its sources share. What they do stands in a
  * header of each. A source knows this file and the headers that stand before its own, in this
- * order: drawn_tables.h, rows.h, ranking.h, choice_kind.h, listing.h, places.h, candidates.h,
- * search.h, anytime.h. */
+ * order: goals.h, drawn_tables.h, rows.h, ranking.h, choice_kind.h, listing.h, places.h,
+ * candidates.h, search.h, anytime.h. */
 #ifndef CAROM_PLAN_SEARCH_STATE_H
 #define CAROM_PLAN_SEARCH_STATE_H
 
@@ -109,6 +109,7 @@ typedef struct carom_search {
   uint32_t pockets;                         /* that count */
   bool breaks;                              /* the stroke is a break */
   bool blind;                               /* no pot is direct */
+  bool only_safeties;                       /* strokes without errors pass the turn, or count not */
   bool first_decides;                       /* a shot ends at a wrong first ball */
   double foul_value;                        /* of a foul at the first contact */
   int32_t left;                             /* balls before the shot */
@@ -157,11 +158,12 @@ typedef struct carom_search {
   carom_candidate best;          /* of the rounds of doubling before */
 } carom_search;
 
-/* carom_plan_value() of a job, in room of the caller, for another state of its game and to a player
- * as of carom_value_of(); *value stays where there is an error. */
-carom_status carom_search_value(carom_search *plan, const carom_plan_job *job,
-                                const carom_rules_state *game, int seat, int in_hand,
-                                double *value);
+/* plan.c: prepares a job once for all that is played of it: its plan, in the job's memory, from
+ * which shots can be played. */
+carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int choices,
+                                  carom_search **prepared);
+/* Does a part of a plan, `work`, with the threads that the options ask for. */
+void carom_search_with_crew(carom_search *plan, carom_crew_caller *work);
 
 static inline bool carom_is_stopped(const carom_search *plan) {
   return plan->late || (plan->options.stop != NULL && *plan->options.stop != 0);

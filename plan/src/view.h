@@ -153,6 +153,16 @@ double carom_stretched(const carom_view *view, double value, int seat, int n);
 /* The value to `seat` of a layout that both would as soon play as leave, as after a push-out. */
 double carom_even(const carom_view *view, int seat, int n);
 
+/* The opponent of a job. */
+static inline const carom_player *carom_opponent_of(const carom_plan_job *job,
+                                                    const carom_plan_options *options) {
+  if (job->opponent != NULL)
+    return job->opponent;
+  if (options != NULL && options->opponent != NULL)
+    return options->opponent;
+  return job->player;
+}
+
 /* value.c */
 void carom_view_make(carom_view *view, const carom_plan_job *job,
                      const carom_plan_options *options);
@@ -191,6 +201,8 @@ enum {
   DRAW_TABLES,      /* tables that are not known, */
   DRAW_REPLAY,      /* the errors of the shots that choose nothing, */
   DRAW_MIND,        /* whether a player thinks of nothing but potting, */
+  DRAW_REASONS,     /* the errors of strokes that explain a choice, */
+  DRAW_RUN_OUTS,    /* the seeds of the strokes of a run-out, */
   DRAW_ROUND = 16   /* and the errors of the rounds, a stage each. */
 };
 /* between 0 and 1, without the ends */
@@ -216,7 +228,5 @@ carom_player carom_player_bounded(const carom_player *player, const carom_cue *c
 void carom_player_errs(const carom_player *player, const double z[6], carom_cue *cue);
 /* How much larger the errors of a stroke of this speed are than those of the slowest. */
 double carom_player_growth(const carom_player *player, double speed);
-/* Whether the player thinks of nothing but potting in the stroke whose plan has this seed. */
-bool carom_player_only_pots(const carom_player *player, uint64_t seed);
 
 #endif

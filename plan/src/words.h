@@ -79,6 +79,12 @@
   WORD(REFUSAL, REFUSED_BEGIN, "begin", "a match cannot begin so")                                 \
   WORD(REFUSAL, REFUSED_LINE, "line", "a line that was read is not by the rules")                  \
   WORD(REFUSAL, REFUSED_LIMIT, "limit", "the stroke is beyond the limits of the match")            \
-  WORD(REFUSAL, REFUSED_TIME, "time", "no extension or timeout is left")
+  WORD(REFUSAL, REFUSED_TIME, "time", "no extension or timeout is left")                           \
+  /* what a stroke is to leave */                                                                  \
+  WORD(GOAL, GOAL_WIN, "win", "the best chance to win")                                            \
+  WORD(GOAL, GOAL_HIDDEN, "hidden", "no ball that is on can be hit in a straight line")            \
+  WORD(GOAL, GOAL_SNOOKER, "snooker", "other balls are in the way to an edge of the ball")         \
+  WORD(GOAL, GOAL_NEAR, "near", "the cue ball rests near the place")                               \
+  WORD(GOAL, GOAL_APART, "apart", "the balls are apart from all others")
 
 #endif

@@ -54,6 +54,13 @@ TEST(ratings) {
   ck_assert_double_eq_tol(league.phi * sqrt(1.25), 0.25, 1e-12);
   ck_assert_double_eq_tol(league.speed_share, 0.035 * pow(2.5, 0.7), 1e-12);
   ck_assert_double_eq_tol(carom_player_fargo(450.0).phi / league.phi, sqrt(0.394 / 0.25), 1e-12);
+
+  /* in each game a 500 is the same, and the best is better; what is no game counts as eight-ball */
+  for (int k = -1; carom_rules_about_of((carom_rules_kind)(k + 1)) != NULL; k++) {
+    const carom_player same = carom_player_rated(500.0, (carom_rules_kind)k);
+    const carom_player best = carom_player_rated(850.0, (carom_rules_kind)k);
+    ck_assert(memcmp(&same, &league, sizeof same) == 0 && best.phi < league.phi);
+  }
 }
 
 /* Errors of aim and of the tip grow with the speed, that of aim with the elevation too; but not
@@ -78,15 +85,17 @@ TEST(errors_grow) {
 }
 
 /* A player who thinks of nothing but potting plans as one whose opponent makes every ball; a share
- * of strokes is drawn by the seed; the player's shots count where the options have none, and a
- * player whose errors grow never smashes. */
+ * of strokes is drawn by the seeds of one layout, and by the layouts of one seed; the player's shots
+ * count where the options have none, and a player whose errors grow never smashes. */
 TEST(players_choose) {
-  make_layout(18, 3);
-  player = carom_player_fargo(400.0);
+  enum { PLANS = 8 };
   carom_plan_stroke choice[2];
-  int64_t differ = 0;
-  for (uint64_t seed = 0; seed < 8; seed++) {
-    options = (carom_plan_options){.seed = seed};
+  int differ[2] = {0, 0};
+  for (uint64_t n = 0; n < 2 * PLANS; n++) {
+    const bool of_layouts = n >= PLANS;
+    make_layout(of_layouts ? n : 18, 3);
+    options = (carom_plan_options){.seed = of_layouts ? 0 : n};
+    player = carom_player_fargo(400.0);
     player.only_pots = 0.5;
     player.shots = 300.0;
     plan(false, &choice[0], 1);
@@ -102,12 +111,13 @@ TEST(players_choose) {
       plan(false, &choice[1], 1);
       if (memcmp(&choice[0], &choice[1], sizeof choice[0]) == 0) {
         same++;
-        differ += pots;
+        differ[of_layouts] += pots;
       }
     }
     ck_assert_int_eq(same, 1);
   }
-  ck_assert(differ > 0 && differ < 8);
+  for (int k = 0; k < 2; k++)
+    ck_assert(differ[k] > 0 && differ[k] < PLANS);
 }
 
 /* In straight pool, whose points one visit never makes, a player who only pots takes the ball in

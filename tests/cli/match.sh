@@ -42,5 +42,19 @@ forged '/^{"act"/d'
 forged '$ i {"act":{"act":3,"player":1,"hash":"0000000000000001"}}'
 carom record -o shots.jsonl "$DATA/break-nineball.jsonl"
 try carom match --show shots.jsonl
+echo "--- odds by ratings, and a rating by results"
+carom odds --players 600,500 --race 3,2 --break-points 40 --winner-breaks
+carom odds --players 600,500 --race 9,7 --sets 2 --breaks 2 --csv
+carom match --rules nineball --players 700,500 --race 2 --shots 100 -o pair.jsonl > /dev/null
+printf 'against,won,lost\n500,3,2\n450,9.5,5\n' > results.csv
+for words in "pair.jsonl" "--seat 2 pair.jsonl" "results.csv"; do
+  # shellcheck disable=SC2086
+  carom rating $words
+done
+carom practice --seat 2 --player 850 --drills 2 whole.jsonl
+carom practice --seat 2 --player 850 --csv --drills 1 whole.jsonl
+echo 500,3 > wrong.csv
+: > none.csv
+try_rows "odds and ratings, bad usage"
 echo "--- bad usage"
 try_rows "match, bad usage"

@@ -40,7 +40,9 @@ echo "--- why"
 carom plan --rules potting --why --shots 300 layout.jsonl | sed -n 3,7p | sed 's/[0-9][0-9.]*/N/g'
 # the last ball, by a straight pot: errors cost little, whoever plays; a kick is aimed at cushions; a game of one has no other
 carom plan --rules nineball --why --cue 0.4,0.4 --balls 9=0.25,0.25 --shots 300 | sed -n 3,7p | sed 's/[0-9][0-9.]*/N/g'
-carom plan --rules nineball --why --cue 0.4,0.4 --balls 9=0.25,0.25 --shots 300 | sed -n 's/.*speed cost \([0-9.]*\) %, those of aim \([0-9.]*\) %/\1 \2/p' | sed -n 1p | awk '{ print ($1 < 2 && $2 < 2) }'
+for y in 0.3 0.6 0.9 1.2; do carom plan --rules nineball --why --cue 0.5,$y --balls 9=0.2,2.1 --shots 100; done > lone.txt
+awk '/which ball|balls fall/ { lucky++ } /errors  / { n++; cost = $3 - $8 - $13 - $19; bad += cost > 0.21 || cost < -0.21 }
+END { printf "costs that do not add up: %d, more than one ball: %d, enough: %d\n", bad, lucky, (n > 4) }' lone.txt
 carom plan --rules nineball --why --cue 0.4,0.4 --balls 1=0.9,2.4:2=0.45,0.47:3=0.5,0.43:9=0.37,0.5 --shots 300 | grep -c "aim          off the"
 # a cue ball in the D is in hand; a push-out is played as often as the others; a straight ball is no cut of 0 degrees
 carom shoot --table snooker --balls snooker --aim 90 --json | carom plan --rules snooker --in-hand --why --shots 100 - > hand.txt
@@ -49,6 +51,23 @@ carom plan --rules nineball --may push-out --why --shots 300 hidden.jsonl | grep
 carom plan --rules nineball --why --cue 0.4,0.4 --balls 9=0.25,0.25 --shots 300 | grep "cut of [01] degrees" || echo straight
 echo "--- to run out, a turn that ends is worth nothing"
 for out in "" --run-out; do carom plan --rules nineball --shots 300 $out --csv layout.jsonl | sed -n 2p | cut -d , -f 12; done | awk 'NR == 1 { wins = $1 } END { print ($1 < wins - 0.02) }'
+echo "--- the run-out as a whole"
+run="--cue 0.3,0.8 --balls 2=0.35,2.1:3=0.8,0.5:5=0.9,1.6:9=0.6,1.9 --rules nineball --sequence --shots 300"
+carom plan $run --plays 40 --plot run.svg > run.txt
+grep -o "^[0-9].*\|^   [a-z ]*  \|^The run-out.*that" run.txt | sed 's/[0-9]* %\|(error [0-9]*)/N/g'
+grep -c 'class="zone"' run.svg
+carom plan $run --plays 0 --json > run.jsonl
+carom shoot run.jsonl | grep -o "\"ball_pocket\"" | wc -l
+grep -o '"zone_share": [0-9.]*' run.jsonl | awk '{ good += $2 > 0.5 } END { print good }'
+for options in --csv "--only safeties" "--table threecushion --rules threecushion"; do try carom plan $run $options; done
+echo "--- leaves, and safeties alone"
+eight="--rules eightball --group solids --shots 600 --cue 0.3,0.8 --balls 1=0.9,1.6:2=0.35,2.1:3=0.8,0.5:8=0.6,1.9:9=0.9,1.1:10=0.4,1.3"
+for goal in snooker:9 near:0.6,0.6 near:foot-spot,1d apart:1,9; do carom plan $eight --leave $goal --csv | sed -n 2p | awk -F , '{ print $2, $3, ($12 > 0.5) }'; done
+carom plan $eight --only safeties --csv | sed 1d | cut -d , -f 2,3 | sort | uniq -c | sed 's/^ *[2-5] /many /'
+carom plan $eight --leave snooker:9 | sed -n 3p | sed 's/[0-9.]* %.*//'
+for goal in nearby near:3,3 apart:1,12 hidden:1 snooker; do try carom plan $eight --leave $goal; done
+try carom plan --rules potting --leave hidden layout.jsonl
+try carom plan $eight --leave hidden --why
 echo "--- balls that are down are not on the table"
 carom plan --rules nineball --shots 300 --plot few.svg --cue 0.4,0.4 --balls 7=0.9,1.4:9=0.25,0.25 > few.txt
 grep -c 'class="ball"' few.svg

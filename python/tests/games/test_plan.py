@@ -280,6 +280,8 @@ def test_run_out():
 def test_ratings():
     errors = [float(carom.player(fargo=rating)["phi"]) for rating in (200, 400, 500, 600, 700, 850)]
     assert errors == sorted(errors, reverse=True) and errors[0] > 5 * errors[-1] > 0.0
+    rated = [carom.player(fargo=700, rules=game)["phi"] for game in ("eightball", "straight")]
+    assert errors[4] == rated[0] < rated[1] < errors[2]
 
 
 def test_strokes_with_errors():

@@ -75,7 +75,7 @@ export const KEYS = {
       ...GAME,
     }),
   ],
-  player: ["errors", "fargo"],
+  player: ["errors", "fargo", "rules"],
   rack: ["gap", "seed"],
   polygon: ["noseHeight", "jawRadius", "ballRadius"],
   corner: ["x", "y", "mouth"],

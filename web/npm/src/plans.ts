@@ -34,6 +34,7 @@ import type {
   Score,
   ShotBall,
   ShotOptions,
+  Skill,
   Table,
 } from "./types.js";
 
@@ -173,7 +174,7 @@ export class Plans {
     return struck;
   }
 
-  player({ errors: scale, fargo }: { errors?: number; fargo?: number }): Player {
+  player({ errors: scale, fargo, rules = "eightball" }: Skill): Player {
     if (scale !== undefined && fargo !== undefined)
       throw new TypeError("errors, fargo: a player has errors or a rating, not both");
     const errors = scale ?? 1;
@@ -181,8 +182,10 @@ export class Plans {
       throw new RangeError(`errors: it must be finite and at least 0, not ${errors}`);
     if (fargo !== undefined && !(fargo >= 200 && fargo <= 850))
       throw new RangeError(`fargo: it must be 200 to 850, not ${fargo}`);
-    if (fargo === undefined) this.#memory.exports.carom_player_of(this.#addresses.player, errors);
-    else this.#memory.exports.carom_player_fargo(this.#addresses.player, fargo);
+    const { exports } = this.#memory;
+    const kind = value("carom_rules_kind", rules, "rules");
+    if (fargo === undefined) exports.carom_player_of(this.#addresses.player, errors);
+    else exports.carom_player_rated(this.#addresses.player, fargo, kind);
     return readStruct<Player>(this.#memory, this.#addresses.player, "carom_player");
   }
 

@@ -216,6 +216,11 @@ export type Player = Optional<
 
 /** Games won and lost against a player of a Fargo rating, 0 to 1000. */
 export type Score = C.Score;
+/** Errors, or a Fargo rating in a game, for `carom.player()`. */
+export interface Skill extends Pick<Partial<GameState>, "rules"> {
+  errors?: number;
+  fargo?: number;
+}
 /** A rating by games: the mean of the likely ones, and the interval that has 95 % of them. */
 export type Rating = Omit<C.Rating, "row">;
 
@@ -376,7 +381,7 @@ export interface Aim {
 export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   /** Default: `player()`. */
   player?: Player;
-  /** Default: as the player. */
+  /** Default: as the player; in `Match.plan` its `opponent()`. */
   opponent?: Player;
   /**
    * Where a cue ball in hand may be put, as a ruling says it: behind the head string ("kitchen"), in

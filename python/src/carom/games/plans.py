@@ -19,7 +19,7 @@ from carom._rows import Array, Arrays, as_array, choice, copied, listing, number
 from carom._rows import Seed, seed_of, several, whole
 from carom._shot_options import Options, chosen, shot_options
 from carom.dtypes import Records
-from carom.games.rules import LEAVES, Game, GivenState, Group, Hand, Made, Rules
+from carom.games.rules import GAMES, LEAVES, Game, GivenState, Group, Hand, Made, Rules
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
 from carom.status import CaromError
@@ -72,7 +72,9 @@ class Kind(enum.IntEnum):
         return str(ffi.string(lib.carom_plan_kind_name(self)).decode())
 
 
-def player(errors: float | None = None, *, fargo: float | None = None) -> Records:
+def player(
+    errors: float | None = None, *, fargo: float | None = None, rules: Game = "eightball"
+) -> Records:
     """A player whose strokes err, as an array of `carom.dtypes.player`, shape ().
 
     Its fields may be changed.
@@ -87,6 +89,9 @@ def player(errors: float | None = None, *, fargo: float | None = None) -> Record
         `only_pots`, the share of strokes in which the player thinks of nothing but potting. Such
         players beat those who are 100 points weaker in about 2 of 3 games, if `shots` of `plan` is
         not given (docs/understanding/plan.md). Set `only_pots` to 0 for a plan that advises one.
+    rules : str
+        The game in which the player has this rating: by it, players of other ratings than 500 differ
+        more or less.
     """
     if errors is not None and fargo is not None:
         raise ValueError("errors, fargo: a player has errors or a rating, not both")
@@ -99,9 +104,10 @@ def player(errors: float | None = None, *, fargo: float | None = None) -> Record
         <= 850.0
     ):
         raise ValueError(f"fargo: it must be 200 to 850, not {fargo}")
+    game = choice(GAMES, rules, "rules")
     record: Array = np.zeros((), dtypes.player)
     pointer("carom_player[]", record)[0] = (
-        lib.carom_player_of(errors) if fargo is None else lib.carom_player_fargo(fargo)
+        lib.carom_player_of(errors) if fargo is None else lib.carom_player_rated(fargo, game)
     )
     return record
 
