@@ -361,7 +361,7 @@ def _stoppable(call: Callable[[], int], flag: Any, stop: threading.Event | None)
     return called.result()
 
 
-class _Job:
+class Job:
     """What a plan is made for, checked, as C has it; and what has to live as long."""
 
     def __init__(
@@ -558,7 +558,7 @@ def plan(
     corners = _corners(in_hand)
     game = (_by and _by.game_record) or Made(rules, state, group, opening)
     game.stop[0] = 0
-    job = _Job(
+    job = Job(
         table,
         balls,
         cue,
@@ -638,7 +638,7 @@ def chances(
     if not 1 <= strokes.size <= 1000:
         raise ValueError(f"cues: 1 to 1000 are needed, not {strokes.size}")
     game = Made(rules, state, group, opening)
-    job = _Job(
+    job = Job(
         table,
         balls,
         strokes.reshape(-1)[0],
@@ -688,7 +688,7 @@ def value(
     CaromError
         The layout or an option is in error.
     """
-    job = _Job(
+    job = Job(
         table,
         balls,
         None,
