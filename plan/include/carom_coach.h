@@ -126,8 +126,16 @@ CAROM_API int carom_way_succeeds(const carom_ways_job *job, const carom_shot *sh
 
 enum {
   CAROM_WHY_STROKES = 300, /* strokes with errors that are played for a choice. */
-  CAROM_WHY_RAILS = 16     /* the largest number of rails that carom_why lists. */
+  CAROM_WHY_RAILS = 16,    /* the largest number of rails that carom_why lists. */
+  CAROM_WHY_ERRORS = 3     /* values of carom_why_error. */
 };
+
+/* The errors of a player, by what the stroke loses by them. */
+typedef enum carom_why_error {
+  CAROM_WHY_AIM = 0,   /* of direction and elevation */
+  CAROM_WHY_SPEED = 1, /* of speed */
+  CAROM_WHY_TIP = 2    /* of the place of the tip */
+} carom_why_error;
 
 /* Why a choice of a plan is good. */
 typedef struct carom_why {
@@ -139,24 +147,29 @@ typedef struct carom_why {
                                      carom_pot; NaN: none is met. */
   double part;                        /* how much of that ball is hit, 0 to 1; NaN: none is met. */
   double speed;                       /* m/s: of the cue ball, just after the stroke. */
-  carom_ruling ruling;         /* what the stroke leaves without errors. If luck alone makes its
-                                     balls fall, it is the first stroke with errors that ends the
-                                     turn. */
-  carom_plan_stroke next;      /* the best stroke of the player who plays next. */
-  int32_t has_next;            /* 1 if `next` has a stroke, otherwise 0. */
-  double misses, loses;        /* shares of the strokes with errors that pass the turn, and that
-                                     lose the game. */
-  double opponent;             /* the opponent's chance to win after those that pass; NaN if none
-                                     do, and without an opponent. */
-  double speed_cost, aim_cost; /* how much more the choice would be worth, in value, without the
-                                     player's errors of speed, and without those of aim. */
-  int64_t strokes;             /* CAROM_WHY_STROKES. */
+  carom_ruling ruling; /* what the stroke leaves without errors. If carom_names_ball() is 0, the
+                             stroke has errors, and leaves about the mean of those that pass. */
+  double leave; /* the value of that leave to the player who strikes; NaN for a goal of the job. */
+  carom_plan_stroke next; /* the best stroke of the player who plays next. */
+  int32_t has_next;       /* 1 if `next` has a stroke, otherwise 0. */
+  double value;           /* of the choice, as carom_plan_replay() finds it. */
+  double misses, loses;   /* shares of the strokes with errors that pass the turn, and that lose the
+                             game. */
+  double opponent;        /* the opponent's chance to win after those that pass; NaN if none do,
+                             without an opponent, and for a goal. */
+  double flawless_value;  /* of the choice without errors of the player. */
+  double cost[CAROM_WHY_ERRORS]; /* of each carom_why_error, in value: the mean of what it costs
+                                    where it is added to the errors before it, and to those behind
+                                    it. Together flawless_value - value. Below 0: the error helps,
+                                    as where the stroke without errors leaves more than most. */
+  int64_t strokes;               /* CAROM_WHY_STROKES. */
 } carom_why;
 
 /* Explains a choice of a plan: how it is aimed, what it leaves, how often it misses and what the
- * errors of the player cost. The job is that of the plan; its memory is overwritten. Returns
- * CAROM_OK; CAROM_ERROR_NULL as in carom_plan(); CAROM_ERROR_OPTIONS for a choice to pass, which
- * has no stroke; or an error of carom_place_ball(). */
+ * errors of the player cost. All values are those of the plan's own estimate of what a stroke
+ * leaves. The job is that of the plan; its memory is overwritten. Returns
+ * CAROM_OK; CAROM_ERROR_OPTIONS for a choice to pass, which has no stroke; or an error of
+ * carom_plan() or carom_place_ball(). */
 CAROM_API carom_status carom_why_of(const carom_plan_job *job, const carom_plan_stroke *choice,
                                     carom_why *why);
 
@@ -167,8 +180,8 @@ CAROM_API int carom_names_ball(const carom_plan_stroke *choice);
 /* Plays n choices of a plan CAROM_WHY_STROKES times each, with the same errors for all, and sorts
  * them by the values of these strokes, best first. value, error, keep, foul, lose and seen become
  * those of these strokes. A choice to pass keeps its value. The chances of a plan are partly lucky
- * for choices that were seldom played; these are not. Returns CAROM_OK; CAROM_ERROR_NULL as in
- * carom_plan(); or CAROM_ERROR_OPTIONS if n is below 0. */
+ * for choices that were seldom played; these are not. Returns CAROM_OK; CAROM_ERROR_OPTIONS if n is
+ * below 0; or an error of carom_plan() or carom_place_ball(), with the choices before it sorted. */
 CAROM_API carom_status carom_plan_replay(const carom_plan_job *job, carom_plan_stroke *choices,
                                          int n);
 

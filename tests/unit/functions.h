@@ -449,7 +449,7 @@ static void set_up_games(void) {
 #else
 static OWN carom_cue aimed;
 static OWN carom_plan_rules rules;
-static OWN carom_player player;
+static OWN carom_player player, other_player;
 static OWN carom_plan_options plan_options;
 static OWN carom_plan_job plan;
 static OWN carom_ruling ruling;
@@ -596,6 +596,7 @@ static carom_match *moving(void) {
   F(match_end, carom_match_end(PTR(ready())))                                                      \
   F(match_extend, GIVES(carom_match_extend(MAYBE(ready()), ANYINT(0))))                            \
   F(match_next, GIVES(carom_match_next(MAYBE(ready()))))                                           \
+  F(match_opponent, carom_match_opponent(PTR(begun()), PTR(&player), PTR(&other_player)))          \
   F(match_place, carom_match_place(PTR(begun()), INT(0), NUM(0.6), NUM(0.5)))                      \
   F(match_plan, carom_match_plan(PTR(ready()), PTR(&plan), PTR(choices), LENGTH(4), PTR(&found)))  \
   F(match_prepare, carom_match_prepare(PTR(ready()), INT(0), PTR(&safety)))                        \
