@@ -404,7 +404,7 @@ def _goal(goal: Goal, count: int) -> Any:
     )
 
 
-class _Job:
+class Job:
     """What a plan is made for, checked, as C has it; and what has to live as long."""
 
     def __init__(
@@ -614,7 +614,7 @@ def plan(
     corners = _corners(in_hand)
     game = (_by and _by.game_record) or Made(rules, state, group, opening)
     game.stop[0] = 0
-    job = _Job(
+    job = Job(
         table,
         balls,
         cue,
@@ -697,7 +697,7 @@ def sequence(
     """
     check_table(table)
     corners = _corners(in_hand)
-    job = _Job(
+    job = Job(
         table,
         balls,
         cue,
@@ -775,7 +775,7 @@ def chances(
     if not 1 <= strokes.size <= 1000:
         raise ValueError(f"cues: 1 to 1000 are needed, not {strokes.size}")
     game = Made(rules, state, group, opening)
-    job = _Job(
+    job = Job(
         table,
         balls,
         strokes.reshape(-1)[0],
@@ -825,7 +825,7 @@ def value(
     CaromError
         The layout or an option is in error.
     """
-    job = _Job(
+    job = Job(
         table,
         balls,
         None,
