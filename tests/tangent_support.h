@@ -153,7 +153,7 @@ static inline int64_t derive(const layout *l, const direction *by, int m) {
 
 /* Plays a shot, without an error, and derives it. */
 static inline int64_t differentiate(const layout *l, const direction *by, int m) {
-  shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+  shot = empty_shot();
   const carom_status status = shoot(l, &shot);
   ck_assert_msg(status >= CAROM_OK, "%s", carom_status_name(status));
   return derive(l, by, m);

@@ -10,7 +10,8 @@ carom_player carom_player_of(double scale) {
                         .phi = 0.1 * scale,
                         .theta = 0.1 * scale,
                         .a = 0.003 * scale,
-                        .b = 0.003 * scale};
+                        .b = 0.003 * scale,
+                        .eye = scale == 0.0 ? -1.0 : 0.0};
 }
 
 /* The numbers of players by rating, in steps of 100 from 200. Between them shots and the share are
@@ -47,6 +48,9 @@ double carom_player_growth(const carom_player *player, double speed) {
   return sqrt(1.0 + grows * grows);
 }
 
+/* m: twice the gap that an eye of normal acuity sees at 0.3 m, CAROM_RULES_TOUCH. A convention. */
+static const double usual_eye = 2.0 * CAROM_RULES_TOUCH;
+
 carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue) {
   carom_player bounded = *player;
   const double gain = carom_tip_gain(cue), usual_least = 0.5 * gain, usual_most = 8.0 * gain;
@@ -60,6 +64,9 @@ carom_player carom_player_bounded(const carom_player *player, const carom_cue *c
   if (!(most > 0.0))
     bounded.speed_most = fmax(least, usual_most);
   bounded.tip_most = carom_or_usual(player->tip_most, 0.5);
+  bounded.eye = fmax(player->eye, 0.0);
+  if (player->eye == 0.0)
+    bounded.eye = usual_eye;
   return bounded;
 }
 
@@ -92,7 +99,7 @@ void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t num
 }
 
 bool carom_player_is_good(const carom_player *p) {
-  static const double most = 1000.0; /* of each number */
+  static const double most = 1000.0, eye_most = 0.01; /* of each number; and of the eye, m */
   const double numbers[] = {p->speed,    p->speed_share, p->phi,         p->theta,
                             p->a,        p->b,           p->speed_least, p->speed_most,
                             p->tip_most, p->growth,      p->only_pots};
@@ -101,5 +108,5 @@ bool carom_player_is_good(const carom_player *p) {
     good &= numbers[k] >= 0.0 && numbers[k] <= most;
   const bool has_shots =
       p->shots >= (double)PLAYER_SHOTS_LEAST && p->shots <= (double)PLAYER_SHOTS_MOST;
-  return good && p->only_pots <= 1.0 && (p->shots == 0.0 || has_shots);
+  return good && p->only_pots <= 1.0 && p->eye <= eye_most && (p->shots == 0.0 || has_shots);
 }

@@ -30,7 +30,7 @@ static carom_result collide(const carom_impact *in, carom_slip slip) {
   options.solver = solving;
   carom_result out;
   options.slip = slip;
-  ck_assert_int_eq(carom_collide(in, &options, &out), CAROM_OK);
+  expect_ok(carom_collide(in, &options, &out));
   return out;
 }
 

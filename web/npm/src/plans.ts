@@ -77,6 +77,7 @@ const BOUNDS = {
   growth: 0,
   onlyPots: 0,
   shots: 0,
+  eye: 0,
 };
 
 /** What the calls of this file need of the library. */

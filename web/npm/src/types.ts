@@ -211,7 +211,7 @@ export type RackName = C.RackKind;
 /** How the strokes of a player differ from those that are meant. What is missing is 0. */
 export type Player = Optional<
   C.Player,
-  "speedShare" | "speedLeast" | "speedMost" | "tipMost" | "growth" | "onlyPots" | "shots"
+  "speedShare" | "speedLeast" | "speedMost" | "tipMost" | "growth" | "onlyPots" | "shots" | "eye"
 >;
 
 /** Games won and lost against a player of a Fargo rating, 0 to 1000. */
@@ -381,7 +381,7 @@ export interface Aim {
 export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   /** Default: `player()`. */
   player?: Player;
-  /** Default: as the player. */
+  /** Default: as the player; in `Match.plan` its `opponent()`. */
   opponent?: Player;
   /**
    * Where a cue ball in hand may be put, as a ruling says it: behind the head string ("kitchen"), in

@@ -649,7 +649,8 @@ class Match:
         """The best strokes of the seat at the table, with a cue ball in hand within `bounds`.
 
         `wanted` is as for `carom.plan`: player, opponent, shots, best, seed, ... By default the cue
-        is that of the seat, and the player one of its rating.
+        is that of the seat, and the player one of its rating. The opponent is the next seat of the
+        other side, by its rating, else as strong as its strokes in this set show.
         """
 
         c = self.copy()._c  # whose text and cue a plan changes

@@ -311,6 +311,8 @@ def aim(
 
 
 _usual_player = player
+# the ranges of a player's numbers, except those from 0 to 1000
+_RANGES = {"tip_most": (0.0, 1.0), "eye": (-np.inf, 0.01), "reserved": (0.0, 0.0)}
 
 
 def _one_player(player: Records, name: str = "player") -> Any:
@@ -319,9 +321,11 @@ def _one_player(player: Records, name: str = "player") -> Any:
     if record.ndim != 0:
         raise ValueError(f"{name}: one is needed, of shape (), not {record.shape}")
     for field in dtypes.player.names or ():
-        most = {"tip_most": 1.0, "reserved": 0.0}.get(field, 1000.0)
-        if not ((record[field] >= 0.0) & (record[field] <= most)).all():
-            raise ValueError(f"{name}: {field}: it must be 0 to {most:g}, not {record[field]}")
+        least, most = _RANGES.get(field, (0.0, 1000.0))
+        if not ((record[field] >= least) & (record[field] <= most)).all():
+            raise ValueError(
+                f"{name}: {field}: it must be {least:g} to {most:g}, not {record[field]}"
+            )
     return pointer("carom_player[]", record)
 
 
