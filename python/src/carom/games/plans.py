@@ -104,9 +104,8 @@ def player(
     Parameters
     ----------
     errors : float
-        At least 0. Standard deviations: 0.1 m/s, 0.1 degrees of direction and of elevation and
-        0.003 radii each way, times errors. Default: 1. The speed is that of a cue whose tip loses
-        nothing; others err by 2/(1 + tip_restitution) times as much.
+        At least 0. Standard deviations of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees of direction and
+        of elevation and 0.003 radii each way, times errors; they grow with the speed. Default: 1.
     fargo : float, optional
         A Fargo rating, 200 to 850, instead: errors that grow with the speed, the shots of a plan and
         `only_pots`, the share of strokes in which the player thinks of nothing but potting. Such
