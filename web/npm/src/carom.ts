@@ -57,9 +57,12 @@ import type {
   PlanOptions,
   Player,
   RackName,
+  Odds,
   Rating,
+  Review,
   Ruling,
   Score,
+  Series,
   ShotBall,
   ShotOptions,
   Skill,
@@ -1248,6 +1251,26 @@ export class Carom {
    */
   rating(scores: readonly Score[]): Rating {
     return this.#plans.rating(scores);
+  }
+
+  /** The odds of a match by two ratings, and its fairest handicap. */
+  odds(series: Series): Odds {
+    return this.#plans.odds(series);
+  }
+
+  /**
+   * What a stroke of a game of two sides with pockets meant, and what it cost a player; and a drill
+   * of it. Balls, options and call are those before the stroke.
+   */
+  review(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    options: PlanOptions = {},
+    call?: Call,
+  ): Review {
+    this.#resident = undefined;
+    return this.#plans.review(table, balls, cue, call, options);
   }
 
   /**
