@@ -168,6 +168,7 @@ static const learned learned_of[] = {
  * of about 4 to 1. Games without a row have those of eight-ball. */
 static const double rating_steps[][2] = {
     [CAROM_RULES_EIGHTBALL] = {100.0, 100.0},  /* a rack */
+    [CAROM_RULES_NINEBALL] = {180.0, 110.0},   /* a rack */
     [CAROM_RULES_THREECUSHION] = {38.0, 38.0}, /* 15 points */
     [CAROM_RULES_STRAIGHT] = {47.0, 47.0},     /* 15 points, about a rack */
     [CAROM_RULES_SNOOKER] = {43.0, 43.0},      /* a frame */

@@ -15,17 +15,19 @@ carom_player carom_player_of(double scale) {
 }
 
 /* The numbers of players by rating, in steps of 100 from 200. Between them shots and the share are
- * linear, and the error of aim is exponential. docs/understanding/plan.md has the games of which
- * they come. */
-carom_player carom_player_fargo(double rating) {
+ * linear, and the error of aim is exponential, which also goes on beyond the ends where a game has
+ * greater steps. docs/understanding/plan.md has the games of which they come. */
+carom_player carom_player_stepped(double rating, const double steps[2]) {
   /* the error of aim of a stroke of 2 m/s, degrees; shots; the share of strokes that only pot */
   static const double at_rating[][3] = {
       {0.978, 146.0, 1.0},  {0.621, 163.0, 0.97}, {0.394, 183.0, 0.92}, {0.25, 205.0, 0.79},
       {0.159, 230.0, 0.57}, {0.101, 257.0, 0.31}, {0.05, 500.0, 0.0},   {0.012, 500.0, 0.0}};
   enum { STEPS = sizeof at_rating / sizeof at_rating[0] - 1 };
-  static const double least = 200.0, most = 850.0, step = 100.0, growth = 0.25, speed = 2.0;
-  const double r = fmin(fmax(rating, least), most); /* the least of NaN too */
-  const int k = (int)carom_min((int64_t)((r - least) / step), STEPS - 1);
+  static const double least = 200.0, even = 500.0, most = 850.0, step = 100.0;
+  static const double growth = 0.25, speed = 2.0;
+  const double given = fmin(fmax(rating, least), most); /* the least of NaN too */
+  const double r = even + 0.01 * steps[given > even] * (given - even);
+  const int k = (int)carom_max(0, carom_min((int64_t)((r - least) / step), STEPS - 1));
   const double part = (r - least) / step - k, *low = at_rating[k], *high = at_rating[k + 1];
 
   /* the other errors of a stroke of this speed, by a power of that of aim */
@@ -39,8 +41,9 @@ carom_player carom_player_fargo(double rating) {
                         .a = tip / grown,
                         .b = tip / grown,
                         .growth = growth,
-                        .only_pots = low[2] + part * (high[2] - low[2]),
-                        .shots = round(low[1] + part * (high[1] - low[1]))};
+                        .only_pots = carom_within(low[2] + part * (high[2] - low[2]), 0.0, 1.0),
+                        .shots = carom_within(round(low[1] + part * (high[1] - low[1])),
+                                              PLAYER_SHOTS_LEAST, PLAYER_SHOTS_MOST)};
 }
 
 double carom_player_growth(const carom_player *player, double speed) {
