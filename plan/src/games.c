@@ -118,10 +118,6 @@ carom_player carom_player_rated(double rating, carom_rules_kind kind) {
   return carom_player_stepped(rating, steps);
 }
 
-carom_player carom_player_fargo(double rating) {
-  return carom_player_rated(rating, CAROM_RULES_EIGHTBALL);
-}
-
 carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
   if (!is_game(kind))
     kind = CAROM_RULES_EIGHTBALL;

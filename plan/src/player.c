@@ -46,6 +46,11 @@ carom_player carom_player_stepped(double rating, const double steps[2]) {
                                               PLAYER_SHOTS_LEAST, PLAYER_SHOTS_MOST)};
 }
 
+carom_player carom_player_fargo(double rating) {
+  static const double steps[2] = {100.0, 100.0};
+  return carom_player_stepped(rating, steps);
+}
+
 double carom_player_growth(const carom_player *player, double speed) {
   const double grows = player->growth * speed;
   return sqrt(1.0 + grows * grows);
