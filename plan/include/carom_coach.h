@@ -211,9 +211,9 @@ typedef struct carom_sequence_stroke {
   double zone_share;  /* share of CAROM_SEQUENCE_TRIES strokes with errors that win, or that play on
                          with the cue ball in the zone. */
   double stray_share; /* share that plays on with the cue ball outside. */
-  double turn_share;  /* share of some strays, from which another pot than that of the next stroke
-                         is planned: the most frequent one, */
-  int32_t turn_ball, turn_pocket; /* this one; -1: none. */
+  double turn_share;  /* share of some strays from which a plan has the pot of turn_ball. */
+  int32_t turn_ball, turn_pocket; /* the ball and the pocket of the most frequent pot from strays
+                                     that is not the pot of the next stroke; -1: none. */
 } carom_sequence_stroke;
 
 /* How played run-outs ended: how many of them, or sums. All zero before the first one. */
@@ -227,14 +227,14 @@ CAROM_API size_t carom_sequence_memory(const carom_plan_options *options);
 
 /* Plans a run-out of the player at the table, as with options->chance_opponent 1: stroke by stroke,
  * each from what the one before leaves without errors. Writes up to `room` strokes, at most
- * CAROM_SEQUENCE_MOST; *found becomes their number. The last one wins, or is the first that names no
- * ball. in_hand: 1 if the cue ball is in hand before the first stroke, within the bounds of
- * job->leave. within: how much value the landing zones may lose, above 0 and below 1. A stroke takes
- * about as long as two plans, and as eight more of at most 200 shots. If options->stop is set, the
- * run-out ends with the stroke that is planned. options->slice is not read. Returns CAROM_OK;
- * CAROM_ERROR_NULL if a pointer is NULL or there is less memory than carom_sequence_memory();
- * CAROM_ERROR_OPTIONS for another `within`, a goal, or options->safeties; or an error of carom_plan()
- * for the first layout. */
+ * CAROM_SEQUENCE_MOST; *found becomes their number. The last one wins, or is the first after which
+ * the player hardly ever plays on. in_hand: 1 if the cue ball is in hand before the first stroke,
+ * within the bounds of job->leave. within: how much value the landing zones may lose, above 0 and
+ * below 1. A stroke takes about as long as two plans, and as eight more of at most 200 shots. If
+ * options->stop is set, the run-out ends with the stroke that is planned. options->slice is not
+ * read. Returns CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is less memory than
+ * carom_sequence_memory(); CAROM_ERROR_OPTIONS for another `within`, a goal, or options->safeties;
+ * or an error of carom_plan() for the first layout. */
 CAROM_API carom_status carom_sequence(const carom_plan_job *job, int in_hand, double within,
                                       carom_sequence_stroke *strokes, int room, int *found);
 

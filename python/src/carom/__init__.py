@@ -6,7 +6,8 @@
     shots        simulate, simulate_batch, simulate_arrow, resume, Options, ALL_THREADS
     results      Shot, Shots, Features, EventType, Label, Status, CaromError
     derivatives  tangents, jacobian, hessian, aim_slope, Tangents, Hessian, Flag
-    plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating
+    plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating; Goal, sequence,
+                 RunOut
     coach        odds, Odds; review, Review, Drill
     rules        Match, a whole game; referee, Rules, Ruling, Facts, Turn, Foul
     other        dtypes, the structured dtypes; cite, physics_revision, isa_in_force
@@ -95,6 +96,7 @@ if _TYPE_CHECKING:
         Drill as Drill,
         Facts as Facts,
         Foul as Foul,
+        Goal as Goal,
         Match as Match,
         Odds as Odds,
         Pot as Pot,
@@ -102,6 +104,7 @@ if _TYPE_CHECKING:
         Review as Review,
         Rules as Rules,
         Ruling as Ruling,
+        RunOut as RunOut,
         Turn as Turn,
         aim as aim,
         chances as chances,
@@ -111,6 +114,7 @@ if _TYPE_CHECKING:
         rating as rating,
         referee as referee,
         review as review,
+        sequence as sequence,
         value as value,
         with_errors as with_errors,
     )
@@ -127,6 +131,7 @@ _OFFERED = [
     "Features",
     "Flag",
     "Foul",
+    "Goal",
     "Hessian",
     "Label",
     "Match",
@@ -138,6 +143,7 @@ _OFFERED = [
     "Review",
     "Rules",
     "Ruling",
+    "RunOut",
     "Shot",
     "Shots",
     "Status",
@@ -173,6 +179,7 @@ _OFFERED = [
     "referee",
     "resume",
     "review",
+    "sequence",
     "simulate",
     "simulate_arrow",
     "simulate_batch",
@@ -186,8 +193,8 @@ _OFFERED = [
 
 # Names of the folder games, and modules of folders, which are loaded when they are asked for.
 _OF_GAMES = frozenset(
-    "Drill Facts Foul Match Odds Pot Rating Review Rules Ruling Turn aim chances odds plan player "
-    "rating referee review value with_errors".split()
+    "Drill Facts Foul Goal Match Odds Pot Rating Review Rules Ruling RunOut Turn aim chances odds "
+    "plan player rating referee review sequence value with_errors".split()
 )
 _MODULES_OF_FOLDERS = frozenset(
     "drills fit gymnasium matches pettingzoo plans pool potting rules sb3".split()

@@ -1234,10 +1234,11 @@ export class Carom {
   // ---- Plans and games --------------------------------------------------------------------------
 
   /**
-   * A player by his errors: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each
-   * way, times `errors`. Or by a Fargo rating, 200 to 850, such as 500: its plans then play as
-   * rated where `shots` is not given; `onlyPots: 0` makes plans that advise such a player. A rating
-   * is one of a game, `rules`: by it, players of other ratings than 500 differ more or less.
+   * A player by his errors of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees of direction and of elevation
+   * and 0.003 radii each way, times `errors`; they grow with the speed. Or by a Fargo rating, 200
+   * to 850, such as 500: its plans then play as rated where `shots` is not given; `onlyPots: 0`
+   * makes plans that advise such a player. A rating is one of a game, `rules`: by it, players of
+   * other ratings than 500 differ more or less.
    */
   player(skill: Skill = {}): Player {
     refuseUnknown(skill, KEYS.player);
