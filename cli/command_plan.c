@@ -130,11 +130,11 @@ static void tell(FILE *out, const plan_job *job, const carom_plan_job *request,
     plan_describe(line, c, text);
     fprintf(out, "%d. %s\n", k + 1, text);
     plan_tell_stroke(out, c, job->hand);
-    fprintf(out,
-            "   chances      %s %.1f %% (error %.1f), plays on %.0f %%, foul %.0f %%; played %lld "
-            "times\n",
-            value_words(job), 100.0 * c->value, 100.0 * c->error, 100.0 * c->keep, 100.0 * c->foul,
-            (long long)c->seen);
+    fprintf(out, "   chances      %s %.1f %% (error %.1f), plays on %.0f %%, foul %.0f %%",
+            value_words(job), 100.0 * c->value, 100.0 * c->error, 100.0 * c->keep, 100.0 * c->foul);
+    if (c->lose >= 0.005) /* as by an early eight */
+      fprintf(out, ", loses %.0f %%", 100.0 * c->lose);
+    fprintf(out, "; played %lld times\n", (long long)c->seen);
     if (job->why)
       plan_tell_why(out, request, line, c);
   }
@@ -396,42 +396,17 @@ static const command_form form = {
         "is a file as for `carom shoot`. carom reads the table, the balls and the cue of its first "
         "shot, and the stroke only with --try. Balls that are missing count as potted. carom "
         "describes the five best shots in words: what they do, how to strike, and their chances.\n",
-    .options = (const option_row *const[]){&option_rules,
-                                           &option_table,
-                                           &option_cue,
-                                           &option_balls,
-                                           &option_one_gap,
-                                           &option_group,
-                                           &option_permission,
-                                           &option_score,
-                                           &option_target,
-                                           &option_own_pocket,
-                                           &option_colour,
-                                           &option_opening,
-                                           &option_last_inning,
-                                           &option_hand,
-                                           &option_run_out,
-                                           &option_only,
-                                           &option_goal,
-                                           &option_sequence,
-                                           &option_plays,
-                                           &option_try,
-                                           &option_value,
-                                           &option_player,
-                                           &option_player_errors,
-                                           &option_player_eye,
-                                           &option_with_of_shots,
-                                           &option_cue_ball,
-                                           &options_of_plan,
-                                           &options_of_motion,
-                                           &option_layout,
-                                           &option_csv,
-                                           &option_plan_json,
-                                           &option_why,
-                                           &option_plan_plot,
-                                           &option_threads,
-                                           &option_output,
-                                           NULL},
+    .options =
+        (const option_row *const[]){
+            &option_rules,         &option_table,      &option_cue,           &option_balls,
+            &option_one_gap,       &option_group,      &option_permission,    &option_score,
+            &option_target,        &option_own_pocket, &option_colour,        &option_opening,
+            &option_last_inning,   &option_hand,       &option_run_out,       &option_only,
+            &option_goal,          &option_sequence,   &option_plays,         &option_try,
+            &option_value,         &option_player,     &option_player_errors, &option_player_eye,
+            &option_with_of_shots, &option_cue_ball,   &options_of_plan,      &options_of_motion,
+            &option_layout,        &option_csv,        &option_plan_json,     &option_why,
+            &option_plan_plot,     &option_threads,    &option_output,        NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"

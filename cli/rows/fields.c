@@ -751,7 +751,8 @@ ROW(option_player, "player", player, 0, "RATING", set_player, 0, ANY_KIND,
     "a player with this Fargo rating, 200 to 850, such as 500; or FIT.json, the player of a film, "
     "whom `python -m carom.fit --player` writes");
 ROW(option_player_errors, "errors", player, 0, "SCALE", set_errors, 0, ANY_KIND,
-    "a player with these errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE",
+    "a player with these errors of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees and 0.003 radii, times "
+    "SCALE; they grow with the speed",
     .else_usual = "1, if there is no --player");
 ROW(option_player_eye, "eye", player, 0, "LENGTH", set_eye, 0, ANY_KIND,
     "how exactly the player sees where balls lie: the standard deviation of each place, each way, "

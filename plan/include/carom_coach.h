@@ -418,7 +418,6 @@ typedef struct carom_series {
   int32_t order;       /* who breaks within a set: a carom_break_order. The sides begin the sets in
                           turn. */
   int32_t side;        /* which side breaks first, 0 or 1; -1: either, by lot. */
-  int32_t reserved;    /* must be 0. */
 } carom_series;
 
 /* The chances of a match. Those of the second side are 1 less these. */

@@ -68,11 +68,12 @@ typedef struct carom_player {
                          is 0.2 mm. Below 0: none, the balls lie where they are given. */
 } carom_player;
 
-/* A player with all errors proportional to `scale` >= 0: 0.1 m/s, 0.1 degrees of direction and of
- * elevation, and 0.003 radii each way, times scale, for all strokes. These are the errors of a
- * public benchmark of eight-ball (AI3603, 2025). One scale for all errors is a convention. The eye
- * is the usual one, but with scale 0 the player also sees places exactly. The scale is not checked
- * here: carom_plan() refuses a player with an error that is not 0 to 1000. */
+/* A player with all errors proportional to `scale` >= 0. Those of a stroke of 2 m/s are 0.1 m/s,
+ * 0.1 degrees of direction and of elevation, and 0.003 radii each way, times scale, as in a public
+ * benchmark of eight-ball (AI3603, 2025). They grow with the speed as those of rated players: that
+ * of the speed is a share of 5 % times scale, and `growth` is 0.25. One scale for all errors is a
+ * convention. The eye is the usual one, but with scale 0 the player also sees places exactly. The
+ * scale is not checked here: carom_plan() refuses a player with an error that is not 0 to 1000. */
 CAROM_API carom_player carom_player_of(double scale);
 
 /* A player with a Fargo rating, 200 to 850; other numbers count as the nearest of these. The player
@@ -452,9 +453,9 @@ CAROM_API carom_plan_rules carom_plan_rules_of(carom_rules_kind kind);
 
 /* A player with a rating in a game, as the seats of a match have it: 100 points are odds of 2 to 1 in
  * a rack, a frame of snooker, 15 points of three-cushion or 15 of straight pool. A 500 has the
- * errors of carom_player_fargo() in each game. Where a game lets the better player win more often
- * than eight-ball does, others have errors that differ less from those. A kind that is none counts
- * as eight-ball. */
+ * errors of carom_player_fargo() in each game. Others differ from a 500 by the errors of another
+ * rating, which is nearer to 500 where a game lets the better player win more often. A kind that is
+ * none counts as eight-ball. */
 CAROM_API carom_player carom_player_rated(double rating, carom_rules_kind rules);
 
 /* Puts balls[ball] on the foot spot, or as near to it as there is room on the long string: behind

@@ -75,6 +75,7 @@ export const KEYS = {
       ...GAME,
     }),
   ],
+  series: ["ratings", "games", "sets", "order", "side", "breakPoints"],
   player: ["errors", "fargo", "rules"],
   rack: ["gap", "seed"],
   polygon: ["noseHeight", "jawRadius", "ballRadius"],

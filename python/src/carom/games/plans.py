@@ -95,7 +95,7 @@ class Goal(NamedTuple):
 
 
 def player(
-    errors: float | None = None, *, fargo: float | None = None, rules: Game = "eightball"
+    errors: float | None = None, *, fargo: float | None = None, rules: Game | None = None
 ) -> Records:
     """A player whose strokes err, as an array of `carom.dtypes.player`, shape ().
 
@@ -104,17 +104,16 @@ def player(
     Parameters
     ----------
     errors : float
-        At least 0. Standard deviations: 0.1 m/s, 0.1 degrees of direction and of elevation and
-        0.003 radii each way, times errors. Default: 1. The speed is that of a cue whose tip loses
-        nothing; others err by 2/(1 + tip_restitution) times as much.
+        At least 0. Standard deviations of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees of direction and
+        of elevation and 0.003 radii each way, times errors; they grow with the speed. Default: 1.
     fargo : float, optional
         A Fargo rating, 200 to 850, instead: errors that grow with the speed, the shots of a plan and
         `only_pots`, the share of strokes in which the player thinks of nothing but potting. Such
         players beat those who are 100 points weaker in about 2 of 3 games, if `shots` of `plan` is
         not given (docs/understanding/plan.md). Set `only_pots` to 0 for a plan that advises one.
-    rules : str
-        The game in which the player has this rating: by it, players of other ratings than 500 differ
-        more or less.
+    rules : str, optional
+        A game in whose matches the player plays: there, players of other ratings than 500 differ so
+        much that 100 points are odds of 2 to 1. Not given: the person, whom a plan advises.
     """
     if errors is not None and fargo is not None:
         raise ValueError("errors, fargo: a player has errors or a rating, not both")
@@ -127,11 +126,15 @@ def player(
         <= 850.0
     ):
         raise ValueError(f"fargo: it must be 200 to 850, not {fargo}")
-    game = choice(GAMES, rules, "rules")
     record: Array = np.zeros((), dtypes.player)
-    pointer("carom_player[]", record)[0] = (
-        lib.carom_player_of(errors) if fargo is None else lib.carom_player_rated(fargo, game)
-    )
+    made = lib.carom_player_of(errors)
+    if fargo is not None:
+        made = lib.carom_player_fargo(fargo)
+    if rules is not None:
+        if fargo is None:
+            raise ValueError("rules: a game needs a rating in it, fargo")
+        made = lib.carom_player_rated(fargo, choice(GAMES, rules, "rules"))
+    pointer("carom_player[]", record)[0] = made
     return record
 
 
@@ -404,7 +407,7 @@ def _goal(goal: Goal, count: int) -> Any:
     )
 
 
-class _Job:
+class Job:
     """What a plan is made for, checked, as C has it; and what has to live as long."""
 
     def __init__(
@@ -614,7 +617,7 @@ def plan(
     corners = _corners(in_hand)
     game = (_by and _by.game_record) or Made(rules, state, group, opening)
     game.stop[0] = 0
-    job = _Job(
+    job = Job(
         table,
         balls,
         cue,
@@ -697,7 +700,7 @@ def sequence(
     """
     check_table(table)
     corners = _corners(in_hand)
-    job = _Job(
+    job = Job(
         table,
         balls,
         cue,
@@ -775,7 +778,7 @@ def chances(
     if not 1 <= strokes.size <= 1000:
         raise ValueError(f"cues: 1 to 1000 are needed, not {strokes.size}")
     game = Made(rules, state, group, opening)
-    job = _Job(
+    job = Job(
         table,
         balls,
         strokes.reshape(-1)[0],
@@ -825,7 +828,7 @@ def value(
     CaromError
         The layout or an option is in error.
     """
-    job = _Job(
+    job = Job(
         table,
         balls,
         None,
