@@ -198,7 +198,7 @@ static void list_safeties(search *plan) {
 }
 
 bool carom_search_list(search *plan) {
-  carom_plan_stroke listed[LISTED_MOST];
+  carom_plan_stroke *listed = plan->listing; /* the stack is for shots */
   for (int k = 0; k < plan->listed; k++)
     listed[k] = with_kind(plan, &plan->found[k]);
   for (; plan->examined < plan->count && plan->listed < plan->choices_most; plan->examined++) {

@@ -155,6 +155,7 @@ typedef struct carom_search {
   int round, look, duels;        /* that have begun */
   int place, raced;              /* from which candidates are made; how many places are tried */
   int choices_most, listed;      /* choices that the caller has room for; that stand first */
+  carom_plan_stroke listing[LISTED_MOST]; /* the choices of the list while it is made */
   int64_t examined;              /* candidates that have been asked whether they are listed */
   uint64_t drawn_places;         /* places of a cue ball in hand that have been drawn */
   int tried_places;              /* and those of them that could be tried */
