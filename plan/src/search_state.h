@@ -15,6 +15,9 @@ enum { PLACES_MOST = 24 }; /* of a cue ball in hand, from which strokes are cand
 enum { ROWS_LEAST = 4 };   /* rows worth a thread */
 enum { LISTED_MOST = 16 }; /* choices behind the best that are played anew */
 
+/* A chance to play on below which balls fall by luck. */
+static const double carom_luck = 0.1;
+
 /* What shots with errors came to. */
 typedef struct carom_tally {
   double sum, squares;      /* of the worths of the shots, and of their squares */
