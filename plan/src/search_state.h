@@ -18,6 +18,7 @@ enum { LISTED_MOST = 16 }; /* choices behind the best that are played anew */
 /* What shots with errors came to. */
 typedef struct carom_tally {
   double sum, squares;      /* of the worths of the shots, and of their squares */
+  double near;              /* sum of how near they came to a goal that is a place */
   int32_t seen;             /* number of shots */
   int32_t keep, foul, lose; /* shots by which the player keeps his turn, fouls, loses */
 } carom_tally;
@@ -48,6 +49,7 @@ typedef struct carom_outcome {
   int16_t cushions;    /* impacts of that ball on cushions */
   int8_t first;        /* the ball that was met first, or -1 */
   uint16_t events;     /* of the shot */
+  float near;          /* 1 on the place that is the goal, 0 from 1 m on */
 } carom_outcome;
 
 /* A stage plays each of some candidates several times. Row k is the shot of candidate
