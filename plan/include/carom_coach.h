@@ -132,7 +132,7 @@ enum {
 
 /* The errors of a player, by what the stroke loses by them. */
 typedef enum carom_why_error {
-  CAROM_WHY_AIM = 0,   /* of direction and elevation, and of where the balls lie */
+  CAROM_WHY_AIM = 0,   /* of direction and elevation */
   CAROM_WHY_SPEED = 1, /* of speed */
   CAROM_WHY_TIP = 2,   /* of the place of the tip */
   CAROM_WHY_EYE = 3    /* of the places of balls, as the player sees them */

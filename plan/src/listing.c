@@ -14,6 +14,8 @@ typedef carom_search search;
 static const double points_most = 0.1;
 /* And no safety that fouls so often, nor such a soft opening. */
 static const double foul_most = 0.25, opening_foul_most = 0.1;
+/* A stroke that plays on more often is no safety. */
+static const double luck = 0.1;
 enum { SAFETIES = 6 }; /* that are played anew, of which the best is listed */
 /* A chance of fewer shots is none. */
 enum { TOLD_LEAST = 20 };
@@ -165,6 +167,8 @@ static bool is_listed(const search *plan, const candidate *c) {
   if (c->kind == CAROM_PLAN_PASS)
     return true;
   if (c->round == 0 || (alone && pot_of(c).ball < 0))
+    return false;
+  if (plan->only_safeties && luck * c->chose.seen < c->chose.keep)
     return false;
   const double mean = mean_of(&c->chose), best_mean = mean_of(&best->chose);
   return mean >= best_mean - points_most && !(mean > best_mean && c->round < best->round);

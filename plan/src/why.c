@@ -99,7 +99,7 @@ static carom_tally repeat(carom_search *plan, uint32_t errors) {
   const carom_player player = plan->player;
   int64_t strokes = CAROM_WHY_STROKES;
   if (!(errors >> CAROM_WHY_AIM & 1))
-    plan->player.phi = plan->player.theta = plan->player.eye = 0.0;
+    plan->player.phi = plan->player.theta = 0.0;
   if (!(errors >> CAROM_WHY_SPEED & 1))
     plan->player.speed = plan->player.speed_share = 0.0;
   if (!(errors >> CAROM_WHY_TIP & 1))
