@@ -19,55 +19,54 @@ from pathlib import Path
 from pycparser import c_ast, c_parser
 
 HEADERS = (
-    "carom.h",
-    "carom_shot.h",
-    "carom_tangent.h",
-    "carom_record.h",
-    "carom_plan.h",
-    "carom_match.h",
-    "carom_coach.h",
-)
-SIZES = {
-    "double": 8,
-    "float": 4,
-    "char": 1,
-    "int": 4,
-    "int8_t": 1,
-    "int32_t": 4,
-    "uint32_t": 4,
-    "int64_t": 8,
-    "uint64_t": 8,
-}
+    "carom.h carom_shot.h carom_tangent.h carom_record.h carom_plan.h carom_match.h carom_coach.h"
+).split()
+# Each type of C, its bytes ("-": none of its own), and what C# and Rust call it.
+TYPES = [
+    row.split()
+    for row in """double 8 double f64
+float 4 float f32
+char 1 byte c_char
+int 4 int c_int
+int8_t 1 sbyte i8
+int32_t 4 int i32
+uint32_t 4 uint u32
+int64_t 8 long i64
+uint64_t 8 ulong u64
+size_t - UIntPtr usize
+void - void c_void""".splitlines()
+]
+SIZES = {name: int(size) for name, size, _, _ in TYPES if size != "-"}
 BUILT_IN = "".join(f"typedef int {name};" for name in ("size_t", *SIZES) if name.endswith("_t"))
 # Arguments that a function reads and writes. Of the other pointers those to const are read, and the
 # rest written.
-READ_AND_WRITTEN = {
-    ("carom_shoot", "shot"),
-    ("carom_shot_continue", "shot"),
-    ("carom_place_ball", "balls"),
-    ("carom_shot_tangent", "tangent"),
-    ("carom_player_strike", "cue"),
-    ("carom_aim", "cue"),
-    ("carom_aim", "pot"),
-    ("carom_rules_judge", "state"),
-    ("carom_match_stroke", "shot"),
-    ("carom_match_continue", "shot"),
-    ("carom_match_plan", "job"),
-    ("carom_ball_kind_for", "kind"),
-    ("carom_ball_kind_resolve", "options"),
-    ("carom_ball_kind_resolve", "kind"),
-    ("carom_condition_give", "kind"),
-    ("carom_cushion_start", "kind"),
-    ("carom_record_play", "shot"),
-    ("carom_spot_ball", "balls"),
-    ("carom_spot_ball_of", "balls"),
-    ("carom_turn_settle", "balls"),
-    ("carom_turn_settle", "state"),
-    ("carom_turn_settle", "turn"),
-    ("carom_plan_replay", "choices"),
-    ("carom_way_chance", "way"),
-    ("carom_break_play", "counts"),
-}
+READ_AND_WRITTEN = set(
+    """carom_shoot shot
+carom_shot_continue shot
+carom_place_ball balls
+carom_shot_tangent tangent
+carom_player_strike cue
+carom_aim cue
+carom_aim pot
+carom_rules_judge state
+carom_match_stroke shot
+carom_match_continue shot
+carom_match_plan job
+carom_ball_kind_for kind
+carom_ball_kind_resolve options
+carom_ball_kind_resolve kind
+carom_condition_give kind
+carom_cushion_start kind
+carom_record_play shot
+carom_spot_ball balls
+carom_spot_ball_of balls
+carom_turn_settle balls
+carom_turn_settle state
+carom_turn_settle turn
+carom_plan_replay choices
+carom_way_chance way
+carom_break_play counts""".splitlines()
+)
 # Objects that functions change, as carom_match_place() changes a match.
 OBJECTS = ("match", "record")
 # Macros without a value of their own: guards, marks, and expressions of other constants.
@@ -239,7 +238,7 @@ class Api:
         if "to_array" in found:
             found["to_array"] = [self.value(entry) for entry in found["to_array"]]
         written = found.get("pointer") and not found.get("const")
-        both = (function, node.name) in READ_AND_WRITTEN or (
+        both = f"{function} {node.name}" in READ_AND_WRITTEN or (
             node.name in OBJECTS and function.startswith(f"carom_{node.name}_")
         )
         return {**found, "direction": "inout" if both else "out" if written else "in"}

@@ -17,7 +17,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))  # tools/python leaves the script's folder out
 
-from api import describe  # noqa: E402
+from api import TYPES, describe  # noqa: E402
 
 NOTE = "// Written by bindings/write.py from the headers of carom {version}.\n"
 
@@ -220,19 +220,7 @@ class CSharp(Layer):
     PASSED_MOST = 8000  # bytes of a struct
     FIXED = {"changed": "&{name}", "list": "{name}", "changed list": "{name}"}
 
-    BASE = {
-        "double": "double",
-        "float": "float",
-        "char": "byte",
-        "int": "int",
-        "int8_t": "sbyte",
-        "int32_t": "int",
-        "uint32_t": "uint",
-        "int64_t": "long",
-        "uint64_t": "ulong",
-        "size_t": "UIntPtr",
-        "void": "void",
-    }
+    BASE = {c: csharp for c, _, csharp, _ in TYPES}
     SAFE_MOST = 32  # numbers of an array that code without pointers reads and sets
     # System and UnityEngine, which games import beside Carom, have types of these names.
     RENAMED = {
@@ -243,19 +231,7 @@ class CSharp(Layer):
         "Space": "ShotSpace",
         "Type": "NumberType",
     }
-    KEYWORDS = {
-        "is",
-        "in",
-        "out",
-        "event",
-        "fixed",
-        "params",
-        "ref",
-        "base",
-        "lock",
-        "object",
-        "operator",
-    }
+    KEYWORDS = set("is in out event fixed params ref base lock object operator".split())
 
     def __init__(self, api):
         super().__init__(api)
@@ -485,20 +461,8 @@ class Rust(Layer):
     }
     MEMBER, INDENT = "{0}", ""
 
-    BASE = {
-        "double": "f64",
-        "float": "f32",
-        "char": "c_char",
-        "int": "c_int",
-        "int8_t": "i8",
-        "int32_t": "i32",
-        "uint32_t": "u32",
-        "int64_t": "i64",
-        "uint64_t": "u64",
-        "size_t": "usize",
-        "void": "c_void",
-    }
-    KEYWORDS = {"final", "type", "in", "where", "box", "match", "move", "ref", "loop", "use"}
+    BASE = {c: rust for c, _, _, rust in TYPES}
+    KEYWORDS = set("final type in where box match move ref loop use".split())
 
     def name(self, words):
         return f"r#{words}" if words in self.KEYWORDS else words

@@ -7,6 +7,7 @@
 #include "program/message.h"
 #include "program/options.h"
 #include "program/output.h"
+#include "program/words.h"
 #include "rows/quantities.h"
 #include "shots/shoot_flags.h"
 #include "shots/shot_file.h"
@@ -22,7 +23,7 @@ typedef struct break_job {
   shoot_flags flags;
   const char *plot;
   int racks;
-  bool csv, json, falls, nine_on_spot;
+  bool csv, json, falls, nine_on_spot, best;
 } break_job;
 
 static const option_row option_rules = {.name = "rules",
@@ -53,6 +54,10 @@ OPTION(break_job, option_break_json, "json", json, 0, NULL, set_flag, 0,
 OPTION(break_job, option_falls, "falls", falls, 0, NULL, set_flag, 0,
        "report also which balls fall into which pockets, and how often. With --csv, each ball and "
        "pocket has a row, instead of the other rows");
+OPTION(
+    break_job, option_best, "best", best, 0, NULL, set_flag, 0,
+    "find the breaks that win most often for this player: where the cue ball lies, the speed, the "
+    "height of the tip and the cut; and what the player's errors cost");
 OPTION(break_job, option_nine_on_spot, "nine-on-spot", nine_on_spot, 0, NULL, set_flag, 0,
        "nine-ball's rack, with the 9 on the foot spot");
 OPTION(break_job, option_break_plot, "plot", plot, 0, "OUT", set_picture, 0,
@@ -111,6 +116,12 @@ static bool play(const breaker *b, const shot_line *line, double gap, counts *c)
 
 static double share(int64_t times, const counts *c) {
   return (double)times / (double)c->breaks;
+}
+
+/* The standard error of the chance to win. */
+static double error_of_wins(const counts *c) {
+  const double n = (double)c->breaks, mean = c->wins / n;
+  return sqrt(fmax(c->win_squares / n - mean * mean, 0.0) / n);
 }
 
 /* The balls that fell in rows, pockets in columns: in how many of the breaks. */
@@ -174,6 +185,9 @@ static void tell(FILE *out, const breaker *b, const shot_line *line, double gap,
   if (carom_break_has_rules(b->rack))
     fprintf(out, "  play on       %5.1f %% by the rules; fouls %.1f %%\n",
             100.0 * share(c->plays_on, c), 100.0 * share(c->fouls, c));
+  if (carom_break_has_rules(b->rack))
+    fprintf(out, "  win           %5.1f %% (error %.1f), by the value of what the break leaves\n",
+            100.0 * c->wins / (double)c->breaks, 100.0 * error_of_wins(c));
   fprintf(out, "  cue ball      falls in %.1f %%; a ball leaves the table in %.1f %%\n",
           100.0 * share(c->scratches, c), 100.0 * share(c->off, c));
   fprintf(out, "  wing balls    one falls in %.1f %%\n", 100.0 * share(c->wing, c));
@@ -220,8 +234,12 @@ static void write_row(FILE *out, const breaker *b, const shot_line *line, double
     fprintf(out, "%.6f,%.6f,", share(c->plays_on, c), share(c->fouls, c));
   else
     fputs(",,", out);
-  fprintf(out, "%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n", share(c->scratches, c), share(c->off, c),
+  fprintf(out, "%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,", share(c->scratches, c), share(c->off, c),
           share(c->wing, c), r[0], r[1], far);
+  if (carom_break_has_rules(b->rack))
+    fprintf(out, "%.6f,%.6f\n", c->wins / (double)c->breaks, error_of_wins(c));
+  else
+    fputs(",\n", out);
 }
 
 /* Writes the breaks of a stroke and gap as lines with their final states. False after a
@@ -295,45 +313,105 @@ static const command_form form = {
              "reports how often a ball falls, the player plays on, the cue ball falls and a wing "
              "ball falls, where the cue ball ends, and which ball falls where. Each stroke and gap "
              "has a row. The cue aims at the middle of the ball in front, or cuts it by --cut.\n",
-    .options =
-        (const option_row *const[]){
-            &option_rules,         &option_nine_on_spot, &option_racks,         &option_gap,
-            &option_one_seed,      &option_table,        &option_cue,           &option_aim,
-            &option_shot_cut,      &option_shot_speed,   &option_ball_speed,    &option_tip,
-            &option_elevation,     &option_player,       &option_player_errors, &options_of_motion,
-            &option_with_of_shots, &option_falls,        &option_break_csv,     &option_break_json,
-            &option_break_plot,    &option_threads,      &option_output,        NULL},
-    .details = "speed if none is given: 9 m/s\n"
-               "columns of --csv: "
-               "rules,speed,aim,elevation,right,above,gap_mm,racks,makes,makes_error,balls,plays_"
-               "on,foul,scratch,off,wing,x,y,spread\n"
-               "  aim                  degrees, by --aim or --cut; else empty\n"
-               "  makes, plays_on, foul, scratch, off, wing  shares of the breaks; by the rules of "
-               "eight-ball and nine-ball, empty for other racks\n"
-               "  balls                balls made in a break\n"
-               "  x y spread           mean place of the cue balls that stay, and their standard "
-               "deviation, m\n"
-               "  with --falls, from makes on: ball,pocket,share\n"
-               "\n"
-               "exit code: 0; 2 for bad usage\n",
+    .options = (const option_row *const[]){&option_rules,
+                                           &option_nine_on_spot,
+                                           &option_racks,
+                                           &option_gap,
+                                           &option_one_seed,
+                                           &option_table,
+                                           &option_cue,
+                                           &option_aim,
+                                           &option_shot_cut,
+                                           &option_shot_speed,
+                                           &option_ball_speed,
+                                           &option_tip,
+                                           &option_elevation,
+                                           &option_player,
+                                           &option_player_errors,
+                                           &options_of_motion,
+                                           &option_with_of_shots,
+                                           &option_best,
+                                           &option_falls,
+                                           &option_break_csv,
+                                           &option_break_json,
+                                           &option_break_plot,
+                                           &option_threads,
+                                           &option_output,
+                                           NULL},
+    .details =
+        "speed if none is given: 9 m/s\n"
+        "columns of --csv: "
+        "rules,speed,aim,elevation,right,above,gap_mm,racks,makes,makes_error,balls,plays_"
+        "on,foul,scratch,off,wing,x,y,spread,wins,wins_error\n"
+        "  aim                  degrees, by --aim or --cut; else empty\n"
+        "  makes, plays_on, foul, scratch, off, wing  shares of the breaks; by the rules of "
+        "eight-ball and nine-ball, empty for other racks\n"
+        "  balls                balls made in a break\n"
+        "  x y spread           mean place of the cue balls that stay, and their standard "
+        "deviation, m\n"
+        "  wins wins_error      chance to win by the value of what the break leaves, and its "
+        "error\n"
+        "  with --falls, from makes on: ball,pocket,share\n"
+        "\n"
+        "exit code: 0; 2 for bad usage\n",
     .example = "carom break --rules nineball --speed 8,9,10m/s --gap 0.1mm --racks 500",
     .files = NO_FILES,
 };
+
+/* Tells the breaks that win most often. */
+static bool tell_best(FILE *out, const breaker *b, const shot_line *line, double gap) {
+  static carom_break_choice choice[CAROM_BREAK_CHOICES];
+  enum { TOLD = 3 };
+  const carom_break_job job = job_of(b, line, gap);
+  const carom_status status = carom_break_best(&job, b->job->racks, choice, TOLD);
+  free(job.memory);
+  if (status < 0) {
+    complain("--best: %s", status == CAROM_ERROR_OPTIONS
+                               ? "it needs 16 --racks or more, and a game with a break"
+                               : carom_status_string(status));
+    return false;
+  }
+  for (int k = 0; k < TOLD; k++) {
+    const carom_break_choice *of = &choice[k];
+    const counts *c = &of->counts;
+    fprintf(out,
+            "%d. wins %.1f %% (error %.1f): %s, cue ball at %.3f, %.3f m, cue at %.3g m/s, tip "
+            "%.2f above, raised %.1f, aim %.2f degrees%s\n",
+            k + 1, 100.0 * c->wins / (double)c->breaks, 100.0 * error_of_wins(c),
+            carom_rack_name(b->rack), of->place[0], of->place[1], of->cue.speed, of->cue.b,
+            of->cue.theta, of->cue.phi, text_if(of->aim == CAROM_BREAK_FULL, ", at the middle"));
+    fprintf(out, "   makes a ball in %.1f %%, plays on in %.1f %%, fouls in %.1f %%\n",
+            100.0 * share(c->makes, c), 100.0 * share(c->plays_on, c), 100.0 * share(c->fouls, c));
+  }
+  fprintf(out,
+          "without errors the first one would win more often by %.1f %%: without those of speed "
+          "by %.1f, of aim by %.1f, of the tip by %.1f %%\n",
+          100.0 * choice[0].cost, 100.0 * choice[0].speed_cost, 100.0 * choice[0].aim_cost,
+          100.0 * choice[0].tip_cost);
+  return true;
+}
 
 /* Tells all strokes and gaps, and those of the first one to *words, which are to be freed; false
  * after a complaint. */
 static bool tell_all(breaker *b, const shot_line *first, const carom_cue *stroke, int strokes,
                      const values *gaps, FILE *out, char **words) {
   if (b->job->csv)
-    fprintf(out, "rules,speed,aim,elevation,right,above,gap_mm,racks,%s\n",
-            b->job->falls ? "ball,pocket,share"
-                          : "makes,makes_error,balls,plays_on,foul,scratch,off,wing,x,y,spread");
+    fprintf(
+        out, "rules,speed,aim,elevation,right,above,gap_mm,racks,%s\n",
+        b->job->falls
+            ? "ball,pocket,share"
+            : "makes,makes_error,balls,plays_on,foul,scratch,off,wing,x,y,spread,wins,wins_error");
   for (int g = 0; g < gaps->count; g++)
     for (int k = 0; k < strokes; k++) {
       const double gap = gaps->item[g].x;
       shot_line line = *first;
       counts c;
       line.cue = stroke[k];
+      if (b->job->best) {
+        if (!tell_best(out, b, &line, gap))
+          return false;
+        continue;
+      }
       if (b->job->json) {
         if (!write_breaks(out, b, &line, gap))
           return false;
@@ -388,6 +466,16 @@ static int run(breaker *b, const shot_line *line, const carom_cue *stroke, int s
   return code;
 }
 
+/* Whether the results are asked for in one form; complains if not. */
+static bool has_one_form(const break_job *job) {
+  const bool has_other = job->csv || job->falls || job->plot != NULL;
+  if (!(job->json || job->best) || (!has_other && job->json != job->best))
+    return true;
+  complain("--%s stands alone: give it without --csv, --falls, --plot and --%s",
+           job->json ? "json" : "best", job->json ? "best" : "json");
+  return false;
+}
+
 int command_break(int argc, char **argv) {
   static break_job job;
   static carom_cue stroke[MOST_STROKES];
@@ -409,10 +497,8 @@ int command_break(int argc, char **argv) {
     return EXIT_USAGE;
   without_bounds(&b.player);
 
-  if (job.json && (job.csv || job.falls || job.plot != NULL)) {
-    complain("--json writes lines alone: give it without --csv, --falls and --plot");
+  if (!has_one_form(&job))
     return EXIT_USAGE;
-  }
 
   /* the rack stands on the table of its game, and breaks have a speed of their own */
   if (job.nine_on_spot)

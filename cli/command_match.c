@@ -259,6 +259,15 @@ static int count_players(const match_job *job) {
   return count;
 }
 
+/* The rating of a seat: the one that was given, or that of the file, or the usual one. */
+static double rating_of(const match_job *job, int seat) {
+  if (job->rating[seat] > 0.0)
+    return job->rating[seat];
+  if (match.seating.seat[seat].rating >= 200.0)
+    return match.seating.seat[seat].rating;
+  return USUAL_RATING;
+}
+
 /* Begins the match, unless one was read, and plays it; an exit code. */
 static int play_match(players *p) {
   const match_job *job = p->job;
@@ -298,6 +307,9 @@ static int play_match(players *p) {
     }
     fwrite(match.text, 1, (size_t)match.size, p->text);
   }
+  const carom_rules_kind rules = (carom_rules_kind)match.record.rules;
+  for (int k = 0; k < CAROM_SEATS_MOST; k++)
+    p->player[k] = carom_player_rated(rating_of(job, k), rules);
   for (int k = 0; match.phase != CAROM_MATCH_OVER; k++) {
     if (job->strokes > 0 && k == job->strokes)
       return EXIT_GOOD;
@@ -332,15 +344,6 @@ static bool is_of_rules(const match_job *job, const char *path) {
   return false;
 }
 
-/* The rating of a seat: the one that was given, or that of the file, or the usual one. */
-static double rating_of(const match_job *job, int seat) {
-  if (job->rating[seat] > 0.0)
-    return job->rating[seat];
-  if (match.seating.seat[seat].rating >= 200.0)
-    return match.seating.seat[seat].rating;
-  return USUAL_RATING;
-}
-
 int command_match(int argc, char **argv) {
   static match_job job;
   const char *path;
@@ -371,8 +374,6 @@ int command_match(int argc, char **argv) {
     code = EXIT_USAGE;
   if (!job.shows && code == EXIT_GOOD) {
     players p = {.job = &job, .text = text};
-    for (int k = 0; k < CAROM_SEATS_MOST; k++)
-      p.player[k] = carom_player_fargo(rating_of(&job, k));
     p.options.shots = job.shots;
     p.memory = allocate(carom_plan_memory(&p.options), 1);
     if (strcmp(job.shared.output, "-") != 0)

@@ -419,6 +419,7 @@ static const command_form form = {
                                            &option_value,
                                            &option_player,
                                            &option_player_errors,
+                                           &option_player_eye,
                                            &option_with_of_shots,
                                            &option_cue_ball,
                                            &options_of_plan,

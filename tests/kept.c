@@ -5,10 +5,6 @@
 #include "support.h"
 
 #include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { NUMBERS = 14, MOST_KEPT = 8192, CHECKED_OF = 32 };
 

@@ -6,18 +6,20 @@
 #include "carom_shot.h"
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 enum { ROOM = 12000 };
 static carom_event events[ROOM];
 static carom_ball_state final[CAROM_BALLS_MOST];
+
+/* A shot that is not yet played, whose events and final states go to events[] and final[]. */
+static inline carom_shot empty_shot(void) {
+  return (carom_shot){.events = events, .room = ROOM, .final = final};
+}
 
 /* Plays a shot into events[] and final[], which must end with this status. */
 static inline carom_shot play(const carom_table *table, const carom_shot_ball *balls, int count,
                               const carom_cue *cue, const carom_shot_options *options,
                               carom_status expected) {
-  carom_shot shot = {.events = events, .room = ROOM, .final = final};
+  carom_shot shot = empty_shot();
   const carom_status status = carom_shoot(table, balls, count, cue, options, &shot);
   ck_assert_msg(status == expected, "%s, not %s", carom_status_name(status),
                 carom_status_name(expected));

@@ -4,10 +4,6 @@
 #endif
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -142,6 +138,18 @@ int read_rows(const char *name, int columns, double *numbers) {
   return rows;
 }
 
+/* Puts the characters that \n, \r and \t are in C in their places. */
+static void unescape(char *text) {
+  static const char letters[] = "nrt", characters[] = "\n\r\t";
+  char *end = text;
+  for (; *text != '\0'; text++) {
+    const char *letter = *text == '\\' ? strchr(letters, text[1]) : NULL;
+    *end++ = letter != NULL ? characters[letter - letters] : *text;
+    text += letter != NULL;
+  }
+  *end = '\0';
+}
+
 int read_texts(const char *name, int columns, char texts[][TEXT]) {
   FILE *const file = fopen(CAROM_TEST_DATA "/../tests/texts.txt", "r");
   char line[1000], *row;
@@ -149,7 +157,8 @@ int read_texts(const char *name, int columns, char texts[][TEXT]) {
   for (; (row = next_row(file, name, '\t', line)) != NULL; rows++)
     for (int k = 0; k < columns; k++) {
       const size_t length = strcspn(row, "\t\n");
-      snprintf(*texts++, TEXT, "%.*s", (int)length, row);
+      snprintf(*texts, TEXT, "%.*s", (int)length, row);
+      unescape(*texts++);
       row += length + 1;
     }
   ck_assert_msg(rows > 0, "tests/texts.txt has no row %s", name);

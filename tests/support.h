@@ -1,4 +1,5 @@
-/* What several tests share: random numbers with a seed, random collisions, running a suite. */
+/* What several tests share: random numbers with a seed, random collisions, running a suite, and
+ * the headers of the C library that most tests use. */
 #ifndef CAROM_TESTS_SUPPORT_H
 #define CAROM_TESTS_SUPPORT_H
 
@@ -9,6 +10,9 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* The interface of this version, which tests/install/abi compares with the library. */
 #define TEXT_OF_VERSION(major, minor) #major "." #minor

@@ -10,11 +10,6 @@
 #include "carom_tangent.h"
 #include "shot_support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { LAYOUT_BALLS = 16, NUMBERS = CAROM_STATE_NUMBERS, LAYOUT_DIRECTIONS = 24 };
 /* Numbers of a table: those of noses, then its slope along x and y. */
 enum { SLOPE = CAROM_NOSE_NUMBERS, TABLE_NUMBERS = SLOPE + 2 };
@@ -158,7 +153,7 @@ static inline int64_t derive(const layout *l, const direction *by, int m) {
 
 /* Plays a shot, without an error, and derives it. */
 static inline int64_t differentiate(const layout *l, const direction *by, int m) {
-  shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+  shot = empty_shot();
   const carom_status status = shoot(l, &shot);
   ck_assert_msg(status >= CAROM_OK, "%s", carom_status_name(status));
   return derive(l, by, m);

@@ -1,6 +1,6 @@
 /* carom_coach.h: advice for a player: every way to pot, to score or to reach a place; why a
  * stroke of a plan is good, and what it leaves; a run-out as one answer; what comes of many breaks
- * of a rack; and the odds of a match.
+ * of a rack; what strokes of a match cost, and drills of them; and the odds of a match.
  *
  *     carom_player player = carom_player_fargo(550.0);
  *     static carom_shot_way ways[1000];
@@ -126,8 +126,16 @@ CAROM_API int carom_way_succeeds(const carom_ways_job *job, const carom_shot *sh
 
 enum {
   CAROM_WHY_STROKES = 300, /* strokes with errors that are played for a choice. */
-  CAROM_WHY_RAILS = 16     /* the largest number of rails that carom_why lists. */
+  CAROM_WHY_RAILS = 16,    /* the largest number of rails that carom_why lists. */
+  CAROM_WHY_ERRORS = 3     /* values of carom_why_error. */
 };
+
+/* The errors of a player, by what the stroke loses by them. */
+typedef enum carom_why_error {
+  CAROM_WHY_AIM = 0,   /* of direction and elevation */
+  CAROM_WHY_SPEED = 1, /* of speed */
+  CAROM_WHY_TIP = 2    /* of the place of the tip */
+} carom_why_error;
 
 /* Why a choice of a plan is good. */
 typedef struct carom_why {
@@ -139,24 +147,29 @@ typedef struct carom_why {
                                      carom_pot; NaN: none is met. */
   double part;                        /* how much of that ball is hit, 0 to 1; NaN: none is met. */
   double speed;                       /* m/s: of the cue ball, just after the stroke. */
-  carom_ruling ruling;         /* what the stroke leaves without errors. If luck alone makes its
-                                     balls fall, it is the first stroke with errors that ends the
-                                     turn. */
-  carom_plan_stroke next;      /* the best stroke of the player who plays next. */
-  int32_t has_next;            /* 1 if `next` has a stroke, otherwise 0. */
-  double misses, loses;        /* shares of the strokes with errors that pass the turn, and that
-                                     lose the game. */
-  double opponent;             /* the opponent's chance to win after those that pass; NaN if none
-                                     do, and without an opponent. */
-  double speed_cost, aim_cost; /* how much more the choice would be worth, in value, without the
-                                     player's errors of speed, and without those of aim. */
-  int64_t strokes;             /* CAROM_WHY_STROKES. */
+  carom_ruling ruling; /* what the stroke leaves without errors. If carom_names_ball() is 0, the
+                             stroke has errors, and leaves about the mean of those that pass. */
+  double leave; /* the value of that leave to the player who strikes; NaN for a goal of the job. */
+  carom_plan_stroke next; /* the best stroke of the player who plays next. */
+  int32_t has_next;       /* 1 if `next` has a stroke, otherwise 0. */
+  double value;           /* of the choice, as carom_plan_replay() finds it. */
+  double misses, loses;   /* shares of the strokes with errors that pass the turn, and that lose the
+                             game. */
+  double opponent;        /* the opponent's chance to win after those that pass; NaN if none do,
+                             without an opponent, and for a goal. */
+  double flawless_value;  /* of the choice without errors of the player. */
+  double cost[CAROM_WHY_ERRORS]; /* of each carom_why_error, in value: the mean of what it costs
+                                    where it is added to the errors before it, and to those behind
+                                    it. Together flawless_value - value. Below 0: the error helps,
+                                    as where the stroke without errors leaves more than most. */
+  int64_t strokes;               /* CAROM_WHY_STROKES. */
 } carom_why;
 
 /* Explains a choice of a plan: how it is aimed, what it leaves, how often it misses and what the
- * errors of the player cost. The job is that of the plan; its memory is overwritten. Returns
- * CAROM_OK; CAROM_ERROR_NULL as in carom_plan(); CAROM_ERROR_OPTIONS for a choice to pass, which
- * has no stroke; or an error of carom_place_ball(). */
+ * errors of the player cost. All values are those of the plan's own estimate of what a stroke
+ * leaves. The job is that of the plan; its memory is overwritten. Returns
+ * CAROM_OK; CAROM_ERROR_OPTIONS for a choice to pass, which has no stroke; or an error of
+ * carom_plan() or carom_place_ball(). */
 CAROM_API carom_status carom_why_of(const carom_plan_job *job, const carom_plan_stroke *choice,
                                     carom_why *why);
 
@@ -167,8 +180,8 @@ CAROM_API int carom_names_ball(const carom_plan_stroke *choice);
 /* Plays n choices of a plan CAROM_WHY_STROKES times each, with the same errors for all, and sorts
  * them by the values of these strokes, best first. value, error, keep, foul, lose and seen become
  * those of these strokes. A choice to pass keeps its value. The chances of a plan are partly lucky
- * for choices that were seldom played; these are not. Returns CAROM_OK; CAROM_ERROR_NULL as in
- * carom_plan(); or CAROM_ERROR_OPTIONS if n is below 0. */
+ * for choices that were seldom played; these are not. Returns CAROM_OK; CAROM_ERROR_OPTIONS if n is
+ * below 0; or an error of carom_plan() or carom_place_ball(), with the choices before it sorted. */
 CAROM_API carom_status carom_plan_replay(const carom_plan_job *job, carom_plan_stroke *choices,
                                          int n);
 
@@ -251,6 +264,7 @@ typedef struct carom_break_job {
   int64_t count;                  /* number of balls: carom_rack_size(). */
   const carom_cue *cue;           /* the stroke. */
   const carom_player *player;     /* whose errors each stroke has. */
+  const carom_player *opponent;   /* NULL: who makes the same errors. */
   const carom_shot_options *shot; /* NULL: the defaults. */
   int32_t rack;                   /* a carom_rack_kind. */
   int32_t aim;                    /* a carom_break_aim. */
@@ -270,6 +284,9 @@ typedef struct carom_break_counts {
                                                          the table, a ball at a wing falls. */
   int64_t stays;                                      /* in which the cue ball stays. */
   int64_t fell[CAROM_BALLS_MOST][CAROM_POCKETS_MOST]; /* how often each ball fell where. */
+  double wins, win_squares;                           /* sums of the chances to win by the value of
+                                                         what each break leaves, and of their
+                                                         squares; 0 without rules. */
   double x, y, squares;                               /* m, m^2: sums over the cue balls that stay:
                                                          of their places, and of x^2 + y^2. */
 } carom_break_counts;
@@ -297,6 +314,93 @@ CAROM_API int carom_break_has_rules(carom_rack_kind rack);
  * NaN if none stays. If a pointer is NULL, the call returns NaN. */
 CAROM_API double carom_break_spread(const carom_break_counts *counts, double place[2]);
 
+enum { CAROM_BREAK_CHOICES = 8 }; /* The largest number of breaks that carom_break_best() gives. */
+
+/* A break that a search proposes. */
+typedef struct carom_break_choice {
+  carom_cue cue;             /* the stroke; its direction is that in the layout of the job. */
+  double place[2];           /* m: where the cue ball lies. */
+  int32_t aim;               /* a carom_break_aim. */
+  int32_t reserved;          /* 0. */
+  carom_break_counts counts; /* of breaks that chose nothing. */
+  double speed_cost, aim_cost, tip_cost; /* how much more often the first choice would win without
+                                            the player's errors of speed, of direction and
+                                            elevation, and of the tip; NaN for the others. */
+  double cost;                           /* the same without any of these errors. */
+} carom_break_choice;
+
+/* Finds breaks that win most often for the player: where the cue ball lies behind the head string,
+ * the speed, at most that of the job, the height of the tip, and a cut of up to half of the ball in
+ * front. 64 strokes, one of which is that of the job, are compared by the same racks and errors, in
+ * rounds each of which keeps the better half. Writes the `room` best to choices[], the best first,
+ * with the results of `breaks` further breaks of each. Statuses are those of carom_break_play();
+ * CAROM_ERROR_OPTIONS also for fewer than 16 breaks, for room that is not 1 to CAROM_BREAK_CHOICES,
+ * and for a rack of no game with a break. */
+CAROM_API carom_status carom_break_best(const carom_break_job *job, int64_t breaks,
+                                        carom_break_choice *choices, int room);
+
+/* ---- Practice -------------------------------------------------------------------------------- */
+
+/* Kinds of strokes that are practised together. A pot is straight below a cut of 15 degrees and
+ * thin above 45, and long where both ways together have more than 1.2 m. */
+typedef enum carom_practice {
+  CAROM_PRACTICE_STRAIGHT = 0, /* short pots by their cuts */
+  CAROM_PRACTICE_CUT = 1,
+  CAROM_PRACTICE_THIN = 2,
+  CAROM_PRACTICE_LONG_STRAIGHT = 3, /* long ones */
+  CAROM_PRACTICE_LONG_CUT = 4,
+  CAROM_PRACTICE_LONG_THIN = 5,
+  CAROM_PRACTICE_INDIRECT = 6, /* a ball was called, or the turn kept, and no pot is direct */
+  CAROM_PRACTICE_OTHER = 7     /* safeties, and strokes at no pocket */
+} carom_practice;
+
+/* The words for a group, such as "long thin cut"; "" for a value not listed. */
+CAROM_API const char *carom_practice_name(carom_practice group);
+
+/* What a stroke of a match meant, and what came of it. */
+typedef struct carom_review {
+  carom_cue aim; /* the stroke that was meant: the one that was played, aimed at the middle of
+                           the pocket. */
+  double off;    /* degrees: how far the stroke was played to the left of that; NaN for
+                           INDIRECT and OTHER, as cut, distance and told. */
+  double cut,
+      distance;       /* degrees, m: the cut as in carom_pot; both ways, of the cue ball to the ball
+                           and of the ball to the pocket. */
+  double told;        /* chance that the meant stroke keeps the turn. */
+  double value, came; /* chance to win of the meant stroke, and after the one that was played. */
+  double miss_cost, place_cost; /* value - came: what the miss cost, or the pot won, and what the
+                                   places of the balls cost. The means are 0 for a player with the
+                                   errors of the job. 0 for INDIRECT and OTHER. */
+  int32_t group;                /* a carom_practice. */
+  int32_t ball, pocket;         /* that were meant, or -1. */
+  int32_t kept;                 /* 1: the stroke kept the turn or won. */
+} carom_review;
+
+/* Reviews a stroke of a game of two sides with pockets. The job has the layout, the rules with
+ * their state and the player before it, and options->seed and options->opponent; it needs no
+ * memory. `call` is that of the match; it is read in games with calls. In others the ball is the
+ * one that was met first, and the pocket that whose aim is nearest, within 10 degrees. Returns
+ * CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_OPTIONS for a bad player, and for other games; or an
+ * error of carom_shot_check(). */
+CAROM_API carom_status carom_review_of(const carom_plan_job *job, const carom_cue *played,
+                                       carom_call call, carom_review *review);
+
+/* A layout to practise a stroke. */
+typedef struct carom_drill {
+  carom_cue aim;   /* the stroke without errors. */
+  double place[2]; /* m: where that leaves the cue ball. */
+  double radius;   /* m: how near to it the cue ball has to come, which half of the player's pots
+                           do; 0 where the pot alone is practised. */
+  double rating;   /* the rating whose errors make the drill in half of the tries, 200 to 850. */
+  int32_t ball, pocket; /* that has to fall, and where. */
+} carom_drill;
+
+/* Makes a drill of a stroke that was reviewed, with the same job: its layout is that of the job.
+ * The place counts where it cost more than the miss. Statuses are those of carom_review_of();
+ * CAROM_ERROR_OPTIONS if the stroke aimed at no pocket directly. */
+CAROM_API carom_status carom_drill_of(const carom_plan_job *job, const carom_review *review,
+                                      carom_drill *drill);
+
 /* ---- Odds ------------------------------------------------------------------------------------ */
 
 /* The largest number of games of a set, and of sets of a match, that a side may need. */
@@ -313,7 +417,6 @@ typedef struct carom_series {
   int32_t order;       /* who breaks within a set: a carom_break_order. The sides begin the sets in
                           turn. */
   int32_t side;        /* which side breaks first, 0 or 1; -1: either, by lot. */
-  int32_t reserved;    /* must be 0. */
 } carom_series;
 
 /* The chances of a match. Those of the second side are 1 less these. */

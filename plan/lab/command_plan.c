@@ -2,12 +2,14 @@
  * ball in hand by a player who errs, or played to the end by two; and how often shots come off
  * and games are won beside the chances that were predicted for them. Of games of points also how
  * many a visit makes. */
+#include "game/ratings.h"
 #include "program/command.h"
 #include "program/memory.h"
 #include "program/message.h"
 #include "program/monotonic.h"
 #include "program/options.h"
 #include "rack_play.h"
+#include "rated_match.h"
 #include "subcommands.h"
 
 #include <math.h>
@@ -20,7 +22,7 @@ typedef struct strength_job {
   shared_options shared;
   int rules, racks, shots, seed, left, target;
   bool games, run_out;
-  double errors, against, unsure;
+  double errors, against, unsure, rating[CAROM_SEATS_MOST];
 } strength_job;
 
 OPTION(strength_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES,
@@ -29,6 +31,9 @@ OPTION(strength_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WOR
 OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
        "two players play each rack to the end; report the chances to win");
 
+OPTION(strength_job, option_players, "players", rating, 0, "A,B", set_ratings, 0,
+       "play matches of two players of these ratings, who break in turn; report how many the first "
+       "one wins");
 OPTION(strength_job, option_run_out, "run-out", run_out, 0, NULL, set_flag, 0, "plan to run out");
 OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1,
        "number of racks to play (default 100)");
@@ -48,7 +53,8 @@ OPTION(strength_job, option_left, "left", left, 0, "N", set_count, 1,
        "balls");
 
 OPTION(strength_job, option_target, "target", target, 0, "N", set_count, 1,
-       "in straight pool: points that win (default 100)");
+       "points that win: in straight pool (default 100), and of the matches of --players (default: "
+       "those of the game)");
 
 /* A row of the comparison of chances. `off` is what came of the strokes of one rack less what was
  * predicted of them. They are not independent, so the variance adds up off^2 rack by rack. */
@@ -99,7 +105,7 @@ static void seat(const strength_job *job, int striker, lab_rack *rack) {
 static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally *sums) {
   const carom_rules_kind rules = (carom_rules_kind)job->rules;
   lab_rack_make(rack, rules, ((uint64_t)job->seed << 32) + 7919 * (number + 1));
-  if (rules == CAROM_RULES_STRAIGHT)
+  if (rules == CAROM_RULES_STRAIGHT && job->target > 0)
     rack->rules.state.target = job->target;
   if (job->left > 0)
     lab_rack_end(rack, job->left);
@@ -186,15 +192,14 @@ static double stretch_of(const tally *t) {
 }
 
 static void report(const tally *t, const strength_job *job) {
-  /* Wilson's interval, 95 % */
-  const double n = (double)t->racks, p = (double)t->wins / n, z = 1.96;
-  const double wide = 1.0 + z * z / n, middle = (p + z * z / (2.0 * n)) / wide;
-  const double half = z * sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / wide;
+  const double n = (double)t->racks, p = (double)t->wins / n;
+  double bounds[2];
+  lab_interval((double)t->wins, n, bounds);
   printf("%d shots a plan, errors %g: %s %ld of %ld, %.1f %% (95 %%: %.1f to %.1f), pots a "
          "stroke %.3f, %.1f ms a plan\n",
          job->shots, job->errors, job->games ? "won by the first" : "run out", t->wins, t->racks,
-         100.0 * p, 100.0 * (middle - half), 100.0 * (middle + half),
-         (double)t->pots / (double)t->strokes, 1e3 * t->seconds / (double)t->plans);
+         100.0 * p, 100.0 * bounds[0], 100.0 * bounds[1], (double)t->pots / (double)t->strokes,
+         1e3 * t->seconds / (double)t->plans);
   if (t->points > 0.0)
     printf("%g points in %ld visits: %.2f a visit, at most %g\n", t->points, t->visits,
            t->points / (double)t->visits, t->best);
@@ -210,6 +215,20 @@ static void report(const tally *t, const strength_job *job) {
   }
 }
 
+static int play_ratings(const strength_job *job) {
+  if (job->rating[2] > 0.0) {
+    complain("--players: two ratings are needed");
+    return EXIT_USAGE;
+  }
+  const lab_ratings wanted = {.rules = (carom_rules_kind)job->rules,
+                              .target = job->target,
+                              .matches = job->racks,
+                              .seed = job->seed,
+                              .threads = job->shared.options.threads,
+                              .rating = job->rating};
+  return lab_play_ratings(&wanted) ? EXIT_GOOD : EXIT_USAGE;
+}
+
 static const command_form form = {
     .name = "plan",
     .usage = "[OPTIONS]",
@@ -218,10 +237,11 @@ static const command_form form = {
         "in hand after a break that potted nothing. Reports how many racks are run out, and how "
         "often shots keep the turn, beside the predicted chance. With --games each rack is played "
         "to the end, and the predicted chances to win stand beside the share of games won.\n",
-    .options = (const option_row *const[]){&option_rules, &option_games, &option_run_out,
-                                           &option_left, &option_target, &option_racks,
-                                           &option_shots, &option_errors, &option_against,
-                                           &option_unsure, &option_seed, &option_threads, NULL},
+    .options =
+        (const option_row *const[]){&option_rules, &option_games, &option_players, &option_run_out,
+                                    &option_left, &option_target, &option_racks, &option_shots,
+                                    &option_errors, &option_against, &option_unsure, &option_seed,
+                                    &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
     .example = "carom-lab plan --racks 100 --shots 1000",
     .files = NO_FILES,
@@ -230,14 +250,13 @@ static const command_form form = {
 int command_plan(int argc, char **argv) {
   static strength_job job;
   const char *path;
-  job = (strength_job){.shared = {.options = {.threads = 0}},
-                       .racks = 100,
-                       .shots = 2000,
-                       .errors = 1.0,
-                       .target = 100};
+  job = (strength_job){
+      .shared = {.options = {.threads = 0}}, .racks = 100, .shots = 2000, .errors = 1.0};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
+  if (job.rating[0] > 0.0)
+    return play_ratings(&job);
   if (!lab_game_is_played(job.rules))
     return EXIT_USAGE;
   const bool racked = carom_plan_rules_of((carom_rules_kind)job.rules).breaks != 1;

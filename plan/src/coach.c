@@ -1,4 +1,4 @@
-/* The cushions of a table, cuts, and strokes that are ruled. */
+/* The cushions of a table, cuts, strokes that are ruled, and what they are worth. */
 #include "coach.h"
 #include "rules.h"
 
@@ -44,5 +44,36 @@ carom_plan_job carom_job_after(const carom_plan_job *job, const carom_ruling *ru
   next.rules = rules;
   next.balls = ruling->balls;
   next.leave = (int64_t)ruling->turn.leave;
+  next.goal = NULL;
+  if (ruling->turn.outcome == CAROM_TURN_PASS) {
+    next.player = carom_opponent_of(job, job->options);
+    next.opponent = job->player;
+  }
   return next;
+}
+
+double carom_worth_left(const carom_plan_job *job, const carom_ruling *ruling) {
+  const carom_turn *turn = &ruling->turn;
+  if (turn->outcome == CAROM_TURN_DRAW)
+    return 0.5;
+  if (turn->outcome > CAROM_TURN_PASS)
+    return turn->outcome == CAROM_TURN_WIN;
+  const bool passes = turn->outcome == CAROM_TURN_PASS;
+  carom_plan_options options = {0};
+  if (job->options != NULL)
+    options = *job->options;
+  carom_plan_rules rules;
+  carom_plan_job next = carom_job_after(job, ruling, &rules);
+  next.options = &options;
+
+  /* who plays next errs as that player does */
+  if (passes && options.opponent != NULL) {
+    next.player = options.opponent;
+    options.opponent = job->player;
+  }
+  double value = 0.0;
+  carom_plan_value(&next, ruling->hand, &value);
+  if (passes)
+    return 1.0 - value;
+  return value;
 }

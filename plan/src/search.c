@@ -101,8 +101,9 @@ static bool loses(const search *plan) {
 static void pass(search *plan) {
   carom_rules_state game = plan->job.rules->state; /* rules change it as they judge */
   const carom_call call = {CAROM_CALL_PASS, -1};
-  plan->job.rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts, call);
-  const double value = 1.0 - carom_value_of(&plan->view, &game, plan->state, 1, false);
+  const carom_turn turn =
+      plan->job.rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts, call);
+  const double value = carom_search_leave(plan, &game, plan->state, &turn);
   carom_search_add(plan, (candidate){.chose = {.sum = value, .squares = value * value, .seen = 1},
                                      .kind = CAROM_PLAN_PASS,
                                      .ball = CAROM_CALL_PASS,

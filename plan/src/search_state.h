@@ -160,11 +160,12 @@ typedef struct carom_search {
   carom_candidate best;          /* of the rounds of doubling before */
 } carom_search;
 
-/* carom_plan_value() of a job, in room of the caller, for another state of its game and to a player
- * as of carom_value_of(); *value stays where there is an error. */
-carom_status carom_search_value(carom_search *plan, const carom_plan_job *job,
-                                const carom_rules_state *game, int seat, int in_hand,
-                                double *value);
+/* plan.c: prepares a job once for all that is played of it: its plan, in the job's memory, from
+ * which shots can be played. */
+carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int choices,
+                                  carom_search **prepared);
+/* Does a part of a plan, `work`, with the threads that the options ask for. */
+void carom_search_with_crew(carom_search *plan, carom_crew_caller *work);
 
 static inline bool carom_is_stopped(const carom_search *plan) {
   return plan->late || (plan->options.stop != NULL && *plan->options.stop != 0);

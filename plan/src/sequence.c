@@ -131,7 +131,7 @@ static double value_at(const run_out *r, carom_ruling *ruling, const double plac
   const double own[2] = {cue->r[0], cue->r[1]};
   double value = -1.0;
   memcpy(cue->r, place, sizeof own);
-  carom_search_value(r->job.memory, &next, &ruling->state, 0, 0, &value);
+  carom_plan_value(&next, 0, &value);
   memcpy(cue->r, own, sizeof own);
   return value;
 }

@@ -15,31 +15,8 @@ from collections import namedtuple
 from functools import cache
 from pathlib import Path
 
-FLOATING_POINT = (
-    "add",
-    "mul",
-    "div",
-    "sqrt",
-    "fma",
-    "rsqrt",
-    "rcp",
-    "convert",
-    "compare",
-    "minmax",
-)
-PREFIXES = {
-    "data16",
-    "cs",
-    "ds",
-    "notrack",
-    "bnd",
-    "lock",
-    "rep",
-    "repz",
-    "repnz",
-    "{vex}",
-    "{evex}",
-}
+FLOATING_POINT = "add mul div sqrt fma rsqrt rcp convert compare minmax".split()
+PREFIXES = set("data16 cs ds notrack bnd lock rep repz repnz {vex} {evex}".split())
 
 
 class UnknownInstruction(Exception):

@@ -11,12 +11,6 @@
 
 #include "ball_ball/kernels.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* FEWEST: rows from which on every batch is solved in lanes; kernels.c has the numbers of each
  * instruction set. */
 enum { WIDEST = 16, FEWEST = 80, MOST = FEWEST + WIDEST + 1, MANY = 29000 };

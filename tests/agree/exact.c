@@ -16,10 +16,6 @@
 #include "ball_ball/kernels.h"
 #include "contact_law/impact.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 /* The reference itself against the data: what it is trusted for. */
 TEST(reference_agrees_with_the_data) {
   case_set cases;
@@ -119,7 +115,7 @@ TEST(speeds_scale) {
   for (int k = 0; k < 200; k++) {
     const carom_impact in = random_impact(&source);
     carom_result out, scaled;
-    ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
+    expect_ok(carom_collide(&in, NULL, &out));
     for (size_t j = 0; j < COUNT_OF(powers); j++) {
       carom_impact other = in;
       /* velocities and spins, those of b 12 numbers behind those of a */
@@ -128,7 +124,7 @@ TEST(speeds_scale) {
         number[0] = ldexp(number[0], powers[j]);
         number[12] = ldexp(number[12], powers[j]);
       }
-      ck_assert_int_eq(carom_collide(&other, NULL, &scaled), CAROM_OK);
+      expect_ok(carom_collide(&other, NULL, &scaled));
       for (int c = 0; c < 12; c++)
         ((double *)&scaled)[c] = ldexp(((double *)&scaled)[c], -powers[j]);
       const double distance = result_distance(&scaled, &out, in.a.radius);
@@ -163,17 +159,17 @@ TEST(details_of_euler_come_near) {
     carom_options options = {0};
     carom_result out;
     carom_detail exact, euler;
-    ck_assert_int_eq(carom_collide_detail(&in, &options, &out, &exact), CAROM_OK);
+    expect_ok(carom_collide_detail(&in, &options, &out, &exact));
     options.solver = CAROM_SOLVER_EULER;
     options.steps = 20000;
-    ck_assert_int_eq(carom_collide_detail(&in, &options, &out, &euler), CAROM_OK);
+    expect_ok(carom_collide_detail(&in, &options, &out, &euler));
     ck_assert_int_ge(euler.steps, 10000);
     if (is_near(&euler, &exact))
       continue;
     ck_assert_int_ne(exact.stick, CAROM_STICK_NEVER);
     again++;
     options.steps = 200000;
-    ck_assert_int_eq(carom_collide_detail(&in, &options, &out, &euler), CAROM_OK);
+    expect_ok(carom_collide_detail(&in, &options, &out, &euler));
     ck_assert_msg(is_near(&euler, &exact), "collision %d", k);
   }
   ck_assert_int_le(again, 4);
@@ -347,7 +343,7 @@ TEST(every_step_of_euler) {
   for (size_t k = 0; k < cases.count; k++) {
     carom_result out;
     carom_detail detail;
-    ck_assert_int_eq(carom_collide_detail(&cases.impact[k], &options, &out, &detail), CAROM_OK);
+    expect_ok(carom_collide_detail(&cases.impact[k], &options, &out, &detail));
     ck_assert_int_eq(detail.steps, reference.steps[k]);
   }
   reference_free(&reference);

@@ -3,11 +3,6 @@
 #include "shot/sim.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { SHOTS = 150, ROOM = 1000 }; /* threads take 64 shots at a time */
 
 static carom_table table;

@@ -215,7 +215,7 @@ TEST(rows_end_where_the_header_says) {
     block[k] = edge_make(n[k] * sizeof(double), false);
     *rows[k] = memset(block[k].memory, 0xff, n[k] * sizeof(double)); /* NaN throughout */
   }
-  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_OK);
+  expect_ok(shot_tangent(&l, &seeds, &t));
   for (int k = 0; k < ROWS; k++) {
     const double *row = block[k].memory;
     for (size_t x = 0; x < n[k]; x++)
@@ -336,7 +336,7 @@ TEST(ends_of_flights) {
     l.ball[0].state.r[2] += random_between(&random, 0.02, 0.1);
     l.ball[0].state.v[2] = random_between(&random, -1.0, 1.5);
     l.ball[0].kind.restitution_table = k % 4 == 0 ? -1.0 : 0.5;
-    shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+    shot = empty_shot();
     if (shoot(&l, &shot) != CAROM_OK ||
         derive(&l, by, 4) & (CAROM_TANGENT_GRAZING | CAROM_TANGENT_KINK))
       continue;
@@ -483,7 +483,7 @@ TEST(passages_of_jaws) {
     carom_table_measures(CAROM_TABLE_POOL_9FT, &m);
     if (n % 2 == 1)
       m.corner_jaw = m.side_jaw = 4e-3;
-    ck_assert_int_eq(carom_table_measured(&m, R, &table, NULL), CAROM_OK);
+    expect_ok(carom_table_measured(&m, R, &table, NULL));
     for (int k = 0; k < table.rails; k++)
       if (!carom_is_cut(&table, k)) {
         table.rail[k].mu_cushion = 0.3;
@@ -587,7 +587,7 @@ static void follow_clusters(random_source *random, int kind) {
     carom_tangent t = {
         .final = ends, .time = times, .before = before, .after = after, .reach = reach};
     const carom_tangent_seeds seeds = seeds_of(ways, m);
-    ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_OK);
+    expect_ok(shot_tangent(&l, &seeds, &t));
     check_rows(k, m, before, after);
     /* one rack in a thousand is so near to a kink that its derivative is not found */
     kinks += (t.all_flags & CAROM_TANGENT_KINK) != 0;
@@ -761,7 +761,7 @@ TEST(reach_at_frozen_balls) {
     l.ball[1].state.r[0] = l.ball[0].state.r[0] + 2.0 * R * cos(angle);
     l.ball[1].state.r[1] = l.ball[0].state.r[1] + 2.0 * R * sin(angle);
     l.options.time_most = exp(random_between(&random, log(0.02), log(0.5)));
-    shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+    shot = empty_shot();
     for (int part = 0; part < BY; part += OF_CUES) {
       int64_t flags;
       if (shoot(&l, &shot) < CAROM_OK || tangent_of(&l, &by[part], OF_CUES, &flags) != CAROM_OK)
@@ -1005,7 +1005,7 @@ static void run_statement(void) {
 static void begin_case(void) {
   scene = (layout){.options = closed};
   scene_by = by_phi;
-  shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+  shot = empty_shot();
 }
 
 TEST(edges) {

@@ -82,7 +82,7 @@ static layout layout_of(const struct scene *of) {
   /* of few events, so that differences are exact */
   l.options.time_most = 2.0;
   for (shot.count = ROOM; shot.count > 8; l.options.time_most *= 0.8) {
-    shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+    shot = empty_shot();
     ck_assert_int_ge(shoot(&l, &shot), CAROM_OK);
   }
   l.options.time_most /= 0.8;
@@ -173,7 +173,7 @@ static bool is_compared(const layout *l, const number *row, const char *where) {
   const int n = NUMBERS * l->count;
   double slope[2][MOST];
   int64_t flags;
-  shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+  shot = empty_shot();
   if (!(l->cue.speed > 0.0) || shoot(l, &shot) < CAROM_OK ||
       tangent_of(l, &row->by, 1, &flags) != CAROM_OK)
     return false;

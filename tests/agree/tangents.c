@@ -170,7 +170,7 @@ START_TEST(shots_agree_with_differences) {
     layout l =
         space ? draw_in_space(&random, kinds[_i].start) : draw_with(&random, kinds[_i].start);
     l.options = kinds[_i].options;
-    shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+    shot = empty_shot();
     if (shoot(&l, &shot) != CAROM_OK)
       continue;
     shots++;
@@ -410,8 +410,7 @@ START_TEST(directions_that_leave_a_roll) {
     seeds[4][0] = 1.0;
     seeds[6][0] = -1.0 / R;
     seeds[18][1] = 1.0 / R;
-    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 4, &seeds[0][0], &tangent[0][0], &flags),
-                     CAROM_OK);
+    expect_ok(carom_collide_tangent(&in, NULL, 4, &seeds[0][0], &tangent[0][0], &flags));
     ck_assert_int_eq(flags, 0);
     for (int j = 0; j < 2; j++) {
       const double h = 1e-4 * V;
@@ -420,7 +419,7 @@ START_TEST(directions_that_leave_a_roll) {
         carom_impact changed = in;
         for (int i = 0; i < 26; i++)
           ((double *)&changed)[i] += (s == 0 ? -h : h) * seeds[i][j];
-        ck_assert_int_eq(carom_collide(&changed, NULL, &out[s]), CAROM_OK);
+        expect_ok(carom_collide(&changed, NULL, &out[s]));
       }
       for (int i = 0; i < 12; i++) {
         const double slope =
@@ -431,8 +430,7 @@ START_TEST(directions_that_leave_a_roll) {
     }
     /* by the velocity alone: the ball would slide */
     seeds[6][0] = 0.0;
-    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 4, &seeds[0][0], &tangent[0][0], &flags),
-                     CAROM_OK);
+    expect_ok(carom_collide_tangent(&in, NULL, 4, &seeds[0][0], &tangent[0][0], &flags));
     ck_assert_int_eq(flags & CAROM_TANGENT_KINK, CAROM_TANGENT_KINK);
     /* the same on a cushion */
     const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
@@ -440,10 +438,10 @@ START_TEST(directions_that_leave_a_roll) {
     double nose[15] = {0}, out[6];
     nose[1] = 1.0;
     nose[3] = -1.0 / R;
-    ck_assert_int_eq(carom_cushion_tangent(&rail, NULL, 1, nose, out, &flags), CAROM_OK);
+    expect_ok(carom_cushion_tangent(&rail, NULL, 1, nose, out, &flags));
     ck_assert_int_eq(flags, 0);
     nose[3] = 0.0;
-    ck_assert_int_eq(carom_cushion_tangent(&rail, NULL, 1, nose, out, &flags), CAROM_OK);
+    expect_ok(carom_cushion_tangent(&rail, NULL, 1, nose, out, &flags));
     ck_assert_int_eq(flags & CAROM_TANGENT_KINK, CAROM_TANGENT_KINK);
   }
 }
@@ -549,8 +547,7 @@ START_TEST(cushions_without_slip_at_the_nose) {
       double seeds[15] = {0.0}, tangent[6];
       int32_t flags;
       seeds[asked.index[i]] = 1.0;
-      ck_assert_int_eq(carom_cushion_tangent(&in, &cushion_options, 1, seeds, tangent, &flags),
-                       CAROM_OK);
+      expect_ok(carom_cushion_tangent(&in, &cushion_options, 1, seeds, tangent, &flags));
       const double bend = bend_of(&in, asked.index[i], asked.step[i]);
       /* where it bends by less, a derivative is as near as is asked below to both slopes */
       const bool kink =
@@ -589,10 +586,10 @@ START_TEST(states_at_times) {
     const carom_tangent_seeds seeds = seeds_of(&by_speed, 1);
     carom_tangent tangent = {.final = ends, .at = states, .times = at, .times_count = 2};
     const int numbers = l.count * NUMBERS;
-    ck_assert_int_eq(shot_tangent(&l, &seeds, &tangent), CAROM_OK);
+    expect_ok(shot_tangent(&l, &seeds, &tangent));
     for (int n = 0; n < 2; n++) {
       l.options.time_most = at[n];
-      shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+      shot = empty_shot();
       ck_assert_int_eq(shoot(&l, &shot), CAROM_STOPPED_AT_TIME);
       double error, plateau;
       ck_assert(compare(&l, &by_speed, &states[n * numbers], 0, 1, &error, &plateau));
@@ -624,9 +621,8 @@ START_TEST(nothing_is_read_before_it_is_set) {
     for (int n = 0; n < 2; n++) {
       void (*volatile fill)(int) = fill_stack;
       fill(n == 0 ? 0 : 0xFF);
-      ck_assert_int_eq(
-          carom_impact_differentiate(&law, &none, slips, 0, 1u << BY_B_X | 1u << BY_E, &found[n]),
-          CAROM_OK);
+      expect_ok(
+          carom_impact_differentiate(&law, &none, slips, 0, 1u << BY_B_X | 1u << BY_E, &found[n]));
     }
     ck_assert(!found[0].differences);
     ck_assert_mem_eq(found[0].d, found[1].d, sizeof found[0].d);

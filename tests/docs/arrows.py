@@ -11,7 +11,7 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 ROOT = Path(sys.argv[1]).resolve()
-ROOMS = ("include", "src", "plan", "cli", "study", "lab", "python", "examples")
+ROOMS = "include src plan cli study lab python examples".split()
 # What a room may include besides itself.
 ROWS = Path(__file__).with_suffix(".txt").read_text(encoding="utf-8")
 ALLOWED = {room: others.split() for room, others in re.findall(r"^(\w\S*):(.*)$", ROWS, re.M)}

@@ -6,23 +6,9 @@ from pathlib import Path
 
 ROOT = Path(sys.argv[1]).resolve()
 ROOMS = (
-    "include",
-    "src",
-    "plan",
-    "cli",
-    "lab",
-    "study",
-    "tests",
-    "examples",
-    "python",
-    "web/npm/src",
-    "web/npm/test",
-    "web/page/src",
-    "web/page/test",
-    "web/player",
-    "tools",
-    "cmake",
-)
+    "include src plan cli lab study tests examples python web/npm/src web/npm/test "
+    "web/page/src web/page/test web/player tools cmake"
+).split()
 # Functions of the C library, of compilers and of the sources of papers and other programs that
 # comments may name.
 ELSEWHERE = set(

@@ -11,6 +11,9 @@ echo "--- games that are played to the end, and end games"
 lab plan --rules nineball --games --racks 2 --shots 100 | numbers | cut -d' ' -f1-20
 lab plan --games --racks 1 --shots 100 | grep -c "^planned to foul"
 for rules in eightball nineball; do lab plan --rules $rules --left 2 --run-out --racks 2 --shots 100 | numbers | cut -d' ' -f1-20; done
+echo "--- matches of rated players"
+for threads in 1 2; do lab plan --rules threecushion --target 1 --players 800,500 --racks 18 --threads $threads | sed 's/ and [0-9.]* s a match//' > $threads.txt; done
+cmp 1.txt 2.txt && numbers < 1.txt
 echo "--- games of points"
 lab plan --rules straight --target 8 --racks 1 --shots 100 | numbers | cut -d' ' -f1-33
 for game in $(sed -n 's/.*--rules \([a-z]*\) --racks.*/\1/p' "$DATA/../plan/src/games.h" | sort -u); do

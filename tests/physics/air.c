@@ -4,10 +4,6 @@
 #include "random_shots.h"
 #include "shot_support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 static const double R = 0.028575, g = 9.81, loss = 0.02, pi = 3.14159265358979323846;
 
 static carom_shot_ball spinning(carom_shot_ball b, double w_x, double w_y, double w_z) {
@@ -265,7 +261,7 @@ static carom_result between_the_laws(const carom_impact *in) {
   const double x = in->b.r[0] - in->a.r[0], z = in->b.r[2] - in->a.r[2], size = hypot(x, z),
                phi = pow(z / size / 0.1, 2.0), ratio = in->b.radius / in->a.radius;
   carom_result space, level;
-  ck_assert_int_eq(carom_impact3(in, &space), CAROM_OK);
+  expect_ok(carom_impact3(in, &space));
 
   carom_impact turned = *in;
   carom_ball *ball[2] = {&turned.a, &turned.b};
@@ -281,7 +277,7 @@ static carom_result between_the_laws(const carom_impact *in) {
     rise[side] = ball[side]->v[2];
     ball[side]->v[2] = 0.0;
   }
-  ck_assert_int_eq(carom_collide(&turned, NULL, &level), CAROM_OK);
+  expect_ok(carom_collide(&turned, NULL, &level));
 
   carom_motion *of_level[2] = {&level.a, &level.b}, *of_space[2] = {&space.a, &space.b};
   for (int side = 0; side < 2; side++) {
@@ -373,7 +369,7 @@ TEST(a_hair_above_the_cloth_is_no_jump) {
       balls[0].state.w[1] = spin;
       balls[0].state.label = CAROM_BALL_SLIDING;
       carom_motion flat[3], near[3];
-      ck_assert_int_eq(carom_cluster(balls, count, NULL, flat, NULL, 0, NULL), CAROM_OK);
+      expect_ok(carom_cluster(balls, count, NULL, flat, NULL, 0, NULL));
       for (int k = 0; k < 3; k++) {
         carom_shot_ball other[3];
         memcpy(other, balls, sizeof other);
@@ -382,7 +378,7 @@ TEST(a_hair_above_the_cloth_is_no_jump) {
           other[0].kind.radius += change[k];
         else
           other[0].state.label = CAROM_BALL_AIRBORNE;
-        ck_assert_int_eq(carom_cluster(other, count, NULL, near, NULL, 0, NULL), CAROM_OK);
+        expect_ok(carom_cluster(other, count, NULL, near, NULL, 0, NULL));
         for (int i = 0; i < count; i++)
           for (int axis = 0; axis < 3; axis++) {
             NEAR(near[i].v[axis], flat[i].v[axis], 300.0 * change[k] + 1e-9);
@@ -411,8 +407,8 @@ TEST(jump_at_the_cloth) {
         in.a.mu_slide = in.b.mu_slide = 0.2;
         in.mu_ball = carom_mu_ball(&in, carom_alciatore());
         carom_result flat, space;
-        ck_assert_int_eq(carom_collide(&in, NULL, &flat), CAROM_OK);
-        ck_assert_int_eq(carom_impact3(&in, &space), CAROM_OK);
+        expect_ok(carom_collide(&in, NULL, &flat));
+        expect_ok(carom_impact3(&in, &space));
         double p[3], s[3];
         carom_rolling_velocity(flat.a.v, flat.a.w, R, p);
         carom_rolling_velocity(space.a.v, space.a.w, R, s);
@@ -511,14 +507,14 @@ TEST(spheres) {
                              .mu_ball = 0.1,
                              .restitution = 0.9};
   carom_result expected;
-  ck_assert_int_eq(carom_impact3(&slow, &expected), CAROM_OK);
+  expect_ok(carom_impact3(&slow, &expected));
   for (int n = 0; n < 8; n++) {
     carom_impact fast = slow;
     for (int k = 0; k < 3; k++) {
       fast.a.v[k] *= units[n];
       fast.a.w[k] *= units[n];
     }
-    ck_assert_int_eq(carom_impact3(&fast, &out), CAROM_OK);
+    expect_ok(carom_impact3(&fast, &out));
     for (int k = 0; k < 3; k++) {
       NEAR(out.a.v[k] / units[n], expected.a.v[k], 1e-14);
       NEAR(out.b.w[k] / units[n], expected.b.w[k], 1e-12);

@@ -2,11 +2,6 @@
  * known_shots.txt has shots with known numbers. */
 #include "shot_support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double R = 0.028575, g = 9.81, h = 0.036576;
 
 /* The true nose is a line this far inside the wall that stands for it. */

@@ -4,10 +4,6 @@
 #include "cluster/cluster.h"
 #include "shot_support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 enum { MOST = CAROM_BALLS_MOST, MOST_CONTACTS = 200 };
 static const double R = 0.028575, PI = 3.14159265358979323846;
 
@@ -498,9 +494,7 @@ TEST(breaks) {
       for (int n = 0; n < each; n++) {
         carom_shot_ball b[16];
         carom_cue cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
-        ck_assert_int_eq(
-            carom_rack(kinds[kind].rack, &table, n / 2 % 3 * 5e-5, (uint64_t)n + 1, b, 16),
-            CAROM_OK);
+        expect_ok(carom_rack(kinds[kind].rack, &table, n / 2 % 3 * 5e-5, (uint64_t)n + 1, b, 16));
         b[0].state.r[0] += kinds[kind].side;
         cue.b = 0.0;
         cue.speed = 6.0 + n % 2;

@@ -18,12 +18,6 @@
 #include "random.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* A kind that may jump, by `share` of the speed of the cue or of the ball that moves, and by
  * `fixed` m/s. */
 typedef struct jump_kind {

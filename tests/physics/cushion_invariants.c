@@ -4,11 +4,6 @@
 #include "draws.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { DRAWN = 2000 };
 enum { MODELS = CAROM_CUSHION_MODEL_COUNT };
 
@@ -35,7 +30,7 @@ TEST(energy_never_rises) {
         unresolved++; /* one of 10,000 */
         continue;
       }
-      ck_assert_int_eq(status, CAROM_OK);
+      expect_ok(status);
       const double before = energy(in.v, in.w, in.radius), after = energy(out.v, out.w, in.radius);
       const double slack = m == (int)CAROM_CUSHION_EULER ? 1e-2 : 1e-9;
       ck_assert_msg(after <= before * (1 + slack), "model %d, impact %d: %.17g becomes %.17g", m,
@@ -90,10 +85,10 @@ TEST(han_law) {
   in.v[0] = 1.3;
   const carom_cushion_options fitted = {.law = CAROM_CUSHION_LAW_HAN}, given = {0};
   carom_motion a, b;
-  ck_assert_int_eq(carom_cushion(&in, &fitted, &a), CAROM_OK);
+  expect_ok(carom_cushion(&in, &fitted, &a));
   in.restitution = 0.39 + 0.257 * 1.3 - 0.044 * 1.3 * 1.3;
   in.mu_cushion = 0.471 - 0.241 * 0.78539816339744831;
-  ck_assert_int_eq(carom_cushion(&in, &given, &b), CAROM_OK);
+  expect_ok(carom_cushion(&in, &given, &b));
   ck_assert_msg(cushion_distance(&in, &a, &b) < 1e-12, "%g", cushion_distance(&in, &a, &b));
 }
 
@@ -109,8 +104,8 @@ TEST(smooth_has_the_limit_of_han) {
     const carom_cushion_impact in =
         draw_cushion(k % 2 == 0 ? CUSHION_ANY : CUSHION_PLAY, test_seed(), k);
     carom_motion a, b;
-    ck_assert_int_eq(carom_cushion(&in, &nearly_han, &a), CAROM_OK);
-    ck_assert_int_eq(carom_cushion(&in, &han, &b), CAROM_OK);
+    expect_ok(carom_cushion(&in, &nearly_han, &a));
+    expect_ok(carom_cushion(&in, &han, &b));
     ck_assert_msg(cushion_distance(&in, &a, &b) < 1e-9, "impact %d: %g", (int)k,
                   cushion_distance(&in, &a, &b));
   }
@@ -143,7 +138,7 @@ TEST(smooth_keeps_the_laws) {
                                            .restitution_log = 2 * c[5] - 1,
                                            .mu_log = 2 * c[6] - 1};
     carom_motion out;
-    ck_assert_int_eq(carom_cushion(&in, &options, &out), CAROM_OK);
+    expect_ok(carom_cushion(&in, &options, &out));
     const double R = in.radius, before = energy(in.v, in.w, R), after = energy(out.v, out.w, R);
     ck_assert_msg(after <= before * (1 + 1e-12), "impact %d: %.17g becomes %.17g", (int)k, before,
                   after);
@@ -163,7 +158,7 @@ static double slope_change(const carom_cushion_options *options, double w_z, dou
     carom_cushion_impact in = usual();
     const double seeds[15] = {[5] = 1};
     in.w[2] = w_z + k * step;
-    ck_assert_int_eq(carom_cushion_tangent(&in, options, 1, seeds, slope[k], NULL), CAROM_OK);
+    expect_ok(carom_cushion_tangent(&in, options, 1, seeds, slope[k], NULL));
   }
   for (int c = 0; c < 6; c++) {
     most = fmax(most, fabs(slope[1][c] - slope[0][c]));
@@ -290,8 +285,8 @@ TEST(traces_end_where_calls_do) {
           .model = traced[m], .restitution_log = -logs, .mu_log = -logs};
       carom_cushion_point point[POINTS];
       carom_motion out;
-      ck_assert_int_eq(carom_cushion(&in, &options, &out), CAROM_OK);
-      ck_assert_int_eq(carom_cushion_trace(&in, &options, POINTS, point), CAROM_OK);
+      expect_ok(carom_cushion(&in, &options, &out));
+      expect_ok(carom_cushion_trace(&in, &options, POINTS, point));
       ck_assert_msg(cushion_distance(&in, &point[POINTS - 1].state, &out) < 1e-6, "impact %d",
                     (int)k);
       double work_c = 0;
@@ -350,7 +345,7 @@ TEST(traces_tell_every_point) {
       /* a wedged ball is never done by Euler's method */
       if (m == 1 && status == CAROM_ERROR_TOO_SLOW)
         continue;
-      ck_assert_int_eq(status, CAROM_OK);
+      expect_ok(status);
       ck_assert(point[0].normal == 0.0 && point[0].work == 0.0);
       ck_assert_int_eq(point[0].phase, CAROM_PHASE_COMPRESSION);
       for (int c = 0; c < 3; c++) {

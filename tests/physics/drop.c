@@ -3,10 +3,6 @@
 #include "carom_shot.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 enum { COUNT = 10, ROOM = 2000, SAMPLES = 400 };
 
 static carom_event events[ROOM];
@@ -26,7 +22,7 @@ static double between(const double *a, const double *b, int numbers) {
 static void check_no_jump(int ball, double time, carom_ball_state after[COUNT]) {
   const double times[2] = {time - 1e-9, time + 1e-9};
   carom_ball_state states[2 * COUNT];
-  ck_assert_int_eq(carom_shot_drawn(&table, balls, COUNT, &shot, times, 2, states), CAROM_OK);
+  expect_ok(carom_shot_drawn(&table, balls, COUNT, &shot, times, 2, states));
   ck_assert_double_lt(between(states[ball].r, states[COUNT + ball].r, 3), 1e-4);
   memcpy(after, &states[COUNT], sizeof states[0] * COUNT);
 }
@@ -78,7 +74,7 @@ static void check_fall(const carom_event *event) {
 
   for (int k = 0; k < SAMPLES; k++) {
     const double t = k * step, time = event->time + t;
-    ck_assert_int_eq(carom_shot_drawn(&table, balls, COUNT, &shot, &time, 1, drawn), CAROM_OK);
+    expect_ok(carom_shot_drawn(&table, balls, COUNT, &shot, &time, 1, drawn));
     const carom_ball_state *ball = &drawn[event->a];
     /* free fall, inside the circle, no faster along the cloth than at its edge */
     const double height = from->r[2] + from->v[2] * t - 0.5 * g * t * t;
@@ -91,7 +87,7 @@ static void check_fall(const carom_event *event) {
     const double way = between(ball->r, last, 2), most = fastest * step;
     ck_assert_double_le(way, most + 1e-12);
     /* the others */
-    ck_assert_int_eq(carom_shot_at(balls, COUNT, &shot, time, there), CAROM_OK);
+    expect_ok(carom_shot_at(balls, COUNT, &shot, time, there));
     for (int i = 0; i < COUNT; i++)
       if (there[i].label != CAROM_BALL_POCKETED)
         ck_assert_mem_eq(&drawn[i], &there[i], sizeof there[i]);
@@ -122,11 +118,11 @@ TEST(beside_each_other) {
     for (int i = 4; i < COUNT; i++)
       balls[i].state.label = CAROM_BALL_POCKETED;
     shot = (carom_shot){.events = events, .room = ROOM, .final = final};
-    ck_assert_int_eq(carom_shoot(&table, balls, COUNT, NULL, NULL, &shot), CAROM_OK);
+    expect_ok(carom_shoot(&table, balls, COUNT, NULL, NULL, &shot));
     int fell = 0;
     carom_ball_state drawn[COUNT];
     const double last = shot.time + 1.0;
-    ck_assert_int_eq(carom_shot_drawn(&table, balls, COUNT, &shot, &last, 1, drawn), CAROM_OK);
+    expect_ok(carom_shot_drawn(&table, balls, COUNT, &shot, &last, 1, drawn));
     for (int k = 0; k < shot.count; k++)
       if (events[k].type == CAROM_EVENT_POCKET) {
         check_fall(&events[k]);

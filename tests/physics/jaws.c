@@ -3,9 +3,6 @@
 #include "shot_support.h"
 #include "table/table.h"
 
-#include <math.h>
-#include <stdio.h>
-
 /* A seam: the end of a rail, the normal there, and the direction from the rail to the jaw. */
 typedef struct seam {
   int rail, jaw;
@@ -183,14 +180,13 @@ TEST(parts_that_all_differ) {
   for (int short_arcs = 0; short_arcs < 2; short_arcs++) {
     m.corner_jaw = short_arcs ? 4e-3 : 0.05;
     m.side_jaw = short_arcs ? 1e-3 : 0.02;
-    ck_assert_int_eq(carom_table_measured(&m, 0.028575, &t, NULL), CAROM_OK);
+    expect_ok(carom_table_measured(&m, 0.028575, &t, NULL));
     differ(&t, &random);
     compare_table(&t, CAROM_GAME_POOL, short_arcs ? "short arcs" : "long arcs", &random);
   }
   static const carom_corner corners[] = {
       {0.0, 0.0, 0.11}, {1.4, 0.0, 0.0}, {1.9, 1.0, 0.12}, {0.9, 1.8, 0.13}, {0.0, 1.2, 0.0}};
-  ck_assert_int_eq(
-      carom_table_polygon(corners, COUNT_OF(corners), 0.0363, 0.015, 0.028575, &t, NULL), CAROM_OK);
+  expect_ok(carom_table_polygon(corners, COUNT_OF(corners), 0.0363, 0.015, 0.028575, &t, NULL));
   differ(&t, &random);
   compare_table(&t, CAROM_GAME_POOL, "polygon", &random);
 }

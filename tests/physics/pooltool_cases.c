@@ -5,9 +5,6 @@
 #include "random_shots.h"
 #include "shot_support.h"
 
-#include <math.h>
-#include <string.h>
-
 static const carom_shot_options pooltool = {.world = CAROM_WORLD_POOLTOOL};
 
 /* Two balls that roll in exactly the same direction. */

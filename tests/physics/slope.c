@@ -2,8 +2,6 @@
  * small steps, as energies, by symmetry, and in the limit of a level table. */
 #include "shot_support.h"
 
-#include <stdio.h>
-
 static const double two_pi = 6.283185307179586;
 
 static carom_table sloped(double size, double steepness, double direction) {
@@ -91,7 +89,7 @@ static double follow(const carom_table *table, const carom_shot_ball *ball, cons
     if (n % (STEPS / LOOKS) != 0)
       continue;
     carom_ball_state state;
-    ck_assert_int_eq(carom_shot_at(ball, 1, shot, time, &state), CAROM_OK);
+    expect_ok(carom_shot_at(ball, 1, shot, time, &state));
     if (n == STEPS)
       state = event->before[0];
     numbers_of(&ball->kind, &state, now);
@@ -287,7 +285,7 @@ TEST(slope_and_breaks) {
     carom_table_make(snooker ? CAROM_TABLE_SNOOKER : CAROM_TABLE_POOL_9FT, &t);
     const carom_rack_kind kind = snooker ? CAROM_RACK_SNOOKER : CAROM_RACK_NINEBALL;
     const int count = carom_rack_size(kind);
-    ck_assert_int_eq(carom_rack(kind, &t, 1e-4, (uint64_t)n, balls, count), CAROM_OK);
+    expect_ok(carom_rack(kind, &t, 1e-4, (uint64_t)n, balls, count));
     t.slope_x = random_between(&random, -4e-3, 4e-3);
     t.slope_y = random_between(&random, -4e-3, 4e-3);
     carom_cue cue = carom_cue_of(snooker ? CAROM_GAME_SNOOKER : CAROM_GAME_POOL);
@@ -300,7 +298,7 @@ TEST(slope_and_breaks) {
                 end[i].label == CAROM_BALL_OFF);
     for (int k = 0; k < LOOKS; k++) {
       const double time = random_between(&random, 0.1, shot.time);
-      ck_assert_int_eq(carom_shot_at(balls, count, &shot, time, at), CAROM_OK);
+      expect_ok(carom_shot_at(balls, count, &shot, time, at));
       carom_shot_ball there[22];
       for (int i = 0; i < count; i++) {
         there[i] = balls[i];
@@ -323,7 +321,7 @@ TEST(slope_and_breaks) {
       status = part == 1 ? carom_shoot(&t, balls, count, &cue, &options, &shot)
                          : carom_shot_continue(&t, balls, count, &options, &shot);
     }
-    ck_assert_int_eq(status, CAROM_OK);
+    expect_ok(status);
     ck_assert_int_eq(shot.count, whole);
     ck_assert_mem_eq(final, end, (size_t)count * sizeof *end);
   }
@@ -337,7 +335,7 @@ TEST(slope_too_steep) {
   char text[100];
   t.slope_x = 0.3 * ball.kind.mu_roll;
   t.slope_y = -0.9 * ball.kind.mu_roll;
-  ck_assert_int_eq(carom_shot_check(&t, &ball, 1, NULL, NULL, NULL), CAROM_OK);
+  expect_ok(carom_shot_check(&t, &ball, 1, NULL, NULL, NULL));
   t.slope_y = -0.96 * ball.kind.mu_roll;
   ck_assert_int_eq(carom_shot_fault(&t, &ball, 1, NULL, NULL, &fault, text, sizeof text),
                    CAROM_ERROR_SLOPE);

@@ -7,11 +7,6 @@
 #include "shot_support.h"
 #include "strike_reference.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double R = 0.028575, PI = 3.14159265358979323846, table_size = 4.0;
 static const carom_shot_options gripping = {.friction = CAROM_FRICTION_CONSTANT,
                                             .stop_at = CAROM_STOP_AT(CAROM_EVENT_STRIKE)};
@@ -273,14 +268,14 @@ TEST(stops_after_a_push) {
     for (int n = 0; n < 3; n++)
       balls[n].kind = carom_ball_kind_of(CAROM_GAME_POOL);
     carom_shot shot = {.facts = &whole, .final = end};
-    ck_assert_int_eq(carom_shoot(&table, balls, 3, &cue, NULL, &shot), CAROM_OK);
+    expect_ok(carom_shoot(&table, balls, 3, &cue, NULL, &shot));
     carom_shot cut = {.facts = &parts, .final = end_parts, .state = &state};
     ck_assert_int_eq(carom_shoot(&table, balls, 3, &cue, &stops[k], &cut), CAROM_STOPPED_AT_EVENT);
     ck_assert(cut.time == 0.0 && parts.pushed == 2 && parts.frozen == 2 && parts.first[0] == 1);
     carom_status status = CAROM_STOPPED_AT_EVENT;
     for (int n = 0; n < 20 && status == CAROM_STOPPED_AT_EVENT; n++)
       status = carom_shot_continue(&table, balls, 3, &stops[k], &cut);
-    ck_assert_int_eq(status, CAROM_OK);
+    expect_ok(status);
     ck_assert(memcmp(&whole, &parts, sizeof whole) == 0);
     ck_assert(memcmp(end, end_parts, 3 * sizeof *end) == 0);
   }

@@ -3,10 +3,6 @@
 #include "schema/numbers.h"
 #include "shot_support.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 static const double degree = 3.14159265358979323846 / 180.0;
 
 /* ---- Drag */
@@ -63,7 +59,7 @@ TEST(drag_of_a_ball_alone) {
       const double t = shot.time * look / LOOKS;
       exact_roll(A, k, end - (long double)t, &exact_v, &left);
       carom_ball_state at;
-      ck_assert_int_eq(carom_shot_at(&ball, 1, &shot, t, &at), CAROM_OK);
+      expect_ok(carom_shot_at(&ball, 1, &shot, t, &at));
       ck_assert_int_eq(at.label, CAROM_BALL_ROLLING);
       const double now = hypot(at.v[0], at.v[1]);
       worst = fmax(worst, fabs(hypot(at.r[0] - 2e4, at.r[1] - 2e4) - (double)(way - left)));
@@ -394,7 +390,7 @@ TEST(snooker_cushion_by_speed) {
           at_cushion(&kind[m], (double[]){0.0, v[k], 0.0},
                      (double[]){-v[k] / kind[m].radius, 0.0, 0.0}, 0.0, 1.0);
       carom_motion out;
-      ck_assert_int_eq(carom_cushion(&in, &options, &out), CAROM_OK);
+      expect_ok(carom_cushion(&in, &options, &out));
       const double less = m == 0 ? 0.034 : 0.0;
       ck_assert_msg(fabs(-out.v[1] / v[k] - share[k] + less) < (m == 0 ? 0.003 : 0.005),
                     "%g m/s: %g", v[k], -out.v[1] / v[k]);
@@ -426,8 +422,8 @@ TEST(snooker_cushion_by_angle) {
       const carom_cushion_impact a = at_cushion(&own, v, w, 0.0, 1.0),
                                  b = at_cushion(&source, v, w, 0.0, 1.0);
       carom_motion by_smooth, by_exact;
-      ck_assert_int_eq(carom_cushion(&a, &smooth, &by_smooth), CAROM_OK);
-      ck_assert_int_eq(carom_cushion(&b, &exact, &by_exact), CAROM_OK);
+      expect_ok(carom_cushion(&a, &smooth, &by_smooth));
+      expect_ok(carom_cushion(&b, &exact, &by_exact));
       const double off =
           direction_once_rolling(&by_smooth, R) - direction_once_rolling(&by_exact, R);
       squares += off * off;
@@ -495,7 +491,7 @@ TEST(default_cushions) {
       const carom_shot_options options = {
           .world = world, .cushion_model = named ? models[k] : CAROM_SHOT_CUSHION_DEFAULT};
       carom_shot shot = {.events = events, .room = ROOM, .final = &rest[named]};
-      ck_assert_int_eq(carom_shoot(&table, &ball, 1, NULL, &options, &shot), CAROM_OK);
+      expect_ok(carom_shoot(&table, &ball, 1, NULL, &options, &shot));
       ck_assert_ptr_nonnull(event_of(&shot, CAROM_EVENT_RAIL, 0));
     }
     ck_assert_mem_eq(&rest[0], &rest[1], sizeof *rest);

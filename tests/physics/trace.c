@@ -7,11 +7,6 @@
 #include "draws.h"
 #include "support.h"
 
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 enum { POINTS = 41 };
 
 static carom_options options_for(carom_solver solver, carom_slip slip) {
@@ -66,8 +61,8 @@ static double worst_end(carom_solver solver, carom_slip slip) {
     carom_trace_point point[POINTS];
     carom_result out;
     carom_detail detail;
-    ck_assert_int_eq(carom_trace(&cases.impact[k], &options, POINTS, point), CAROM_OK);
-    ck_assert_int_eq(carom_collide_detail(&cases.impact[k], &options, &out, &detail), CAROM_OK);
+    expect_ok(carom_trace(&cases.impact[k], &options, POINTS, point));
+    expect_ok(carom_collide_detail(&cases.impact[k], &options, &out, &detail));
     expect_order(&cases.impact[k], point, &detail, solver);
     worst = fmax(worst, result_distance(&point[POINTS - 1].state, &out, cases.impact[k].a.radius));
   }

@@ -5,9 +5,6 @@
 #include "shot_support.h"
 #include "shots/ball_aim.h"
 
-#include <math.h>
-#include <stdio.h>
-
 enum { LAYOUTS = 2000, MOST_BALLS = 8, DIRECTIONS = 720, HALVINGS = 50 };
 
 /* A cue, what it shoots at, and by which rules. */
@@ -84,7 +81,7 @@ static problem random_problem(random_source *random) {
     const int kind = (int)random_between(random, 0.0, 5.0);
     p = (problem){.count = 2 + (int)random_between(random, 0.0, MOST_BALLS - 1),
                   .cue = carom_cue_of(games[kind])};
-    ck_assert_int_eq(carom_table_make((carom_table_kind)kind, &p.table), CAROM_OK);
+    expect_ok(carom_table_make((carom_table_kind)kind, &p.table));
     for (int k = 0; k < p.count; k++) {
       p.ball[k].kind = carom_ball_kind_of(games[kind]);
       p.ball[k].state.r[0] = random_between(random, 0.0, p.table.width);

@@ -2,8 +2,6 @@
  * radii, balls that separate, and what stands for a default. */
 #include "functions.h"
 
-#include <stdlib.h>
-
 /* Each option beyond its range, and nothing written by a batch. */
 TEST(each_option_is_checked) {
   static const carom_part_kind parts[] = {CAROM_PART_IMPACT_OPTIONS, CAROM_PART_CUSHION_OPTIONS};
@@ -39,7 +37,7 @@ TEST(noise_in_the_radii_passes) {
     carom_impact in[ROWS];
     carom_result out[ROWS], expected, alone;
     int8_t said[ROWS];
-    ck_assert_int_eq(carom_collide(impacts, &solving, &expected), CAROM_OK);
+    expect_ok(carom_collide(impacts, &solving, &expected));
     for (int k = 0; k < ROWS; k++) {
       in[k] = impacts[0];
       in[k].b.radius *= 1.0 + (k - ROWS / 2) * 1e-10; /* from 2e-9 below */
@@ -63,11 +61,11 @@ static void expect_same(const carom_impact *in, const carom_options *one,
                         const carom_options *other) {
   carom_result x, y;
   int8_t of_x, of_y;
-  ck_assert_int_eq(carom_collide(in, one, &x), CAROM_OK);
-  ck_assert_int_eq(carom_collide(in, other, &y), CAROM_OK);
+  expect_ok(carom_collide(in, one, &x));
+  expect_ok(carom_collide(in, other, &y));
   ck_assert_mem_eq(&x, &y, sizeof x);
-  ck_assert_int_eq(carom_collide_batch(in, 1, one, &x, &of_x), CAROM_OK);
-  ck_assert_int_eq(carom_collide_batch(in, 1, other, &y, &of_y), CAROM_OK);
+  expect_ok(carom_collide_batch(in, 1, one, &x, &of_x));
+  expect_ok(carom_collide_batch(in, 1, other, &y, &of_y));
   ck_assert_mem_eq(&x, &y, sizeof x);
   ck_assert(of_x == CAROM_OK && of_y == CAROM_OK);
 }
@@ -84,8 +82,8 @@ TEST(zero_is_the_default) {
                       of_1000 = {.solver = CAROM_SOLVER_EULER, .steps = 1000};
   expect_same(impacts, &euler, &of_1000);
   carom_trace_point point[2], other[2];
-  ck_assert_int_eq(carom_trace(impacts, &euler, 2, point), CAROM_OK);
-  ck_assert_int_eq(carom_trace(impacts, &of_1000, 2, other), CAROM_OK);
+  expect_ok(carom_trace(impacts, &euler, 2, point));
+  expect_ok(carom_trace(impacts, &of_1000, 2, other));
   ck_assert_double_eq(point[1].normal, other[1].normal);
   const carom_options all = {.threads = CAROM_ALL_THREADS};
   expect_same(impacts, &zero, &all);
@@ -122,8 +120,8 @@ TEST(separating_pairs_are_unchanged) {
 /* What has no row: a batch without rows, and details of a call that is refused. */
 TEST(nothing_to_solve) {
   set_up();
-  ck_assert_int_eq(carom_collide_batch(NULL, 0, NULL, NULL, NULL), CAROM_OK);
-  ck_assert_int_eq(carom_cushion_batch(NULL, 0, NULL, NULL, NULL), CAROM_OK);
+  expect_ok(carom_collide_batch(NULL, 0, NULL, NULL, NULL));
+  expect_ok(carom_cushion_batch(NULL, 0, NULL, NULL, NULL));
   detail.steps = 7;
   ck_assert_int_eq(carom_collide_detail(impacts, NULL, NULL, &detail), CAROM_ERROR_NULL);
   ck_assert_int_eq(detail.steps, 0);

@@ -6,9 +6,6 @@
 #include "rounds.h"
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 TEST(summaries) {
   double odd[] = {5.0, 1.0, 100.0, 3.0, 4.0};
   sample_summary s = summarise(odd, 5);

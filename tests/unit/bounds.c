@@ -8,9 +8,6 @@
 #include "contact_law/impact.h"
 #include "cushion/models.h"
 
-#include <math.h>
-#include <stdio.h>
-
 enum {
   STEP = 12, /* iterations of one step, MOST_ITERATIONS of contact_law/step.h */
   IMPACT = CAROM_IMPACT_ITERATIONS + STEP,

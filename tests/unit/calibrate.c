@@ -1,8 +1,6 @@
 /* The cushion of a table by three banks. */
 #include "shot_support.h"
 
-#include <math.h>
-
 static carom_table table;
 static carom_ball_kind usual;
 
@@ -19,7 +17,7 @@ TEST(usual_table) {
   set_up();
   for (int t = 0; t < 3; t++) {
     carom_table_make(kinds[t], &table);
-    ck_assert_int_eq(carom_calibrate(&table, &usual, NULL, &told), CAROM_OK);
+    expect_ok(carom_calibrate(&table, &usual, NULL, &told));
     ck_assert_double_eq(told.restitution, usual.restitution_cushion);
     ck_assert_double_eq(told.friction, usual.mu_cushion);
     for (int k = 0; k < CAROM_BANKS; k++)
@@ -34,7 +32,7 @@ TEST(conditions) {
   for (int k = 0; carom_word(CAROM_WORDS_CONDITION, k) != NULL; k++) {
     carom_ball_kind kind = usual;
     ck_assert_int_eq(carom_condition_give((carom_condition)k, &kind), 1);
-    ck_assert_int_eq(carom_calibrate(&table, &kind, NULL, &told[k]), CAROM_OK);
+    expect_ok(carom_calibrate(&table, &kind, NULL, &told[k]));
     const bool is_cloth = k <= CAROM_CONDITION_FAST_CLOTH;
     if (is_cloth) {
       ck_assert_double_eq(kind.mu_roll, usual.mu_roll + 0.005 * (1 - k));
@@ -71,10 +69,10 @@ TEST(other_tables) {
     kind.restitution_cushion = random_between(&random, 0.74, 0.86);
     kind.mu_cushion = random_between(&random, 0.2, 0.36);
     const carom_status status = carom_calibrate(&table, &kind, NULL, &truth);
-    ck_assert_int_eq(status, CAROM_OK);
+    expect_ok(status);
     if (truth.comes_back[1] > 7.5) /* in the corner pocket */
       continue;
-    ck_assert_int_eq(carom_calibrate(&table, &usual, truth.comes_back, &found), CAROM_OK);
+    expect_ok(carom_calibrate(&table, &usual, truth.comes_back, &found));
     ck_assert(found.misfit < 1.0);
     ck_assert(found.restitution_error < 0.05 && found.friction_error < 0.06);
 

@@ -18,8 +18,6 @@
 #include "functions.h"
 
 #include <ctype.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 /* ---- The file */
 

@@ -4,7 +4,6 @@
 #include "support.h"
 
 #include <float.h>
-#include <math.h>
 
 enum { DRAWN = 100000 };
 

@@ -5,10 +5,6 @@
 #include "support.h"
 
 #include <fenv.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
 
 #if defined(__SSE__)
 #include <xmmintrin.h>

@@ -2,8 +2,6 @@
 #include "friction/laws.h"
 #include "support.h"
 
-#include <math.h>
-
 TEST(known_slips) {
   carom_impact in = {.a = {.radius = 0.03}, .b = {.r = {0.0, 0.06, 0.0}, .radius = 0.03}};
   const carom_speed_law law = carom_alciatore();
@@ -55,7 +53,7 @@ TEST(laws_act_in_contacts_that_last) {
     ball[0].state.w[2] = 200.0;
     const carom_shot_options options = {.friction = (carom_ball_friction)law};
     carom_motion after[2];
-    ck_assert_int_eq(carom_cluster(ball, 2, &options, after, NULL, 0, NULL), CAROM_OK);
+    expect_ok(carom_cluster(ball, 2, &options, after, NULL, 0, NULL));
     const double numbers[3] = {law == CAROM_LAW_CONSTANT ? 0.03 : 0.02, 0.1, 0.3},
                  R = ball[0].kind.radius, lost = 0.4 * R * (200.0 - after[0].w[2]); /* m/s */
     ck_assert_double_eq_tol(lost / after[1].v[1], carom_friction_at(law, numbers, 200.0 * R), 1e-5);

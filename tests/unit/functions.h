@@ -14,9 +14,6 @@
 #include "shot_support.h"
 
 #include <limits.h>
-#include <math.h>
-#include <stdbool.h>
-#include <string.h>
 
 #ifndef OWN
 #define OWN
@@ -452,7 +449,7 @@ static void set_up_games(void) {
 #else
 static OWN carom_cue aimed;
 static OWN carom_plan_rules rules;
-static OWN carom_player player;
+static OWN carom_player player, other_player;
 static OWN carom_plan_options plan_options;
 static OWN carom_plan_job plan;
 static OWN carom_ruling ruling;
@@ -473,6 +470,9 @@ static const carom_plan_stroke safety = {.ball = -1};
 static OWN carom_shot_way ways[4];
 static OWN carom_ways_result ways_result;
 static OWN carom_break_counts break_counts;
+static OWN carom_break_choice break_choices[CAROM_BREAK_CHOICES];
+static OWN carom_review review;
+static OWN carom_drill drill;
 static OWN carom_series series;
 static OWN carom_odds odds;
 static OWN carom_why why;
@@ -510,6 +510,10 @@ static const carom_break_job *break_job(void) {
                              .memory = heap->memory,
                              .memory_size = MEMORY};
   return &breaks;
+}
+static const carom_review *reviewed(void) {
+  review = (carom_review){.aim = cue, .ball = 1};
+  return &review;
 }
 static const carom_plan_stroke *stroke_choice(void) {
   choices[0] = (carom_plan_stroke){.cue = cue, .ball = -1, .pocket = -1};
@@ -592,6 +596,7 @@ static carom_match *moving(void) {
   F(match_end, carom_match_end(PTR(ready())))                                                      \
   F(match_extend, GIVES(carom_match_extend(MAYBE(ready()), ANYINT(0))))                            \
   F(match_next, GIVES(carom_match_next(MAYBE(ready()))))                                           \
+  F(match_opponent, carom_match_opponent(PTR(begun()), PTR(&player), PTR(&other_player)))          \
   F(match_place, carom_match_place(PTR(begun()), INT(0), NUM(0.6), NUM(0.5)))                      \
   F(match_plan, carom_match_plan(PTR(ready()), PTR(&plan), PTR(choices), LENGTH(4), PTR(&found)))  \
   F(match_prepare, carom_match_prepare(PTR(ready()), INT(0), PTR(&safety)))                        \
@@ -618,14 +623,18 @@ static carom_match *moving(void) {
   F(plan_continue, carom_plan_continue(PTR(sliced_plan()), PTR(choices), LENGTH(4), PTR(&found)))  \
   F(plan_hand,                                                                                     \
     carom_plan_hand(PTR(&plan), MAYBE(zeros), NULL, PTR(choices), LENGTH(4), PTR(&found)))         \
+  F(break_best, carom_break_best(PTR(break_job()), LENGTH(16), PTR(break_choices), INT(1)))        \
   F(break_has_rules, GIVES(carom_break_has_rules(ANYENUM(carom_rack_kind, 0))))                    \
   F(break_memory, GIVES(carom_break_memory()))                                                     \
   F(break_play, carom_break_play(PTR(break_job()), ANYINT(0), LENGTH(1), PTR(&break_counts)))      \
   F(break_spread, is_number(carom_break_spread(MAYBE(&break_counts), MAYBE(numbers))))             \
   F(break_stroke, carom_break_stroke(PTR(break_job()), ANYINT(0), PTR(balls), PTR(&aimed)))        \
+  F(drill_of, carom_drill_of(PTR(&plan), PTR(reviewed()), PTR(&drill)))                            \
   F(fair_series, carom_fair_series(PTR(&series), PTR(&series)))                                    \
   F(names_ball, GIVES(carom_names_ball(MAYBE(choices))))                                           \
   F(odds_of, carom_odds_of(PTR(&series), PTR(&odds)))                                              \
+  F(practice_name, is_text(carom_practice_name(ANYENUM(carom_practice, 0))))                       \
+  F(review_of, carom_review_of(PTR(&plan), PTR(&cue), ((carom_call){-1, -1}), PTR(&review)))       \
   F(plan_replay,                                                                                   \
     carom_plan_replay(PTR(&plan), PTR((carom_plan_stroke *)stroke_choice()), LENGTH(1)))           \
   F(way_chance, carom_way_chance(PTR(ways_job()), PTR(stroke_way())))                              \
@@ -639,6 +648,8 @@ static carom_match *moving(void) {
   F(plan_try, carom_plan_try(PTR(&plan), PTR(&cue), INT(1), PTR(choices)))                         \
   F(plan_value, carom_plan_value(PTR(&plan), ANYINT(0), PTR(numbers)))                             \
   F(player_fargo, (player = carom_player_fargo(ANY(500.0)), ACCEPTED))                             \
+  F(player_rated,                                                                                  \
+    (player = carom_player_rated(ANY(500.0), ANYENUM(carom_rules_kind, 0)), ACCEPTED))             \
   F(player_of, (player = carom_player_of(ANY(1.0)), ACCEPTED))                                     \
   F(player_strike, (carom_player_strike(MAYBE(&player), 1, 1, MAYBE(&aimed)), ACCEPTED))           \
   F(pot_kind, GIVES(carom_pot_kind(MAYBE(&table), MAYBE(&shot), ANYINT(0), ANYINT(1), ANYINT(0)))) \

@@ -3,11 +3,6 @@
 #include "carom_shot.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 enum { TABLES = CAROM_TABLE_FOURBALL + 1 };
 
 static double radius_on(int kind) {

@@ -2,9 +2,6 @@
 #include "motion/gap.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdio.h>
-
 static long double gap(const carom_separation *d, long double t) {
   const long double x = d->d0[0] + t * (d->d1[0] + t * d->d2[0]),
                     y = d->d0[1] + t * (d->d1[1] + t * d->d2[1]);

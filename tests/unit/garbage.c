@@ -7,7 +7,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "functions.h"
 
-#include <stdio.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -121,7 +120,7 @@ TEST(counts_and_indices_of_structs) {
 }
 
 TEST(a_rating_without_games_is_that_of_the_header) {
-  ck_assert_int_eq(carom_rating_of(NULL, 0, &rating), CAROM_OK);
+  expect_ok(carom_rating_of(NULL, 0, &rating));
   ck_assert_double_eq_tol(rating.mean, 426.0, 0.5);
   ck_assert_int_eq(rating.row, -1);
 }

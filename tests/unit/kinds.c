@@ -3,9 +3,6 @@
 #include "carom_tangent.h"
 #include "support.h"
 
-#include <math.h>
-#include <string.h>
-
 enum { SHOTS = 60, BALLS = 6, ROOM = 400 };
 
 /* The same layouts, whole and by reference. */
@@ -41,7 +38,7 @@ static void empty(played *to) {
  * 11 is bad. */
 static void set_up(void) {
   random_source random = {test_seed()};
-  ck_assert_int_eq(carom_table_make(CAROM_TABLE_POOL_9FT, &table), CAROM_OK);
+  expect_ok(carom_table_make(CAROM_TABLE_POOL_9FT, &table));
   for (int i = 0; i < BALLS; i++) {
     kinds[i] = carom_ball_kind_of(CAROM_GAME_POOL);
     kinds[i].mu_slide = 0.15 + 0.02 * i;

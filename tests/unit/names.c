@@ -5,10 +5,6 @@
 #endif
 #include "support.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 TEST(statuses_are_distinct) {
   int known = 0;
   for (int j = -128; j < 128; j++) { /* what an int8_t holds */

@@ -3,11 +3,6 @@
 #include "rows/number.h"
 #include "support.h"
 
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 TEST(what_is_read) {
   char texts[40][TEXT];

@@ -7,11 +7,6 @@
 #include "support.h"
 
 #include <limits.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { ROOM = 400000, EVENTS = 600 };
 

@@ -2,10 +2,6 @@
 #include "schema/numbers.h"
 #include "support.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 static carom_shot_ball fit(void) {
   return (carom_shot_ball){.kind = carom_ball_kind_of(CAROM_GAME_POOL),
                            .state = {.r = {0.5, 1, 0.028575}}};
@@ -44,7 +40,7 @@ TEST(rows_are_those_of_the_struct) {
 /* What refuses a kind tells which number it is. */
 TEST(every_refusal_names_a_number) {
   carom_table table;
-  ck_assert_int_eq(carom_table_make(CAROM_TABLE_POOL_9FT, &table), CAROM_OK);
+  expect_ok(carom_table_make(CAROM_TABLE_POOL_9FT, &table));
   static const double values[] = {-2, -1, 0, 1e-13, 0.05, 0.3, 0.99, 1.5, 3, 1e7};
   int refused = 0;
   for (int j = 0; carom_number_of(CAROM_PART_BALL, j) != NULL; j++)

@@ -2,8 +2,6 @@
  * status and place, and nothing else written. Bounds and the built-in tables, too. */
 #include "functions.h"
 
-#include <stdio.h>
-
 /* The shot is refused for this reason, at this ball or part. */
 static void expect(carom_status expected, int index) {
   ck_assert_int_eq(carom_shot_check(&table, balls, count, &cue, &options, &where), expected);

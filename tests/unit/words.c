@@ -4,9 +4,6 @@
 #include "shots/shoot_flags.h"
 #include "support.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 TEST(words_of_an_option) {
   carom_shot_cushion cushion = CAROM_SHOT_CUSHION_DEFAULT;
   char smooth[] = "smooth", usual[] = "default", none[] = "smoth";

@@ -219,14 +219,14 @@ namespace Carom {
     /// string it may not first meet balls that lie there too.</summary>
     public Leave Leave;
 
-    /// <summary>Of two players of the same Fargo rating, 200 to 850. They play as rated where the
-    /// shots of the options are 0.</summary>
+    /// <summary>Of two players of the same Fargo rating, 200 to 850, in this game. They play as
+    /// rated where the shots of the options are 0.</summary>
     public Position(Table table, ShotBall[] balls, Cue cue, PlanRules rules, double rating) {
       Table = table;
       Balls = balls;
       Cue = cue;
       Rules = rules;
-      Player = Opponent = Calls.PlayerFargo(rating);
+      Player = Opponent = Calls.PlayerRated(rating, (RulesKind)(rules.learned - 1));
     }
 
     /// <summary>The best strokes, best first, at most `most`; in hand, with the places of the cue

@@ -8,6 +8,7 @@
     derivatives  tangents, jacobian, hessian, aim_slope, Tangents, Hessian, Flag
     plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating; Goal, sequence,
                  RunOut
+    coach        odds, Odds; review, Review, Drill
     rules        Match, a whole game; referee, Rules, Ruling, Facts, Turn, Foul
     other        dtypes, the structured dtypes; cite, physics_revision, isa_in_force
     modules      record, tracks, fit, jax, torch, pooltool; games: potting, drills, pool, matches,
@@ -92,22 +93,27 @@ if _TYPE_CHECKING:
     from carom import rules as rules
     from carom import sb3 as sb3
     from carom.games import (
+        Drill as Drill,
         Facts as Facts,
         Foul as Foul,
         Goal as Goal,
         Match as Match,
+        Odds as Odds,
         Pot as Pot,
         Rating as Rating,
+        Review as Review,
         Rules as Rules,
         Ruling as Ruling,
         RunOut as RunOut,
         Turn as Turn,
         aim as aim,
         chances as chances,
+        odds as odds,
         plan as plan,
         player as player,
         rating as rating,
         referee as referee,
+        review as review,
         sequence as sequence,
         value as value,
         with_errors as with_errors,
@@ -119,6 +125,7 @@ _OFFERED = [
     "ALL_THREADS",
     "Calibration",
     "CaromError",
+    "Drill",
     "EventType",
     "Facts",
     "Features",
@@ -128,10 +135,12 @@ _OFFERED = [
     "Hessian",
     "Label",
     "Match",
+    "Odds",
     "Options",
     "Outcome",
     "Pot",
     "Rating",
+    "Review",
     "Rules",
     "Ruling",
     "RunOut",
@@ -160,6 +169,7 @@ _OFFERED = [
     "isa_in_force",
     "jacobian",
     "mu_ball",
+    "odds",
     "physics_revision",
     "place_ball",
     "plan",
@@ -168,6 +178,7 @@ _OFFERED = [
     "rating",
     "referee",
     "resume",
+    "review",
     "sequence",
     "simulate",
     "simulate_arrow",
@@ -182,8 +193,8 @@ _OFFERED = [
 
 # Names of the folder games, and modules of folders, which are loaded when they are asked for.
 _OF_GAMES = frozenset(
-    "Facts Foul Goal Match Pot Rating Rules Ruling RunOut Turn aim chances plan player rating "
-    "referee sequence value with_errors".split()
+    "Drill Facts Foul Goal Match Odds Pot Rating Review Rules Ruling RunOut Turn aim chances odds "
+    "plan player rating referee review sequence value with_errors".split()
 )
 _MODULES_OF_FOLDERS = frozenset(
     "drills fit gymnasium matches pettingzoo plans pool potting rules sb3".split()

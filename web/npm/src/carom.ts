@@ -59,11 +59,15 @@ import type {
   SequenceOptions,
   Player,
   RackName,
+  Odds,
   Rating,
+  Review,
   Ruling,
   Score,
+  Series,
   ShotBall,
   ShotOptions,
+  Skill,
   StopOptions,
   Table,
   TableName,
@@ -1232,11 +1236,13 @@ export class Carom {
   // ---- Plans and games --------------------------------------------------------------------------
 
   /**
-   * A player by his errors: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each
-   * way, times `errors`. Or by a Fargo rating, 200 to 850, such as 500: its plans then play as
-   * rated where `shots` is not given; `onlyPots: 0` makes plans that advise such a player.
+   * A player by his errors of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees of direction and of elevation
+   * and 0.003 radii each way, times `errors`; they grow with the speed. Or by a Fargo rating, 200
+   * to 850, such as 500: its plans then play as rated where `shots` is not given; `onlyPots: 0`
+   * makes plans that advise such a player. A rating is one of a game, `rules`: by it, players of
+   * other ratings than 500 differ more or less.
    */
-  player(skill: { errors?: number; fargo?: number } = {}): Player {
+  player(skill: Skill = {}): Player {
     refuseUnknown(skill, KEYS.player);
     return this.#plans.player(skill);
   }
@@ -1247,6 +1253,26 @@ export class Carom {
    */
   rating(scores: readonly Score[]): Rating {
     return this.#plans.rating(scores);
+  }
+
+  /** The odds of a match by two ratings, and its fairest handicap. */
+  odds(series: Series): Odds {
+    return this.#plans.odds(series);
+  }
+
+  /**
+   * What a stroke of a game of two sides with pockets meant, and what it cost a player; and a drill
+   * of it. Balls, options and call are those before the stroke.
+   */
+  review(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    options: PlanOptions = {},
+    call?: Call,
+  ): Review {
+    this.#resident = undefined;
+    return this.#plans.review(table, balls, cue, call, options);
   }
 
   /**

@@ -24,19 +24,24 @@ import type {
   Call,
   PlanStroke,
   Cue,
+  Drill,
   EventType,
   GameRules,
   GameState,
+  Odds,
   PlanOptions,
   Player,
   Rating,
+  Review,
   Ruling,
   Score,
   Sequence,
   SequenceOptions,
   SequenceStroke,
+  Series,
   ShotBall,
   ShotOptions,
+  Skill,
   Table,
   Vec2,
 } from "./types.js";
@@ -75,6 +80,7 @@ const fieldsOf = (state: object, keys: readonly string[]): object =>
     Object.entries(state).filter(([key, value]) => keys.includes(key) && value !== undefined),
   );
 const SCORE = layout.carom_score;
+const SERIES = layout.carom_series;
 const BOUNDS = {
   speedShare: 0,
   speedLeast: 0,
@@ -83,6 +89,7 @@ const BOUNDS = {
   growth: 0,
   onlyPots: 0,
   shots: 0,
+  eye: 0,
 };
 
 /** What the calls of this file need of the library. */
@@ -187,7 +194,7 @@ export class Plans {
     return struck;
   }
 
-  player({ errors: scale, fargo }: { errors?: number; fargo?: number }): Player {
+  player({ errors: scale, fargo, rules = "eightball" }: Skill): Player {
     if (scale !== undefined && fargo !== undefined)
       throw new TypeError("errors, fargo: a player has errors or a rating, not both");
     const errors = scale ?? 1;
@@ -195,8 +202,10 @@ export class Plans {
       throw new RangeError(`errors: it must be finite and at least 0, not ${errors}`);
     if (fargo !== undefined && !(fargo >= 200 && fargo <= 850))
       throw new RangeError(`fargo: it must be 200 to 850, not ${fargo}`);
-    if (fargo === undefined) this.#memory.exports.carom_player_of(this.#addresses.player, errors);
-    else this.#memory.exports.carom_player_fargo(this.#addresses.player, fargo);
+    const { exports } = this.#memory;
+    const kind = value("carom_rules_kind", rules, "rules");
+    if (fargo === undefined) exports.carom_player_of(this.#addresses.player, errors);
+    else exports.carom_player_rated(this.#addresses.player, fargo, kind);
     return readStruct<Player>(this.#memory, this.#addresses.player, "carom_player");
   }
 
@@ -217,6 +226,75 @@ export class Plans {
       return rating;
     } finally {
       memory.free(rows);
+    }
+  }
+
+  /** The odds of a match, and its fairest handicap. */
+  odds(series: Series): Odds {
+    refuseUnknown(series, KEYS.series);
+    const { ratings, games = 1, sets = 1, order = "alternate", side, breakPoints = 0 } = series;
+    const memory = this.#memory;
+    const both = (given: number | readonly number[]): readonly number[] =>
+      typeof given === "number" ? [given, given] : given;
+    const needed = { games: both(games), sets: both(sets) };
+    const room = memory.allocate(SERIES.size + layout.carom_odds.size);
+    const found = room + SERIES.size;
+    try {
+      const numbers = {
+        rating: ratings,
+        breakPoints,
+        ...needed,
+        order: value("carom_break_order", order, "order"),
+        side: side ?? -1,
+      };
+      writeStruct(memory, room, "carom_series", numbers, "series");
+      if (memory.exports.carom_odds_of(room, found) < 0)
+        throw new RangeError(
+          `series: ratings must be 0 to 1000, breakPoints -1000 to 1000, games and sets 1 to ${values.CAROM_SERIES_MOST}, and side 0 or 1`,
+        );
+      const odds = readStruct<C.Odds>(memory, found, "carom_odds");
+      memory.exports.carom_fair_series(room, room);
+      const [first = 0, second = 0] = Math.max(...needed.sets) > 1 ? needed.sets : needed.games;
+      const most = values.CAROM_SERIES_MOST;
+      return {
+        ...odds,
+        score: [odds.score.slice(0, second), odds.score.slice(most, most + first)],
+        fair: readStruct<C.Series>(memory, room, "carom_series").games,
+      };
+    } finally {
+      memory.free(room);
+    }
+  }
+
+  /** What a stroke of a game meant and cost, and a drill of it. */
+  review(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    call: Call | undefined,
+    options: PlanOptions,
+  ): Review {
+    const memory = this.#memory;
+    const { call: callAt, job } = this.#addresses;
+    const { size } = layout.carom_review;
+    this.#writeJob(table, balls, { ...options, cue });
+    const room = memory.allocate(size + layout.carom_drill.size);
+    try {
+      const { ball, pocket } = numbersOf(call);
+      memory.i32[callAt / 4] = ball;
+      memory.i32[callAt / 4 + 1] = pocket;
+      const { cue: played } = this.#host.addresses;
+      this.#refuse(memory.exports.carom_review_of(job, played, callAt, room), "review");
+      const isDirect = memory.exports.carom_drill_of(job, room, room + size) === 0;
+      const found = readStruct<C.Review>(memory, room, "carom_review");
+      return {
+        ...found,
+        group: memory.text(memory.exports.carom_practice_name(found.group))!,
+        kept: found.kept !== 0,
+        ...(isDirect && { drill: readStruct<Drill>(memory, room + size, "carom_drill") }),
+      };
+    } finally {
+      memory.free(room);
     }
   }
 

@@ -1,7 +1,8 @@
 //! Plans: which stroke to play, by built-in rules or by those of the caller.
 use crate::{
     calls, check, count_of, sys, BallState, Bounds, Call, Cue, Error, Facts, Leave, Options,
-    PlanOptions, PlanStroke, Player, RackKind, Rules, RulesState, ShotBall, Status, Table, Turn,
+    PlanOptions, PlanStroke, Player, RackKind, Rules, RulesKind, RulesState, ShotBall, Status,
+    Table, Turn,
 };
 use std::any::{type_name, TypeId};
 use std::os::raw::c_int;
@@ -228,13 +229,14 @@ pub struct Position {
 }
 
 impl Position {
-    /// Of two players of the same rating, 200 to 850, as by `calls::player_fargo`.
+    /// Of two players of the same rating in this game, 200 to 850, as by `calls::player_rated`.
     pub fn new(table: &Table, balls: &[ShotBall], cue: &Cue, rules: &Rules, rating: f64) -> Self {
+        let game = RulesKind::try_from(rules.learned - 1).unwrap_or(RulesKind::Eightball);
         Position {
             table: *table,
             balls: balls.to_vec(),
             cue: *cue,
-            player: calls::player_fargo(rating),
+            player: calls::player_rated(rating, game),
             opponent: None,
             rules: *rules,
             shot: Options::default(),
@@ -408,7 +410,7 @@ mod tests {
     use super::*;
     use crate::{
         aim, built_in_rules, cue, place, rack, shoot, table, Game, Pot, PotOutcome, Race,
-        RulesKind, TableKind, TurnOutcome,
+        TableKind, TurnOutcome,
     };
 
     /// A drill: any ball counts, until one misses.

@@ -20,7 +20,7 @@ from carom._rows import Array, Arrays, as_array, choice, copied, listing, number
 from carom._rows import Seed, seed_of, several, whole
 from carom._shot_options import Options, chosen, shot_options
 from carom.dtypes import Records
-from carom.games.rules import LEAVES, Game, GivenState, Group, Hand, Made, Rules
+from carom.games.rules import GAMES, LEAVES, Game, GivenState, Group, Hand, Made, Rules
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
 from carom.status import CaromError
@@ -94,7 +94,9 @@ class Goal(NamedTuple):
     """Of "near" and "apart": the largest distance, or the smallest gap, m."""
 
 
-def player(errors: float | None = None, *, fargo: float | None = None) -> Records:
+def player(
+    errors: float | None = None, *, fargo: float | None = None, rules: Game = "eightball"
+) -> Records:
     """A player whose strokes err, as an array of `carom.dtypes.player`, shape ().
 
     Its fields may be changed.
@@ -102,14 +104,16 @@ def player(errors: float | None = None, *, fargo: float | None = None) -> Record
     Parameters
     ----------
     errors : float
-        At least 0. Standard deviations: 0.1 m/s, 0.1 degrees of direction and of elevation and
-        0.003 radii each way, times errors. Default: 1. The speed is that of a cue whose tip loses
-        nothing; others err by 2/(1 + tip_restitution) times as much.
+        At least 0. Standard deviations of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees of direction and
+        of elevation and 0.003 radii each way, times errors; they grow with the speed. Default: 1.
     fargo : float, optional
         A Fargo rating, 200 to 850, instead: errors that grow with the speed, the shots of a plan and
         `only_pots`, the share of strokes in which the player thinks of nothing but potting. Such
         players beat those who are 100 points weaker in about 2 of 3 games, if `shots` of `plan` is
         not given (docs/understanding/plan.md). Set `only_pots` to 0 for a plan that advises one.
+    rules : str
+        The game in which the player has this rating: by it, players of other ratings than 500 differ
+        more or less.
     """
     if errors is not None and fargo is not None:
         raise ValueError("errors, fargo: a player has errors or a rating, not both")
@@ -122,9 +126,10 @@ def player(errors: float | None = None, *, fargo: float | None = None) -> Record
         <= 850.0
     ):
         raise ValueError(f"fargo: it must be 200 to 850, not {fargo}")
+    game = choice(GAMES, rules, "rules")
     record: Array = np.zeros((), dtypes.player)
     pointer("carom_player[]", record)[0] = (
-        lib.carom_player_of(errors) if fargo is None else lib.carom_player_fargo(fargo)
+        lib.carom_player_of(errors) if fargo is None else lib.carom_player_rated(fargo, game)
     )
     return record
 
@@ -327,6 +332,8 @@ def aim(
 
 
 _usual_player = player
+# the ranges of a player's numbers, except those from 0 to 1000
+_RANGES = {"tip_most": (0.0, 1.0), "eye": (-np.inf, 0.01), "reserved": (0.0, 0.0)}
 
 
 def _one_player(player: Records, name: str = "player") -> Any:
@@ -335,9 +342,11 @@ def _one_player(player: Records, name: str = "player") -> Any:
     if record.ndim != 0:
         raise ValueError(f"{name}: one is needed, of shape (), not {record.shape}")
     for field in dtypes.player.names or ():
-        most = {"tip_most": 1.0, "reserved": 0.0}.get(field, 1000.0)
-        if not ((record[field] >= 0.0) & (record[field] <= most)).all():
-            raise ValueError(f"{name}: {field}: it must be 0 to {most:g}, not {record[field]}")
+        least, most = _RANGES.get(field, (0.0, 1000.0))
+        if not ((record[field] >= least) & (record[field] <= most)).all():
+            raise ValueError(
+                f"{name}: {field}: it must be {least:g} to {most:g}, not {record[field]}"
+            )
     return pointer("carom_player[]", record)
 
 
@@ -394,7 +403,7 @@ def _goal(goal: Goal, count: int) -> Any:
     )
 
 
-class _Job:
+class Job:
     """What a plan is made for, checked, as C has it; and what has to live as long."""
 
     def __init__(
@@ -604,7 +613,7 @@ def plan(
     corners = _corners(in_hand)
     game = (_by and _by.game_record) or Made(rules, state, group, opening)
     game.stop[0] = 0
-    job = _Job(
+    job = Job(
         table,
         balls,
         cue,
@@ -687,7 +696,7 @@ def sequence(
     """
     check_table(table)
     corners = _corners(in_hand)
-    job = _Job(
+    job = Job(
         table,
         balls,
         cue,
@@ -765,7 +774,7 @@ def chances(
     if not 1 <= strokes.size <= 1000:
         raise ValueError(f"cues: 1 to 1000 are needed, not {strokes.size}")
     game = Made(rules, state, group, opening)
-    job = _Job(
+    job = Job(
         table,
         balls,
         strokes.reshape(-1)[0],
@@ -815,7 +824,7 @@ def value(
     CaromError
         The layout or an option is in error.
     """
-    job = _Job(
+    job = Job(
         table,
         balls,
         None,

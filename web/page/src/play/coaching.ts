@@ -15,6 +15,7 @@ import {
   levelOf,
   look,
   playerOf,
+  rivalOf,
   SAFETY,
   says,
   wantedOf,
@@ -56,7 +57,7 @@ function requestOf(play: Play, level: number): Request {
     options: {
       ...wantedOf(play),
       player: { ...playerOf(play.carom, rating), onlyPots: 0 },
-      opponent: playerOf(play.carom, isComputer(against) ? against : rating),
+      opponent: isComputer(against) ? rivalOf(play, against) : playerOf(play.carom, rating),
       seed: seed + play.strokes,
     },
   };

@@ -138,14 +138,9 @@ export function why(s: Pick<Session, "play" | "seat" | "thinks">): string {
 /** A player of a rating; "0" makes no errors. */
 export const playerOf = (carom: Carom, rating: string): Player =>
   carom.player(rating === "0" ? { errors: 0 } : { fargo: Number(rating) });
-/** A stroke with the errors of a rating; the number of the stroke chooses them. */
-export const withErrors = (
-  { carom, setup }: Play,
-  cue: Cue,
-  rating: string,
-  stroke: number,
-): Cue =>
-  rating === "0" ? cue : carom.withErrors(cue, playerOf(carom, rating), setup.seed, stroke);
+/** The page's player of a rating in the game that is played. */
+export const rivalOf = ({ carom, state }: Play, rating: string): Player =>
+  carom.player({ fargo: Number(rating), rules: state.rules });
 /** The rating whose errors the next stroke has. A stroke of a hint has those that the hint assumed. */
 function ratingOfErrors(s: Pick<Session, "play" | "hinted" | "training">): string {
   const { own } = s.play.setup;
@@ -156,7 +151,10 @@ function ratingOfErrors(s: Pick<Session, "play" | "hinted" | "training">): strin
 export function strokeToPlay(s: Session): { cue: Cue; call: Call | undefined } {
   const { play } = s;
   const number = play.strokes + play.past.length;
-  const cue = withErrors(play, cueOf(s), ratingOfErrors(s), number);
+  const rating = ratingOfErrors(s);
+  let cue = cueOf(s);
+  if (rating !== "0")
+    cue = play.carom.withErrors(cue, playerOf(play.carom, rating), play.setup.seed, number);
   look(s); // the aim may have changed since the last frame
   return { cue, call: callOf(s) };
 }

@@ -18,12 +18,12 @@ import {
   needsCall,
   NONE,
   playerOf,
+  rivalOf,
   SAFETY,
   says,
   strokeToPlay,
   wantedOf,
   why,
-  withErrors,
 } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfStroke } from "./state.js";
 import { texts } from "../texts/texts.js";
@@ -178,7 +178,7 @@ async function choiceOf(play: Play): Promise<PlanStroke> {
   const { against, own, seed } = play.setup;
   const options = {
     ...wantedOf(play),
-    player: playerOf(play.carom, against),
+    player: rivalOf(play, against),
     opponent: playerOf(play.carom, own === "0" ? RATING_OF_PERFECT : own),
     seed: seed + play.strokes,
     best: 1,
@@ -219,7 +219,8 @@ async function reply(s: Session): Promise<void> {
     s.thinks = false;
     if (choice.kind === "pass") return finishTurn(s, play.choose("pass"));
     const { against } = play.setup;
-    const cue = withErrors(play, choice.cue, against, play.strokes);
+    const player = rivalOf(play, against);
+    const cue = play.carom.withErrors(choice.cue, player, play.setup.seed, play.strokes);
     finishTurn(s, play.stroke(cue, callOfChoice(choice)));
   } catch (error) {
     if (isStale()) return;
