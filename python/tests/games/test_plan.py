@@ -270,7 +270,7 @@ def test_the_opponent_counts():
 
 def test_goals_and_safeties():
     goal = carom.Goal("near", place=(0.9, 1.2), distance=0.3)
-    asked = {"rules": "nineball", "shots": 300}
+    asked = {"rules": "nineball", "shots": 2000}
     near = carom.plan(TABLE, LAYOUT, goal=goal, best=1, **asked)[0]
     far = carom.plan(TABLE, LAYOUT, goal=goal._replace(distance=0.05), best=1, **asked)[0]
     assert near["value"] > far["value"] + 0.2
