@@ -310,6 +310,10 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     cue.ball = plan->cue_ball;
     const carom_prepared layout =
         carom_search_layout(plan, c, s->draws, row % s->each, result.drawn);
+    if (s->measure != NULL) {
+      shot.events = plan->path + row * PATH_EVENTS;
+      shot.room = PATH_EVENTS;
+    }
     const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
     if (plan->plays < plan->view.count)
       spread(plan, &result);
@@ -332,6 +336,8 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     else
       *o = judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
     o->events = (uint8_t)carom_min(shot.count, UINT8_MAX);
+    if (s->measure != NULL)
+      o->miss = s->measure(plan, c, shot.events, shot.count);
   }
   return end;
 }

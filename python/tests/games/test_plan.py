@@ -276,7 +276,7 @@ def test_goals_and_safeties():
     assert near["value"] > far["value"] + 0.2
     safe = carom.plan(TABLE, LAYOUT, safeties=True, **asked)
     assert {*safe["kind"]} == {Kind.SAFETY}
-    with pytest.raises(ValueError, match="goal: it must be one of"):
+    with pytest.raises(ValueError, match="goal: must be one of"):
         carom.plan(TABLE, LAYOUT, goal=carom.Goal("close"), **asked)
     with pytest.raises(carom.CaromError):
         carom.plan(TABLE, LAYOUT, goal=goal._replace(distance=0.0), **asked)

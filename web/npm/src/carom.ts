@@ -1239,8 +1239,8 @@ export class Carom {
    * A player by his errors of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees of direction and of elevation
    * and 0.003 radii each way, times `errors`; they grow with the speed. Or by a Fargo rating, 200
    * to 850, such as 500: its plans then play as rated where `shots` is not given; `onlyPots: 0`
-   * makes plans that advise such a player. A rating is one of a game, `rules`: by it, players of
-   * other ratings than 500 differ more or less.
+   * makes plans that advise such a player. With `rules`, a player of matches of this game, in which
+   * 100 points are odds of 2 to 1.
    */
   player(skill: Skill = {}): Player {
     refuseUnknown(skill, KEYS.player);

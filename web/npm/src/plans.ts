@@ -194,7 +194,7 @@ export class Plans {
     return struck;
   }
 
-  player({ errors: scale, fargo, rules = "eightball" }: Skill): Player {
+  player({ errors: scale, fargo, rules }: Skill): Player {
     if (scale !== undefined && fargo !== undefined)
       throw new TypeError("errors, fargo: a player has errors or a rating, not both");
     const errors = scale ?? 1;
@@ -203,10 +203,13 @@ export class Plans {
     if (fargo !== undefined && !(fargo >= 200 && fargo <= 850))
       throw new RangeError(`fargo: it must be 200 to 850, not ${fargo}`);
     const { exports } = this.#memory;
-    const kind = value("carom_rules_kind", rules, "rules");
-    if (fargo === undefined) exports.carom_player_of(this.#addresses.player, errors);
-    else exports.carom_player_rated(this.#addresses.player, fargo, kind);
-    return readStruct<Player>(this.#memory, this.#addresses.player, "carom_player");
+    const { player } = this.#addresses;
+    if (fargo === undefined && rules !== undefined)
+      throw new TypeError("rules: a game needs a rating in it, fargo");
+    if (fargo === undefined) exports.carom_player_of(player, errors);
+    else if (rules === undefined) exports.carom_player_fargo(player, fargo);
+    else exports.carom_player_rated(player, fargo, value("carom_rules_kind", rules, "rules"));
+    return readStruct<Player>(this.#memory, player, "carom_player");
   }
 
   rating(scores: readonly Score[]): Rating {
