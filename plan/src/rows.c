@@ -222,7 +222,7 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   if (!ends)
     leave_layout(plan, &game, c, final, taken_back, &turn);
   if (carom_has_goal(&plan->job))
-    o.worth = !taken_back && carom_search_reaches(plan, &game, final, &turn);
+    o.worth = !taken_back && carom_search_reaches(plan, &game, final, &turn, &o.near);
   else if (!ends)
     o.worth = carom_search_leave(plan, &game, final, &turn);
   return o;

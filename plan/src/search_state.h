@@ -15,9 +15,13 @@ enum { PLACES_MOST = 24 }; /* of a cue ball in hand, from which strokes are cand
 enum { ROWS_LEAST = 4 };   /* rows worth a thread */
 enum { LISTED_MOST = 16 }; /* choices behind the best that are played anew */
 
+/* A chance to play on below which balls fall by luck. */
+static const double carom_luck = 0.1;
+
 /* What shots with errors came to. */
 typedef struct carom_tally {
   double sum, squares;      /* of the worths of the shots, and of their squares */
+  double near;              /* sum of how near they came to a goal that is a place */
   int32_t seen;             /* number of shots */
   int32_t keep, foul, lose; /* shots by which the player keeps his turn, fouls, loses */
 } carom_tally;
@@ -48,6 +52,7 @@ typedef struct carom_outcome {
   int16_t cushions;    /* impacts of that ball on cushions */
   int8_t first;        /* the ball that was met first, or -1 */
   uint16_t events;     /* of the shot */
+  float near;          /* 1 on the place that is the goal, 0 from 1 m on */
 } carom_outcome;
 
 /* A stage plays each of some candidates several times. Row k is the shot of candidate
