@@ -466,6 +466,16 @@ static int run(breaker *b, const shot_line *line, const carom_cue *stroke, int s
   return code;
 }
 
+/* Whether the results are asked for in one form; complains if not. */
+static bool has_one_form(const break_job *job) {
+  const bool has_other = job->csv || job->falls || job->plot != NULL;
+  if (!(job->json || job->best) || (!has_other && job->json != job->best))
+    return true;
+  complain("--%s stands alone: give it without --csv, --falls, --plot and --%s",
+           job->json ? "json" : "best", job->json ? "best" : "json");
+  return false;
+}
+
 int command_break(int argc, char **argv) {
   static break_job job;
   static carom_cue stroke[MOST_STROKES];
@@ -487,12 +497,8 @@ int command_break(int argc, char **argv) {
     return EXIT_USAGE;
   without_bounds(&b.player);
 
-  const bool has_other = job.csv || job.falls || job.plot != NULL;
-  if ((job.json || job.best) && (has_other || (job.json && job.best))) {
-    complain("--%s stands alone: give it without --csv, --falls, --plot and --%s",
-             job.json ? "json" : "best", job.json ? "best" : "json");
+  if (!has_one_form(&job))
     return EXIT_USAGE;
-  }
 
   /* the rack stands on the table of its game, and breaks have a speed of their own */
   if (job.nine_on_spot)

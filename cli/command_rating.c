@@ -1,9 +1,8 @@
 /* `carom rating`: a player's rating by games that were won and lost, of a table or of recorded
  * matches. */
+#include "game/match_lines.h"
 #include "program/program.h"
 #include "subcommands.h"
-
-#include "carom_match.h"
 
 typedef struct rating_job {
   shared_options shared; /* --output */
@@ -67,12 +66,9 @@ static bool read_row(results *r, const char *line) {
 /* Reads a line of a recording, and counts the match that it ends. */
 static bool read_record(results *r, const char *line, size_t size) {
   static carom_match match;
-  static carom_record scratch;
   const int32_t winner = match.winner;
-  if (carom_match_read(&match, &scratch, line, size) != CAROM_OK) {
-    complain("%s: line %lld: %s", r->path, (long long)r->line, match.fault);
+  if (!match_line_read(&match, r->path, line, size))
     return false;
-  }
   if (match.winner == 0 || match.winner == winner)
     return true;
   const carom_seating *seats = &match.seating;

@@ -29,6 +29,7 @@ COMMAND(command_ways)
 COMMAND(command_break)
 COMMAND(command_match)
 COMMAND(command_odds)
+COMMAND(command_practice)
 COMMAND(command_rating)
 COMMAND(command_learn)
 

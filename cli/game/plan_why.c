@@ -16,6 +16,11 @@ static const char *percent(double share, char text[16]) {
   return text;
 }
 
+/* A share in tenths of a percent, of which none is -0. */
+static double tenths(double share) {
+  return round(1000.0 * share) / 10.0 + 0.0;
+}
+
 /* ---- The stroke in the words of a coach */
 
 /* Speeds of the ball in words, by billiards.colostate.edu/faq/speed/typical. */
@@ -78,13 +83,14 @@ static void tell_tip(FILE *out, const carom_cue *cue) {
 
 /* Where the cue ball stops, and the best shot from there. */
 static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *line,
-                      const carom_why *why) {
+                      const carom_plan_stroke *choice, const carom_why *why) {
   const carom_ruling *ruling = &why->ruling;
   const carom_ball_state *cue = &ruling->balls[job->cue->ball].state;
   const carom_plan_stroke *c = &why->next;
   const bool passes = ruling->turn.outcome == CAROM_TURN_PASS;
+  const bool seldom = carom_names_ball(choice) && !passes && choice->keep < 0.5;
   char pocket[WHERE_TEXT], ball[BALL_TEXT];
-  fputs("   leaves       ", out);
+  fprintf(out, "   leaves       %s", text_if(seldom, "where it succeeds: "));
   if (ruling->turn.outcome == CAROM_TURN_WIN) {
     fputs("the game won\n", out);
     return;
@@ -99,14 +105,17 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
     fprintf(out, "the cue ball at %.2f, %.2f m; ", cue->r[0], cue->r[1]);
   if ((passes && job->rules->race == CAROM_RACE_ALONE) || ruling->turn.outcome >= CAROM_TURN_WIN)
     fputs("the visit ends\n", out);
+  else if (passes && isnan(why->leave))
+    fputs("the other plays\n", out);
+  else if (passes)
+    fprintf(out, "the other wins %.0f %%\n", 100.0 * (1.0 - why->leave));
   else if (!why->has_next)
     fputs("nothing to play\n", out);
-  else if (passes)
-    fprintf(out, "the other wins %.0f %%\n", 100.0 * c->value);
   else if (line->table->table.pockets == 0)
     fprintf(out, "then it scores %.0f %%\n", 100.0 * c->keep);
   else if (c->ball < 0 || c->pocket < 0)
-    fprintf(out, "then no ball is sure, and the player wins %.0f %%\n", 100.0 * c->value);
+    fprintf(out, "then no ball is sure, and the player wins %.0f %%\n",
+            100.0 * (isnan(why->leave) ? c->value : why->leave));
   else
     fprintf(out, "then %s into %s, %.0f %%\n", named_ball(line->name[c->ball], ball),
             pocket_words(line->table, c->pocket, pocket), 100.0 * c->keep);
@@ -114,6 +123,10 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
 
 /* How often a stroke with errors misses, and what that leaves the other; and what errors cost. */
 static void tell_misses(FILE *out, const carom_plan_stroke *choice, const carom_why *why) {
+  static const char *const of_error[CAROM_WHY_ERRORS] = {[CAROM_WHY_AIM] = "aim",
+                                                         [CAROM_WHY_SPEED] = "speed",
+                                                         [CAROM_WHY_TIP] = "the tip",
+                                                         [CAROM_WHY_EYE] = "the eye"};
   char text[16];
   /* a safety is meant to pass the turn */
   fprintf(out, "   %s       %s", carom_names_ball(choice) ? "misses" : "passes",
@@ -122,8 +135,10 @@ static void tell_misses(FILE *out, const carom_plan_stroke *choice, const carom_
     fprintf(out, ", and the other then wins %.0f %%", 100.0 * why->opponent);
   if (why->loses > 0.0)
     fprintf(out, "; loses the game %s", percent(why->loses, text));
-  fprintf(out, "\n   errors       those of speed cost %.1f %%, those of aim %.1f %%\n",
-          100.0 * why->speed_cost, 100.0 * why->aim_cost);
+  fprintf(out, "\n   errors       cost %.1f %%:", tenths(why->flawless_value - why->value));
+  for (int k = 0; k < CAROM_WHY_ERRORS; k++)
+    fprintf(out, "%s those of %s %.1f %%", text_if(k > 0, ","), of_error[k], tenths(why->cost[k]));
+  fputc('\n', out);
 }
 
 void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
@@ -131,12 +146,13 @@ void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
   static carom_why why;
   if (choice->kind == CAROM_PLAN_PASS)
     return;
-  carom_why_of(job, choice, &why);
+  if (carom_why_of(job, choice, &why) != CAROM_OK)
+    return;
   fputs("   aim          ", out);
   tell_aim(out, line, &why);
   fputs("tip ", out);
   tell_tip(out, &choice->cue);
   fprintf(out, "; %s, the ball at %.2g m/s\n", speed_words(why.speed), why.speed);
-  tell_next(out, job, line, &why);
+  tell_next(out, job, line, choice, &why);
   tell_misses(out, choice, &why);
 }

@@ -14,11 +14,19 @@ static const char *words_without_ball(const shot_line *line, const carom_plan_st
   static const double often = 0.15; /* fouls of a stroke that is no safe one */
   if (line->table->table.pockets == 0)
     return "no point";
-  if (c->keep >= 0.1) /* below it balls fall by luck, as for carom_names_ball() */
+  int objects = 0;
+  for (int k = 1; k < line->count; k++)
+    objects += line->ball[k].state.label < CAROM_BALL_POCKETED;
+  if (c->keep >= 0.1 && objects == 1) /* below it balls fall by luck, as for carom_names_ball() */
+    return "no sure pot: whether the ball falls is luck";
+  if (c->keep >= 0.1)
     return "no sure pot: which ball falls is luck";
   if (c->foul >= often)
     return "a risky safety: it often fouls";
-  return c->keep < 0.005 ? "a safety: nothing is potted" : "a safety: balls fall by luck alone";
+  if (c->keep < 0.005)
+    return "a safety: nothing is potted";
+  return objects == 1 ? "a safety: the ball falls by luck alone"
+                      : "a safety: balls fall by luck alone";
 }
 
 /* By which kind of stroke a ball falls: ", by a bank"; nothing where it is direct. */

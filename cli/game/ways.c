@@ -28,6 +28,9 @@ bool player_of(const given_player *options, carom_player *player) {
   if (!options->rated)
     *player = carom_player_of(options->errs ? options->scale : 1.0);
 
+  if (options->eye != 0.0)
+    player->eye = options->eye;
+
   /* a player who is advised thinks of all strokes */
   player->only_pots = player->shots = 0.0;
   return true;

@@ -145,7 +145,7 @@ typedef struct friction_law {
 typedef struct given_player {
   bool rated, errs, filmed;
   double rating, scale;
-  double speed_share, phi, theta, a, b, growth; /* as of carom_player */
+  double speed_share, phi, theta, a, b, growth, eye; /* as of carom_player */
 } given_player;
 
 enum precision { ANY_PRECISION = -1, DOUBLE_PRECISION, SINGLE_PRECISION };
@@ -180,7 +180,8 @@ bool numbers_are_read(shared_options *shared);
 extern const option_row option_solver, option_slip, option_steps, option_threads, option_friction,
     option_precision, option_data, option_output, option_summary, option_strict, option_derived,
     option_cushion, option_model, option_convention, option_law, option_least_step, option_with,
-    options_of_shots, options_of_motion, option_with_of_shots, option_player, option_player_errors;
+    options_of_shots, options_of_motion, option_with_of_shots, option_player, option_player_errors,
+    option_player_eye;
 
 OPTION_SET(
     set_numbers); /* given_numbers: NAME=X,... of balls and cues, or the file of a fit; with a

@@ -676,6 +676,19 @@ static OPTION_SET(set_errors) {
   return set_amount(row, text, &player->scale);
 }
 
+/* The library's 0 is the usual eye, and below 0 is none. */
+static OPTION_SET(set_eye) {
+  given_player *player = field;
+  value v;
+  if (!value_of(MEASURE_LENGTH, text, &v) || !(v.x >= 0.0 && v.x <= 0.01)) {
+    complain("--%s is a length of 0 to 10mm, such as 0.2mm, not '%s'%s", row->name, text,
+             one_hint(text));
+    return false;
+  }
+  player->eye = v.x > 0.0 ? v.x : -1.0;
+  return true;
+}
+
 /* ---- The rows */
 
 #define ROW(row, name, member, letter, argument, set, least, only, ...) \
@@ -738,8 +751,13 @@ ROW(option_player, "player", player, 0, "RATING", set_player, 0, ANY_KIND,
     "a player with this Fargo rating, 200 to 850, such as 500; or FIT.json, the player of a film, "
     "whom `python -m carom.fit --player` writes");
 ROW(option_player_errors, "errors", player, 0, "SCALE", set_errors, 0, ANY_KIND,
-    "a player with these errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE",
+    "a player with these errors of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees and 0.003 radii, times "
+    "SCALE; they grow with the speed",
     .else_usual = "1, if there is no --player");
+ROW(option_player_eye, "eye", player, 0, "LENGTH", set_eye, 0, ANY_KIND,
+    "how exactly the player sees where balls lie: the standard deviation of each place, each way, "
+    "which every stroke with errors draws anew; 0: exactly",
+    .usual = "0.2mm");
 
 /* Of whole shots: rows without a name stand for those of rows_of(). */
 ROW(options_of_shots, NULL, shot, 0, NULL, set_option, CAROM_READ_TO_STOP, ANY_KIND, NULL);

@@ -1,6 +1,6 @@
 /* carom_coach.h: advice for a player: every way to pot, to score or to reach a place; why a
  * stroke of a plan is good, and what it leaves; a run-out as one answer; what comes of many breaks
- * of a rack; and the odds of a match.
+ * of a rack; what strokes of a match cost, and drills of them; and the odds of a match.
  *
  *     carom_player player = carom_player_fargo(550.0);
  *     static carom_shot_way ways[1000];
@@ -126,8 +126,17 @@ CAROM_API int carom_way_succeeds(const carom_ways_job *job, const carom_shot *sh
 
 enum {
   CAROM_WHY_STROKES = 300, /* strokes with errors that are played for a choice. */
-  CAROM_WHY_RAILS = 16     /* the largest number of rails that carom_why lists. */
+  CAROM_WHY_RAILS = 16,    /* the largest number of rails that carom_why lists. */
+  CAROM_WHY_ERRORS = 4     /* values of carom_why_error. */
 };
+
+/* The errors of a player, by what the stroke loses by them. */
+typedef enum carom_why_error {
+  CAROM_WHY_AIM = 0,   /* of direction and elevation */
+  CAROM_WHY_SPEED = 1, /* of speed */
+  CAROM_WHY_TIP = 2,   /* of the place of the tip */
+  CAROM_WHY_EYE = 3    /* of the places of balls, as the player sees them */
+} carom_why_error;
 
 /* Why a choice of a plan is good. */
 typedef struct carom_why {
@@ -139,24 +148,29 @@ typedef struct carom_why {
                                      carom_pot; NaN: none is met. */
   double part;                        /* how much of that ball is hit, 0 to 1; NaN: none is met. */
   double speed;                       /* m/s: of the cue ball, just after the stroke. */
-  carom_ruling ruling;         /* what the stroke leaves without errors. If luck alone makes its
-                                     balls fall, it is the first stroke with errors that ends the
-                                     turn. */
-  carom_plan_stroke next;      /* the best stroke of the player who plays next. */
-  int32_t has_next;            /* 1 if `next` has a stroke, otherwise 0. */
-  double misses, loses;        /* shares of the strokes with errors that pass the turn, and that
-                                     lose the game. */
-  double opponent;             /* the opponent's chance to win after those that pass; NaN if none
-                                     do, and without an opponent. */
-  double speed_cost, aim_cost; /* how much more the choice would be worth, in value, without the
-                                     player's errors of speed, and without those of aim. */
-  int64_t strokes;             /* CAROM_WHY_STROKES. */
+  carom_ruling ruling; /* what the stroke leaves without errors. If carom_names_ball() is 0, the
+                             stroke has errors, and leaves about the mean of those that pass. */
+  double leave; /* the value of that leave to the player who strikes; NaN for a goal of the job. */
+  carom_plan_stroke next; /* the best stroke of the player who plays next. */
+  int32_t has_next;       /* 1 if `next` has a stroke, otherwise 0. */
+  double value;           /* of the choice, as carom_plan_replay() finds it. */
+  double misses, loses;   /* shares of the strokes with errors that pass the turn, and that lose the
+                             game. */
+  double opponent;        /* the opponent's chance to win after those that pass; NaN if none do,
+                             without an opponent, and for a goal. */
+  double flawless_value;  /* of the choice without errors of the player. */
+  double cost[CAROM_WHY_ERRORS]; /* of each carom_why_error, in value: the mean of what it costs
+                                    where it is added to the errors before it, and to those behind
+                                    it. Together flawless_value - value. Below 0: the error helps,
+                                    as where the stroke without errors leaves more than most. */
+  int64_t strokes;               /* CAROM_WHY_STROKES. */
 } carom_why;
 
 /* Explains a choice of a plan: how it is aimed, what it leaves, how often it misses and what the
- * errors of the player cost. The job is that of the plan; its memory is overwritten. Returns
- * CAROM_OK; CAROM_ERROR_NULL as in carom_plan(); CAROM_ERROR_OPTIONS for a choice to pass, which
- * has no stroke; or an error of carom_place_ball(). */
+ * errors of the player cost. All values are those of the plan's own estimate of what a stroke
+ * leaves. The job is that of the plan; its memory is overwritten. Returns
+ * CAROM_OK; CAROM_ERROR_OPTIONS for a choice to pass, which has no stroke; or an error of
+ * carom_plan() or carom_place_ball(). */
 CAROM_API carom_status carom_why_of(const carom_plan_job *job, const carom_plan_stroke *choice,
                                     carom_why *why);
 
@@ -167,8 +181,8 @@ CAROM_API int carom_names_ball(const carom_plan_stroke *choice);
 /* Plays n choices of a plan CAROM_WHY_STROKES times each, with the same errors for all, and sorts
  * them by the values of these strokes, best first. value, error, keep, foul, lose and seen become
  * those of these strokes. A choice to pass keeps its value. The chances of a plan are partly lucky
- * for choices that were seldom played; these are not. Returns CAROM_OK; CAROM_ERROR_NULL as in
- * carom_plan(); or CAROM_ERROR_OPTIONS if n is below 0. */
+ * for choices that were seldom played; these are not. Returns CAROM_OK; CAROM_ERROR_OPTIONS if n is
+ * below 0; or an error of carom_plan() or carom_place_ball(), with the choices before it sorted. */
 CAROM_API carom_status carom_plan_replay(const carom_plan_job *job, carom_plan_stroke *choices,
                                          int n);
 
@@ -198,9 +212,9 @@ typedef struct carom_sequence_stroke {
   double zone_share;  /* share of CAROM_SEQUENCE_TRIES strokes with errors that win, or that play on
                          with the cue ball in the zone. */
   double stray_share; /* share that plays on with the cue ball outside. */
-  double turn_share;  /* share of some strays, from which another pot than that of the next stroke
-                         is planned: the most frequent one, */
-  int32_t turn_ball, turn_pocket; /* this one; -1: none. */
+  double turn_share;  /* share of some strays from which a plan has the pot of turn_ball. */
+  int32_t turn_ball, turn_pocket; /* the ball and the pocket of the most frequent pot from strays
+                                     that is not the pot of the next stroke; -1: none. */
 } carom_sequence_stroke;
 
 /* How played run-outs ended: how many of them, or sums. All zero before the first one. */
@@ -214,14 +228,14 @@ CAROM_API size_t carom_sequence_memory(const carom_plan_options *options);
 
 /* Plans a run-out of the player at the table, as with options->chance_opponent 1: stroke by stroke,
  * each from what the one before leaves without errors. Writes up to `room` strokes, at most
- * CAROM_SEQUENCE_MOST; *found becomes their number. The last one wins, or is the first that names no
- * ball. in_hand: 1 if the cue ball is in hand before the first stroke, within the bounds of
- * job->leave. within: how much value the landing zones may lose, above 0 and below 1. A stroke takes
- * about as long as two plans, and as eight more of at most 200 shots. If options->stop is set, the
- * run-out ends with the stroke that is planned. options->slice is not read. Returns CAROM_OK;
- * CAROM_ERROR_NULL if a pointer is NULL or there is less memory than carom_sequence_memory();
- * CAROM_ERROR_OPTIONS for another `within`, a goal, or options->safeties; or an error of carom_plan()
- * for the first layout. */
+ * CAROM_SEQUENCE_MOST; *found becomes their number. The last one wins, or is the first after which
+ * the player hardly ever plays on. in_hand: 1 if the cue ball is in hand before the first stroke,
+ * within the bounds of job->leave. within: how much value the landing zones may lose, above 0 and
+ * below 1. A stroke takes about as long as two plans, and as eight more of at most 200 shots. If
+ * options->stop is set, the run-out ends with the stroke that is planned. options->slice is not
+ * read. Returns CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is less memory than
+ * carom_sequence_memory(); CAROM_ERROR_OPTIONS for another `within`, a goal, or options->safeties;
+ * or an error of carom_plan() for the first layout. */
 CAROM_API carom_status carom_sequence(const carom_plan_job *job, int in_hand, double within,
                                       carom_sequence_stroke *strokes, int room, int *found);
 
@@ -326,6 +340,68 @@ typedef struct carom_break_choice {
 CAROM_API carom_status carom_break_best(const carom_break_job *job, int64_t breaks,
                                         carom_break_choice *choices, int room);
 
+/* ---- Practice -------------------------------------------------------------------------------- */
+
+/* Kinds of strokes that are practised together. A pot is straight below a cut of 15 degrees and
+ * thin above 45, and long where both ways together have more than 1.2 m. */
+typedef enum carom_practice {
+  CAROM_PRACTICE_STRAIGHT = 0, /* short pots by their cuts */
+  CAROM_PRACTICE_CUT = 1,
+  CAROM_PRACTICE_THIN = 2,
+  CAROM_PRACTICE_LONG_STRAIGHT = 3, /* long ones */
+  CAROM_PRACTICE_LONG_CUT = 4,
+  CAROM_PRACTICE_LONG_THIN = 5,
+  CAROM_PRACTICE_INDIRECT = 6, /* a ball was called, or the turn kept, and no pot is direct */
+  CAROM_PRACTICE_OTHER = 7     /* safeties, and strokes at no pocket */
+} carom_practice;
+
+/* The words for a group, such as "long thin cut"; "" for a value not listed. */
+CAROM_API const char *carom_practice_name(carom_practice group);
+
+/* What a stroke of a match meant, and what came of it. */
+typedef struct carom_review {
+  carom_cue aim; /* the stroke that was meant: the one that was played, aimed at the middle of
+                           the pocket. */
+  double off;    /* degrees: how far the stroke was played to the left of that; NaN for
+                           INDIRECT and OTHER, as cut, distance and told. */
+  double cut,
+      distance;       /* degrees, m: the cut as in carom_pot; both ways, of the cue ball to the ball
+                           and of the ball to the pocket. */
+  double told;        /* chance that the meant stroke keeps the turn. */
+  double value, came; /* chance to win of the meant stroke, and after the one that was played. */
+  double miss_cost, place_cost; /* value - came: what the miss cost, or the pot won, and what the
+                                   places of the balls cost. The means are 0 for a player with the
+                                   errors of the job. 0 for INDIRECT and OTHER. */
+  int32_t group;                /* a carom_practice. */
+  int32_t ball, pocket;         /* that were meant, or -1. */
+  int32_t kept;                 /* 1: the stroke kept the turn or won. */
+} carom_review;
+
+/* Reviews a stroke of a game of two sides with pockets. The job has the layout, the rules with
+ * their state and the player before it, and options->seed and options->opponent; it needs no
+ * memory. `call` is that of the match; it is read in games with calls. In others the ball is the
+ * one that was met first, and the pocket that whose aim is nearest, within 10 degrees. Returns
+ * CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_OPTIONS for a bad player, and for other games; or an
+ * error of carom_shot_check(). */
+CAROM_API carom_status carom_review_of(const carom_plan_job *job, const carom_cue *played,
+                                       carom_call call, carom_review *review);
+
+/* A layout to practise a stroke. */
+typedef struct carom_drill {
+  carom_cue aim;   /* the stroke without errors. */
+  double place[2]; /* m: where that leaves the cue ball. */
+  double radius;   /* m: how near to it the cue ball has to come, which half of the player's pots
+                           do; 0 where the pot alone is practised. */
+  double rating;   /* the rating whose errors make the drill in half of the tries, 200 to 850. */
+  int32_t ball, pocket; /* that has to fall, and where. */
+} carom_drill;
+
+/* Makes a drill of a stroke that was reviewed, with the same job: its layout is that of the job.
+ * The place counts where it cost more than the miss. Statuses are those of carom_review_of();
+ * CAROM_ERROR_OPTIONS if the stroke aimed at no pocket directly. */
+CAROM_API carom_status carom_drill_of(const carom_plan_job *job, const carom_review *review,
+                                      carom_drill *drill);
+
 /* ---- Odds ------------------------------------------------------------------------------------ */
 
 /* The largest number of games of a set, and of sets of a match, that a side may need. */
@@ -342,7 +418,6 @@ typedef struct carom_series {
   int32_t order;       /* who breaks within a set: a carom_break_order. The sides begin the sets in
                           turn. */
   int32_t side;        /* which side breaks first, 0 or 1; -1: either, by lot. */
-  int32_t reserved;    /* must be 0. */
 } carom_series;
 
 /* The chances of a match. Those of the second side are 1 less these. */

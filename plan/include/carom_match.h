@@ -110,8 +110,10 @@ typedef enum carom_refusal {
 /* The word for a refusal, such as "bounds"; "" for NOT and a value not listed. */
 CAROM_API const char *carom_refusal_name(int refusal);
 
-/* Bytes with room for the lines of any act. */
-enum { CAROM_MATCH_TEXT = 135168 };
+enum {
+  CAROM_MATCH_TEXT = 135168, /* bytes with room for the lines of any act. */
+  CAROM_MATCH_ERRORS = 17    /* errors of aim by which strokes are weighed. */
+};
 
 /* A match. The caller reads it, and changes it by calls alone. It may be copied. */
 typedef struct carom_match {
@@ -131,8 +133,13 @@ typedef struct carom_match {
   int32_t extensions[CAROM_SEATS_MOST]; /* of each side: how many it has taken in this match. */
   int32_t timeouts[CAROM_SEATS_MOST];   /* of each side: how many it has taken in the set. */
   carom_shot_ball before[CAROM_BALLS_MOST]; /* the balls before the last stroke. */
-  carom_cue stroke;            /* the last stroke, whose shot carom_match_replay() gives. */
-  carom_player player;         /* of the seat at the table, by its rating. */
+  carom_cue stroke;                  /* the last stroke, whose shot carom_match_replay() gives. */
+  carom_player player;               /* of the seat at the table, by its rating. */
+  carom_player opponent;             /* of the last plan, by carom_match_opponent(). */
+  int64_t weighed[CAROM_SEATS_MOST]; /* of each seat: strokes in the set that tell how it errs, */
+  double log_likelihood[CAROM_SEATS_MOST][CAROM_MATCH_ERRORS]; /* and how likely they are for a
+                                  player whose error of aim, at 2 m/s, is 0.0125 degrees times
+                                  sqrt(2) to the power of 0, 1, 2 ... */
   uint32_t on;                 /* balls that may be met first in the next stroke, as a set. */
   uint32_t touching;           /* balls that touch the cue ball, as a set. */
   carom_bounds bounds;         /* of a cue ball in hand, until the stroke. */
@@ -299,10 +306,19 @@ CAROM_API carom_status carom_match_read_from(carom_match *match, carom_record *s
  * match is an undo too. */
 CAROM_API size_t carom_match_undone(const char *lines, size_t size);
 
+/* Who plays against the seat at the table: of two sides, the other's seat that plays next, with its
+ * rating. If that seat has none, the opponent is `player` with errors that are greater or smaller
+ * by what the strokes of the other side in this set show: how often it kept the turn, and how likely
+ * that was from each layout. Without such strokes, in games without pockets and in games that each
+ * plays for itself, the opponent is as good as `player`. CAROM_OK or CAROM_ERROR_NULL. */
+CAROM_API carom_status carom_match_opponent(const carom_match *match, const carom_player *player,
+                                            carom_player *opponent);
+
 /* A plan for the seat at the table: sets table, balls, count, rules, shot and leave of the job; its
  * cue to match->cue where that is NULL, and the ball of the cue to the cue ball where another one
- * may not be struck; its player by the rating of the seat where that is NULL. Options and memory
- * are the caller's. Plans with a cue ball in hand within its bounds. As carom_plan() and
+ * may not be struck; its player by the rating of the seat where that is NULL; and its opponent by
+ * carom_match_opponent() where that and the one of the options are NULL. Options and memory are the
+ * caller's. Plans with a cue ball in hand within its bounds. As carom_plan() and
  * carom_plan_hand(); goes on by carom_plan_continue(), with the match unchanged. CAROM_ERROR_ACT
  * where no stroke may be played. */
 CAROM_API carom_status carom_match_plan(carom_match *match, carom_plan_job *job,

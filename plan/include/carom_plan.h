@@ -32,7 +32,8 @@ extern "C" {
 /* ---- Players --------------------------------------------------------------------------------- */
 
 /* How the stroke of a player differs from the intended one: standard deviations of independent
- * normal errors. The stroke with errors stays within the bounds. Each number is 0 to 1000. */
+ * normal errors. The stroke with errors stays within the bounds. Each number except `eye` is 0 to
+ * 1000. */
 typedef struct carom_player {
   double speed;       /* m/s, for a cue whose tip loses nothing. With a tip of restitution e it is
                          2/(1 + e) times as much, so that the error of the ball's speed is the
@@ -59,11 +60,19 @@ typedef struct carom_player {
                          player. */
   double shots;       /* of this player's plans, if the options have neither shots nor seconds: 100
                          to 2000. 0: 2000. */
+  double eye;         /* m, at most 0.01: how exactly the player sees where balls lie, the standard
+                         deviation each way of the place of each ball. Whenever a plan plays a
+                         stroke with errors, the balls lie elsewhere by such errors, the same for
+                         all strokes that it compares. A gap between balls, or to a cushion, becomes
+                         at most twice as wide, so balls that touch stay in touch. 0: 0.0002, which
+                         is 0.2 mm. Below 0: none, the balls lie where they are given. */
 } carom_player;
 
-/* A player with all errors proportional to `scale` >= 0: 0.1 m/s, 0.1 degrees of direction and of
- * elevation, and 0.003 radii each way, times scale, for all strokes. These are the errors of a
- * public benchmark of eight-ball (AI3603, 2025). One scale for all errors is a convention. The
+/* A player with all errors proportional to `scale` >= 0. Those of a stroke of 2 m/s are 0.1 m/s,
+ * 0.1 degrees of direction and of elevation, and 0.003 radii each way, times scale, as in a public
+ * benchmark of eight-ball (AI3603, 2025). They grow with the speed as those of rated players: that
+ * of the speed is a share of 5 % times scale, and `growth` is 0.25. One scale for all errors is a
+ * convention. The eye is the usual one, but with scale 0 the player also sees places exactly. The
  * scale is not checked here: carom_plan() refuses a player with an error that is not 0 to 1000. */
 CAROM_API carom_player carom_player_of(double scale);
 
@@ -444,9 +453,9 @@ CAROM_API carom_plan_rules carom_plan_rules_of(carom_rules_kind kind);
 
 /* A player with a rating in a game, as the seats of a match have it: 100 points are odds of 2 to 1 in
  * a rack, a frame of snooker, 15 points of three-cushion or 15 of straight pool. A 500 has the
- * errors of carom_player_fargo() in each game. Where a game lets the better player win more often
- * than eight-ball does, others have errors that differ less from those. A kind that is none counts
- * as eight-ball. */
+ * errors of carom_player_fargo() in each game. Others differ from a 500 by the errors of another
+ * rating, which is nearer to 500 where a game lets the better player win more often. A kind that is
+ * none counts as eight-ball. */
 CAROM_API carom_player carom_player_rated(double rating, carom_rules_kind rules);
 
 /* Puts balls[ball] on the foot spot, or as near to it as there is room on the long string: behind
@@ -656,7 +665,7 @@ typedef struct carom_plan_stroke {
   int32_t cushions;     /* impacts of that ball on cushions, in one such stroke. */
   double value;         /* chance to win, and half the chance to draw; without an opponent, the
                            share of the balls that are potted; 0 to 1. In four-ball a stroke that
-                           costs a point counts -1. A foul counts 0.03 less than the position that
+                           costs a point counts -1. A foul counts 0.018 less than the position that
                            follows it, so that the plan chooses a legal stroke among equally good
                            ones. The shots by which a stroke was chosen were partly lucky for it. So
                            all chances of a choice are those of fresh shots, whose errors chose
@@ -723,7 +732,8 @@ typedef struct carom_plan_job {
                                         carom_match_plan() sets it. */
   const carom_plan_goal *goal;       /* NULL: the best chance to win. Otherwise the value of a
                                         choice is the chance that its stroke reaches the goal. */
-  uint64_t reserved[2];              /* must be 0. */
+  const carom_player *opponent;      /* NULL: the one of the options. carom_match_plan() sets it. */
+  uint64_t reserved[1];              /* must be 0. */
 } carom_plan_job;
 
 /* The number of bytes that a plan with these options needs: about 320,000 for the defaults, and

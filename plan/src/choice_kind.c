@@ -29,8 +29,8 @@ static int32_t seen_kind(search *plan, const carom_candidate *c, const carom_pla
     if (n == 0) /* without errors */
       draws = 0;
     carom_cue cue = carom_search_stroke(plan, c, draws, n);
-    carom_ball_state struck;
-    const carom_prepared layout = carom_search_layout(plan, c, draws, n, &struck);
+    carom_ball_state drawn[CAROM_BALLS_MOST];
+    const carom_prepared layout = carom_search_layout(plan, c, draws, n, drawn);
     cue.ball = plan->cue_ball;
     carom_shoot_prepared(&layout, &cue, &shot);
     carom_search_spend(plan, shot.count);

@@ -44,6 +44,11 @@ carom_plan_job carom_job_after(const carom_plan_job *job, const carom_ruling *ru
   next.rules = rules;
   next.balls = ruling->balls;
   next.leave = (int64_t)ruling->turn.leave;
+  next.goal = NULL;
+  if (ruling->turn.outcome == CAROM_TURN_PASS) {
+    next.player = carom_opponent_of(job, job->options);
+    next.opponent = job->player;
+  }
   return next;
 }
 

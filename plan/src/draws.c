@@ -63,12 +63,15 @@ double carom_uniform(uint64_t seed, uint32_t stage, uint64_t row, uint32_t numbe
 }
 
 /* The method of Box and Muller. */
+void carom_normal_pair(uint64_t seed, uint32_t stage, uint64_t row, uint32_t number, double z[2]) {
+  double sine, cosine;
+  const double size = sqrt(-2.0 * log_of(carom_uniform(seed, stage, row, number)));
+  carom_sincos(2.0 * pi * carom_uniform(seed, stage, row, number + 1), &sine, &cosine);
+  z[0] = size * cosine;
+  z[1] = size * sine;
+}
+
 void carom_normals(uint64_t seed, uint32_t stage, uint64_t row, double z[6]) {
-  for (uint32_t k = 0; k < 6; k += 2) {
-    double sine, cosine;
-    const double size = sqrt(-2.0 * log_of(carom_uniform(seed, stage, row, k)));
-    carom_sincos(2.0 * pi * carom_uniform(seed, stage, row, k + 1), &sine, &cosine);
-    z[k] = size * cosine;
-    z[k + 1] = size * sine;
-  }
+  for (uint32_t k = 0; k < 6; k += 2)
+    carom_normal_pair(seed, stage, row, k, &z[k]);
 }

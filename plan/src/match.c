@@ -459,10 +459,14 @@ carom_status carom_match_next(carom_match *match) {
   if (!is_ended)
     put_line(match, CAROM_RECORD_END);
   int32_t timeouts[CAROM_SEATS_MOST];
+  int64_t weighed[CAROM_SEATS_MOST];
+  double likely[CAROM_SEATS_MOST][CAROM_MATCH_ERRORS];
   char end[128];
   const size_t end_size = (size_t)carom_min(match->size, (int64_t)sizeof end);
   memcpy(end, match->text, end_size);
   memcpy(timeouts, match->timeouts, sizeof timeouts);
+  memcpy(weighed, match->weighed, sizeof weighed);
+  memcpy(likely, match->log_likelihood, sizeof likely);
   set_stops(&match->record.options, NULL);
   const carom_table table = match->record.table;
   const carom_shot_options options = match->record.options;
@@ -484,6 +488,8 @@ carom_status carom_match_next(carom_match *match) {
   if (status != CAROM_OK)
     return status;
   memcpy(match->timeouts, timeouts, sizeof timeouts);
+  memcpy(match->weighed, weighed, sizeof weighed);
+  memcpy(match->log_likelihood, likely, sizeof likely);
   memmove(match->text + end_size, match->text, (size_t)match->size);
   memcpy(match->text, end, end_size);
   match->size += (int64_t)end_size;
@@ -609,6 +615,7 @@ static carom_status play(carom_match *match, carom_record_kind kind, const carom
   if (status > 0)
     return status;
   rule(match, status < 0, match->call);
+  carom_match_weigh(match);
   apply(match, true);
   return CAROM_OK;
 }
@@ -974,6 +981,12 @@ carom_status carom_match_plan(carom_match *match, carom_plan_job *job, carom_pla
     job->player = NULL;
     if (match->player.speed_most > 0.0 || match->player.phi > 0.0)
       job->player = &match->player;
+  }
+  if (job->opponent == NULL || job->opponent == &match->opponent) {
+    const bool is_given = job->options != NULL && job->options->opponent != NULL;
+    job->opponent = NULL;
+    if (!is_given && carom_match_opponent(match, job->player, &match->opponent) == CAROM_OK)
+      job->opponent = &match->opponent;
   }
   if (!may_strike(match, job->cue->ball)) {
     match->record.cue = *job->cue;

@@ -73,7 +73,7 @@ static void follow_both(const series *s, series_end end[2]) {
 
 static bool is_good(const carom_series *s) {
   bool good = fabs(s->break_points) <= 1000.0 && (uint32_t)s->order <= CAROM_BREAKS_LOSER &&
-              s->side >= -1 && s->side <= 1 && s->reserved == 0;
+              s->side >= -1 && s->side <= 1;
   for (int k = 0; k < 2; k++)
     good &= s->rating[k] >= 0.0 && s->rating[k] <= 1000.0 && s->games[k] >= 1 &&
             s->games[k] <= CAROM_SERIES_MOST && s->sets[k] >= 0 && s->sets[k] <= CAROM_SERIES_MOST;

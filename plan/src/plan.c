@@ -20,6 +20,7 @@
  * are played at once or in slices, between which all of the plan is in the caller's memory. */
 #include "anytime.h"
 #include "candidates.h"
+#include "carom_coach.h"
 #include "drawn_tables.h"
 #include "goals.h"
 #include "listing.h"
@@ -71,9 +72,9 @@ static int64_t most_candidates(int64_t shots, double scan) {
          SPARE;
 }
 
-/* Rows of the largest stage. */
+/* Rows of the largest stage; those of reasons are of one candidate. */
 static int64_t most_rows(int64_t shots, double scan) {
-  return shots + most_candidates(shots, scan);
+  return carom_max(shots + most_candidates(shots, scan), CAROM_WHY_STROKES);
 }
 
 static const carom_plan_options *or_usual(const carom_plan_options *options) {
@@ -164,8 +165,8 @@ static carom_status check_job(const carom_plan_job *job) {
   if (!is_whole(job))
     return CAROM_ERROR_NULL;
   const carom_plan_options *options = or_usual(job->options);
-  const bool good_players = carom_player_is_good(job->player) &&
-                            (options->opponent == NULL || carom_player_is_good(options->opponent));
+  const bool good_players =
+      carom_player_is_good(job->player) && carom_player_is_good(carom_opponent_of(job, options));
   if (check_options(options) != CAROM_OK || !good_players || !good_rules(job->rules) ||
       (uint64_t)job->leave > CAROM_LEAVE_BAULK || !carom_goal_is_good(job) ||
       !CAROM_RESERVED_IS_ZERO(job))
@@ -280,10 +281,7 @@ static double foul_value_of(const search *plan) {
   turn = carom_turn_seen(rules, &game, turn);
   if (turn.outcome == CAROM_TURN_LOSE || rules->race == CAROM_RACE_ALONE)
     return 0.0;
-  const bool in_hand = turn.leave >= CAROM_LEAVE_ANYWHERE;
-  if (turn.outcome == CAROM_TURN_KEEP)
-    return carom_value_of(&plan->view, &game, plan->state, 0, in_hand);
-  return carom_search_foul(1.0 - carom_value_of(&plan->view, &game, plan->state, 1, in_hand));
+  return carom_search_leave(plan, &game, plan->state, &turn);
 }
 
 /* Checks the arguments, and makes all of a plan but its candidates. */
@@ -313,10 +311,8 @@ static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand)
   return CAROM_OK;
 }
 
-/* Prepares a job once for all that is played of it: its plan, in the job's memory, from which shots
- * can be played. */
-static carom_status prepare_job(const carom_plan_job *job, bool in_hand, int choices,
-                                search **prepared) {
+carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int choices,
+                                  search **prepared) {
   search *plan = place(job);
   if (plan == NULL)
     return CAROM_ERROR_NULL;
@@ -352,8 +348,7 @@ static void think(search *plan) {
 
 /* ---- What callers have */
 
-/* Does a part of a plan, `work`, with the threads that the options ask for. */
-static void with_crew(search *plan, carom_crew_caller *work) {
+void carom_search_with_crew(search *plan, carom_crew_caller *work) {
   const bool timed = plan->seconds > 0.0;
   plan->end = 0.0;
   if (timed)
@@ -420,7 +415,7 @@ static carom_status play_slice(search *plan, carom_plan_stroke *choices, int roo
   if (plan->options.slice > 0)
     plan->slice = plan->options.slice;
   if (!plan->ended)
-    with_crew(plan, plan->go);
+    carom_search_with_crew(plan, plan->go);
   *found = 0;
   if (plan->ended)
     *found = carom_search_give(plan, choices, room);
@@ -432,7 +427,7 @@ carom_status carom_plan(const carom_plan_job *job, carom_plan_stroke *choices, i
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
   search *plan;
-  const carom_status status = prepare_job(job, false, room, &plan);
+  const carom_status status = carom_search_prepare(job, false, room, &plan);
   if (status != CAROM_OK)
     return status;
   plan->fingerprint = fingerprint_of(job);
@@ -459,7 +454,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
   search *plan;
-  carom_status status = prepare_job(job, true, room, &plan);
+  carom_status status = carom_search_prepare(job, true, room, &plan);
   if (status != CAROM_OK)
     return status;
   think(plan);
@@ -488,7 +483,7 @@ carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, in
   if (n < 0 || n > MOST)
     return CAROM_ERROR_OPTIONS;
   search *plan;
-  carom_status status = prepare_job(job, false, 1, &plan);
+  carom_status status = carom_search_prepare(job, false, 1, &plan);
   for (int k = 0; k < n && status == CAROM_OK; k++)
     status = check_stroke(plan, &cues[k]);
   if (status != CAROM_OK)
@@ -496,19 +491,7 @@ carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, in
   plan->cues = cues;
   plan->choices = choices;
   plan->tries = n;
-  with_crew(plan, try_all);
-  return CAROM_OK;
-}
-
-carom_status carom_search_value(search *plan, const carom_plan_job *job,
-                                const carom_rules_state *game, int seat, int in_hand,
-                                double *value) {
-  const carom_status status = begin(plan, job, in_hand != 0);
-  if (status != CAROM_OK)
-    return status;
-  *value = carom_value_of(&plan->view, game, plan->state, seat, in_hand != 0);
-  if (job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL)
-    *value = carom_search_share(plan, *value);
+  carom_search_with_crew(plan, try_all);
   return CAROM_OK;
 }
 
@@ -516,7 +499,11 @@ carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *va
   search plan;
   if (value == NULL)
     return CAROM_ERROR_NULL;
-  if (!is_whole(job))
-    return CAROM_ERROR_NULL;
-  return carom_search_value(&plan, job, &job->rules->state, 0, in_hand, value);
+  const carom_status status = begin(&plan, job, in_hand != 0);
+  if (status != CAROM_OK)
+    return status;
+  *value = carom_value_of(&plan.view, &job->rules->state, plan.state, 0, in_hand != 0);
+  if (job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL)
+    *value = carom_search_share(&plan, *value);
+  return CAROM_OK;
 }

@@ -5,47 +5,64 @@
 
 #include <math.h>
 
+/* The errors of a stroke of 2 m/s: of its direction, degrees, of its tip, radii, and of its speed,
+ * a share. They grow with the speed. */
+static carom_player player_with(double aim, double tip, double share) {
+  static const double growth = 0.25, speed = 2.0; /* s/m; m/s */
+  const double grown = sqrt(1.0 + growth * speed * growth * speed);
+  return (carom_player){.speed_share = share,
+                        .phi = aim / grown,
+                        .theta = aim,
+                        .a = tip / grown,
+                        .b = tip / grown,
+                        .growth = growth};
+}
+
 carom_player carom_player_of(double scale) {
-  return (carom_player){.speed = 0.1 * scale,
-                        .phi = 0.1 * scale,
-                        .theta = 0.1 * scale,
-                        .a = 0.003 * scale,
-                        .b = 0.003 * scale};
+  carom_player player = player_with(0.1 * scale, 0.003 * scale, 0.05 * scale);
+  if (scale == 0.0)
+    player.eye = -1.0;
+  return player;
 }
 
 /* The numbers of players by rating, in steps of 100 from 200. Between them shots and the share are
- * linear, and the error of aim is exponential. docs/understanding/plan.md has the games of which
- * they come. */
-carom_player carom_player_fargo(double rating) {
+ * linear, and the error of aim is exponential, which also goes on beyond the ends where a game has
+ * greater steps. docs/understanding/plan.md has the games of which they come. */
+carom_player carom_player_stepped(double rating, const double steps[2]) {
   /* the error of aim of a stroke of 2 m/s, degrees; shots; the share of strokes that only pot */
   static const double at_rating[][3] = {
       {0.978, 146.0, 1.0},  {0.621, 163.0, 0.97}, {0.394, 183.0, 0.92}, {0.25, 205.0, 0.79},
       {0.159, 230.0, 0.57}, {0.101, 257.0, 0.31}, {0.05, 500.0, 0.0},   {0.012, 500.0, 0.0}};
   enum { STEPS = sizeof at_rating / sizeof at_rating[0] - 1 };
-  static const double least = 200.0, most = 850.0, step = 100.0, growth = 0.25, speed = 2.0;
-  const double r = fmin(fmax(rating, least), most); /* the least of NaN too */
-  const int k = (int)carom_min((int64_t)((r - least) / step), STEPS - 1);
+  static const double least = 200.0, even = 500.0, most = 850.0, step = 100.0;
+  const double given = fmin(fmax(rating, least), most); /* the least of NaN too */
+  const double r = even + 0.01 * steps[given > even] * (given - even);
+  const int k = (int)carom_max(0, carom_min((int64_t)((r - least) / step), STEPS - 1));
   const double part = (r - least) / step - k, *low = at_rating[k], *high = at_rating[k + 1];
 
   /* the other errors of a stroke of this speed, by a power of that of aim */
   const double aim = low[0] * carom_exp(part * carom_log(high[0] / low[0]));
-  const double power = carom_exp(0.7 * carom_log(aim / 0.1)), tip = 0.02 * power;
-  const double grown = sqrt(1.0 + growth * speed * growth * speed);
-  return (carom_player){.speed = 0.02,
-                        .speed_share = carom_within(0.035 * power, 0.0, 0.25),
-                        .phi = aim / grown,
-                        .theta = aim,
-                        .a = tip / grown,
-                        .b = tip / grown,
-                        .growth = growth,
-                        .only_pots = low[2] + part * (high[2] - low[2]),
-                        .shots = round(low[1] + part * (high[1] - low[1]))};
+  const double power = carom_exp(0.7 * carom_log(aim / 0.1));
+  carom_player player = player_with(aim, 0.02 * power, carom_within(0.035 * power, 0.0, 0.25));
+  player.speed = 0.02;
+  player.only_pots = carom_within(low[2] + part * (high[2] - low[2]), 0.0, 1.0);
+  player.shots = carom_within(round(low[1] + part * (high[1] - low[1])), PLAYER_SHOTS_LEAST,
+                              PLAYER_SHOTS_MOST);
+  return player;
+}
+
+carom_player carom_player_fargo(double rating) {
+  static const double steps[2] = {100.0, 100.0};
+  return carom_player_stepped(rating, steps);
 }
 
 double carom_player_growth(const carom_player *player, double speed) {
   const double grows = player->growth * speed;
   return sqrt(1.0 + grows * grows);
 }
+
+/* m: twice the gap that an eye of normal acuity sees at 0.3 m, CAROM_RULES_TOUCH. A convention. */
+static const double usual_eye = 2.0 * CAROM_RULES_TOUCH;
 
 carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue) {
   carom_player bounded = *player;
@@ -60,6 +77,9 @@ carom_player carom_player_bounded(const carom_player *player, const carom_cue *c
   if (!(most > 0.0))
     bounded.speed_most = fmax(least, usual_most);
   bounded.tip_most = carom_or_usual(player->tip_most, 0.5);
+  bounded.eye = fmax(player->eye, 0.0);
+  if (player->eye == 0.0)
+    bounded.eye = usual_eye;
   return bounded;
 }
 
@@ -92,7 +112,7 @@ void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t num
 }
 
 bool carom_player_is_good(const carom_player *p) {
-  static const double most = 1000.0; /* of each number */
+  static const double most = 1000.0, eye_most = 0.01; /* of each number; and of the eye, m */
   const double numbers[] = {p->speed,    p->speed_share, p->phi,         p->theta,
                             p->a,        p->b,           p->speed_least, p->speed_most,
                             p->tip_most, p->growth,      p->only_pots};
@@ -101,5 +121,5 @@ bool carom_player_is_good(const carom_player *p) {
     good &= numbers[k] >= 0.0 && numbers[k] <= most;
   const bool has_shots =
       p->shots >= (double)PLAYER_SHOTS_LEAST && p->shots <= (double)PLAYER_SHOTS_MOST;
-  return good && p->only_pots <= 1.0 && (p->shots == 0.0 || has_shots);
+  return good && p->only_pots <= 1.0 && p->eye <= eye_most && (p->shots == 0.0 || has_shots);
 }

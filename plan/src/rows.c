@@ -4,6 +4,7 @@
 #include "rows.h"
 
 #include "drawn_tables.h"
+#include "eye.h"
 #include "goals.h"
 #include "rules.h"
 #include "table/marks.h"
@@ -15,10 +16,10 @@ typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 typedef carom_search search;
 
-/* What comes of a shot. */
+/* Where the balls of a shot lie, and what comes of it. */
 typedef struct shot_result {
   carom_facts facts;
-  carom_ball_state final[CAROM_BALLS_MOST];
+  carom_ball_state drawn[CAROM_BALLS_MOST], final[CAROM_BALLS_MOST];
 } shot_result;
 
 carom_cue carom_search_stroke(const search *plan, const candidate *c, uint32_t draws, int64_t row) {
@@ -36,12 +37,18 @@ carom_cue carom_search_stroke(const search *plan, const candidate *c, uint32_t d
 }
 
 carom_prepared carom_search_layout(const search *plan, const candidate *c, uint32_t draws,
-                                   int64_t row, carom_ball_state *struck) {
+                                   int64_t row, carom_ball_state drawn[CAROM_BALLS_MOST]) {
   carom_prepared layout = carom_search_drawn(plan, draws, row);
-  *struck = plan->played[plan->cue_ball].state;
-  struck->r[0] = c->r[0];
-  struck->r[1] = c->r[1];
-  layout.state[plan->cue_ball] = struck;
+  carom_ball_state struck = plan->played[plan->cue_ball].state;
+  struck.r[0] = c->r[0];
+  struck.r[1] = c->r[1];
+  layout.state[plan->cue_ball] = &struck;
+  double eye = 0.0;
+  if (draws != 0)
+    eye = plan->player.eye;
+  carom_eye_draw(&layout, plan->cue_ball, eye, plan->options.seed, draws, (uint64_t)row, drawn);
+  for (int k = 0; k < layout.count; k++)
+    layout.state[k] = &drawn[k];
   return layout;
 }
 
@@ -178,9 +185,8 @@ static void leave_layout(const search *plan, carom_rules_state *game, const cand
   }
 }
 
-/* The worth of a layout, and of the points that the turn made without an opponent. */
-static double worth_of_layout(const search *plan, const carom_rules_state *game,
-                              const carom_ball_state *layout, const carom_turn *turn) {
+double carom_search_leave(const search *plan, const carom_rules_state *game,
+                          const carom_ball_state *layout, const carom_turn *turn) {
   const carom_plan_rules *rules = plan->job.rules;
   /* any ball may be struck: about as good as the cue ball in hand */
   const bool in_hand = turn->leave >= CAROM_LEAVE_ANYWHERE || rules->any_cue_ball != 0;
@@ -188,8 +194,12 @@ static double worth_of_layout(const search *plan, const carom_rules_state *game,
   double worth = carom_value_of(&plan->view, game, layout, passes, in_hand);
   if (passes)
     worth = 1.0 - worth;
-  if (passes && turn->foul != 0)
-    worth = carom_search_foul(worth);
+  if (passes && turn->foul != 0) {
+    /* values of layouts are right to some hundredths, and a legal stroke that is as good is to be
+     * chosen */
+    const double less = 0.018;
+    worth = carom_within(worth - less, 0.0, 1.0);
+  }
   if (rules->race == CAROM_RACE_ALONE && !passes)
     worth = carom_search_share(plan, turn->points + worth);
   return worth;
@@ -212,9 +222,9 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   if (!ends)
     leave_layout(plan, &game, c, final, taken_back, &turn);
   if (carom_has_goal(&plan->job))
-    o.worth = !taken_back && carom_search_reaches(plan, &game, final, &turn);
+    o.worth = !taken_back && carom_search_reaches(plan, &game, final, &turn, &o.near);
   else if (!ends)
-    o.worth = worth_of_layout(plan, &game, final, &turn);
+    o.worth = carom_search_leave(plan, &game, final, &turn);
   return o;
 }
 
@@ -298,8 +308,8 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const candidate *c = &plan->found[s->first + row / s->each];
     carom_cue cue = carom_search_stroke(plan, c, s->draws, row % s->each);
     cue.ball = plan->cue_ball;
-    carom_ball_state struck;
-    const carom_prepared layout = carom_search_layout(plan, c, s->draws, row % s->each, &struck);
+    const carom_prepared layout =
+        carom_search_layout(plan, c, s->draws, row % s->each, result.drawn);
     const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
     if (plan->plays < plan->view.count)
       spread(plan, &result);
@@ -313,7 +323,12 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     /* a stroke of the scan that begins with a foul is dropped: its layout is not judged */
     outcome *o = &plan->outcome[row];
     if (s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(plan, first_hit))
-      *o = (outcome){.first = (int8_t)first_hit};
+      *o = (outcome){.worth = plan->foul_value,
+                     .turn = CAROM_TURN_PASS,
+                     .foul = 1,
+                     .ball = -1,
+                     .pocket = -1,
+                     .first = (int8_t)first_hit};
     else
       *o = judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
     o->events = (uint8_t)carom_min(shot.count, UINT8_MAX);

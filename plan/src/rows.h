@@ -16,9 +16,11 @@ void carom_search_stage(carom_search *plan, int64_t first, int64_t candidates, i
 bool carom_search_play(carom_search *plan);
 /* Takes the cost of a shot with so many events from the slice. */
 void carom_search_spend(carom_search *plan, int64_t events);
-/* The layout of a row of a candidate, whose cue ball, *struck, lies where it is put. */
+/* The layout of a row of a candidate, whose cue ball lies where it is put; draws above 0: as the
+ * player may see it. */
 carom_prepared carom_search_layout(const carom_search *plan, const carom_candidate *c,
-                                   uint32_t draws, int64_t row, carom_ball_state *struck);
+                                   uint32_t draws, int64_t row,
+                                   carom_ball_state drawn[CAROM_BALLS_MOST]);
 /* The stroke of a candidate, with the errors of a row; draws 0: without errors. */
 carom_cue carom_search_stroke(const carom_search *plan, const carom_candidate *c, uint32_t draws,
                               int64_t row);
@@ -27,12 +29,11 @@ bool carom_search_begins_well(const carom_search *plan, int first);
 /* Whether a stroke of the scan, or one near the best, may be a candidate after its shot without
  * errors. */
 bool carom_search_may_join(const carom_search *plan, const carom_outcome *o);
-/* What a foul counts that is worth `worth`. Values of layouts are right to some hundredths, and a
- * legal stroke that is as good is to be chosen. */
-static inline double carom_search_foul(double worth) {
-  const double less = 0.018;
-  return carom_within(worth - less, 0.0, 1.0);
-}
+/* What a turn leaves, as the player who made it values it: the points of a player who is alone, and
+ * the value of the layout to whoever plays next. Plans, fouls, passes and reasons all take it from
+ * here. */
+double carom_search_leave(const carom_search *plan, const carom_rules_state *game,
+                          const carom_ball_state *layout, const carom_turn *turn);
 /* Points as a share of the balls left before the shot. */
 double carom_search_share(const carom_search *plan, double points);
 

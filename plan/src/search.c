@@ -101,8 +101,9 @@ static bool loses(const search *plan) {
 static void pass(search *plan) {
   carom_rules_state game = plan->job.rules->state; /* rules change it as they judge */
   const carom_call call = {CAROM_CALL_PASS, -1};
-  plan->job.rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts, call);
-  const double value = 1.0 - carom_value_of(&plan->view, &game, plan->state, 1, false);
+  const carom_turn turn =
+      plan->job.rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts, call);
+  const double value = carom_search_leave(plan, &game, plan->state, &turn);
   carom_search_add(plan, (candidate){.chose = {.sum = value, .squares = value * value, .seen = 1},
                                      .kind = CAROM_PLAN_PASS,
                                      .ball = CAROM_CALL_PASS,
@@ -213,11 +214,17 @@ static int64_t in_round(search *plan) {
   return carom_min(n, plan->count);
 }
 
+/* Whether strokes of the grid seldom succeed, so that those near the best join each round. */
+static bool is_sparse(const search *plan) {
+  const bool has_place = plan->job.goal != NULL && plan->job.goal->kind == CAROM_GOAL_NEAR;
+  return plan->blind || has_place;
+}
+
 /* Strokes near the best are played once without errors. False where there are none. */
 static bool add_near(search *plan) {
   const int64_t first = plan->count;
   int64_t parents = 1;
-  if (plan->blind)
+  if (is_sparse(plan))
     parents = BLIND_PARENTS;
   plan->neighbours = 0;
   plan->entered = in_round(plan);
@@ -252,7 +259,7 @@ static void next_round(search *plan) {
       look_again(plan);
     return;
   }
-  const bool joined = plan->round == NEAR_ROUND || (plan->blind && plan->round > 0);
+  const bool joined = plan->round == NEAR_ROUND || (is_sparse(plan) && plan->round > 0);
   if (joined && plan->neighbours < 0 && add_near(plan))
     return;
   int64_t n;

@@ -15,9 +15,13 @@ enum { PLACES_MOST = 24 }; /* of a cue ball in hand, from which strokes are cand
 enum { ROWS_LEAST = 4 };   /* rows worth a thread */
 enum { LISTED_MOST = 16 }; /* choices behind the best that are played anew */
 
+/* A chance to play on below which balls fall by luck. */
+static const double carom_luck = 0.1;
+
 /* What shots with errors came to. */
 typedef struct carom_tally {
   double sum, squares;      /* of the worths of the shots, and of their squares */
+  double near;              /* sum of how near they came to a goal that is a place */
   int32_t seen;             /* number of shots */
   int32_t keep, foul, lose; /* shots by which the player keeps his turn, fouls, loses */
 } carom_tally;
@@ -48,6 +52,7 @@ typedef struct carom_outcome {
   int16_t cushions;    /* impacts of that ball on cushions */
   int8_t first;        /* the ball that was met first, or -1 */
   uint16_t events;     /* of the shot */
+  float near;          /* 1 on the place that is the goal, 0 from 1 m on */
 } carom_outcome;
 
 /* A stage plays each of some candidates several times. Row k is the shot of candidate
@@ -158,11 +163,12 @@ typedef struct carom_search {
   carom_candidate best;          /* of the rounds of doubling before */
 } carom_search;
 
-/* carom_plan_value() of a job, in room of the caller, for another state of its game and to a player
- * as of carom_value_of(); *value stays where there is an error. */
-carom_status carom_search_value(carom_search *plan, const carom_plan_job *job,
-                                const carom_rules_state *game, int seat, int in_hand,
-                                double *value);
+/* plan.c: prepares a job once for all that is played of it: its plan, in the job's memory, from
+ * which shots can be played. */
+carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int choices,
+                                  carom_search **prepared);
+/* Does a part of a plan, `work`, with the threads that the options ask for. */
+void carom_search_with_crew(carom_search *plan, carom_crew_caller *work);
 
 static inline bool carom_is_stopped(const carom_search *plan) {
   return plan->late || (plan->options.stop != NULL && *plan->options.stop != 0);

@@ -227,8 +227,7 @@ bool carom_is_beyond(const carom_match *match, const carom_cue *cue, char *text,
 
 /* ---- Turns */
 
-/* The seat of a side whose turn it is. */
-static int32_t seat_of(const carom_match *match, int64_t side) {
+int32_t carom_seat_of_side(const carom_match *match, int64_t side) {
   int32_t seats[CAROM_SEATS_MOST], count = 0;
   for (int32_t k = 0; k < match->seating.count; k++)
     if (match->seating.seat[k].side == side)
@@ -242,7 +241,7 @@ void carom_take_seat(carom_match *match) {
   carom_record *record = &match->record;
   if (match->rules.race == CAROM_RACE_SEATS)
     record->player = match->rules.state.seat;
-  match->seat = seat_of(match, record->player);
+  match->seat = carom_seat_of_side(match, record->player);
   if (match->seating.count > 2)
     match->rules.state.seat = record->standing.seat = match->seat;
 }

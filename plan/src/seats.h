@@ -40,6 +40,8 @@ bool carom_is_beyond(const carom_match *match, const carom_cue *cue, char *text,
 
 /* Whose turn of a side it is behind a ruling: of a stroke or not, which passes the table or not. */
 void carom_end_visit(carom_match *match, bool struck, bool passes);
+/* The seat of a side whose turn it is. */
+int32_t carom_seat_of_side(const carom_match *match, int64_t side);
 /* The seat whose turn it is comes to the table. */
 void carom_take_seat(carom_match *match);
 

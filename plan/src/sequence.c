@@ -131,7 +131,7 @@ static double value_at(const run_out *r, carom_ruling *ruling, const double plac
   const double own[2] = {cue->r[0], cue->r[1]};
   double value = -1.0;
   memcpy(cue->r, place, sizeof own);
-  carom_search_value(r->job.memory, &next, &ruling->state, 0, 0, &value);
+  carom_plan_value(&next, 0, &value);
   memcpy(cue->r, own, sizeof own);
   return value;
 }
@@ -277,12 +277,17 @@ static void find_turn(const run_out *r, int strays, const carom_plan_stroke *nex
   }
 }
 
-/* Plays the stroke without errors; where it misses although it is meant to pot, the first one with
- * errors that plays on stands for it. */
+/* Whether a stroke often plays on, be it by luck; others are safeties. */
+static bool is_pot(const carom_plan_stroke *choice) {
+  static const double often = 0.1; /* as carom_names_ball() has it */
+  return carom_names_ball(choice) || choice->keep >= often;
+}
+
+/* Plays the stroke without errors; where a pot misses, the first one with errors that plays on stands
+ * for it. */
 static void find_leave(const run_out *r, carom_sequence_stroke *s) {
   play(r, &s->choice.cue, call_of(&s->choice), &s->ruling);
-  for (int n = 0; n < CAROM_SEQUENCE_TRIES && carom_names_ball(&s->choice) && !plays_on(&s->ruling);
-       n++) {
+  for (int n = 0; n < CAROM_SEQUENCE_TRIES && is_pot(&s->choice) && !plays_on(&s->ruling); n++) {
     const carom_cue cue = struck_by(r, &s->choice, (uint64_t)n);
     play(r, &cue, call_of(&s->choice), &s->ruling);
   }
@@ -317,8 +322,7 @@ carom_status carom_sequence(const carom_plan_job *job, int in_hand, double withi
     find_zone(&r, within, s);
     find_tolerance(&r, s);
     strays = find_shares(&r, s);
-    const bool ends = s->ruling.turn.outcome != CAROM_TURN_KEEP || !carom_names_ball(&s->choice);
-    if (ends || is_stopped(&r)) {
+    if (s->ruling.turn.outcome != CAROM_TURN_KEEP || !is_pot(&s->choice) || is_stopped(&r)) {
       n++;
       break;
     }

@@ -57,9 +57,7 @@ static void chain(carom_view *view, double a[2][MOST_LEFT + 1], double e[2][MOST
 
 void carom_view_make(carom_view *view, const carom_plan_job *job,
                      const carom_plan_options *options) {
-  const carom_player *players[2] = {job->player, job->player};
-  if (options->opponent != NULL)
-    players[1] = options->opponent;
+  const carom_player *players[2] = {job->player, carom_opponent_of(job, options)};
   const double chances[2] = {options->chance_me, options->chance_opponent};
   view->rules = job->rules;
   view->pockets = (int)job->table->pockets;

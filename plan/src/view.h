@@ -153,6 +153,16 @@ double carom_stretched(const carom_view *view, double value, int seat, int n);
 /* The value to `seat` of a layout that both would as soon play as leave, as after a push-out. */
 double carom_even(const carom_view *view, int seat, int n);
 
+/* The opponent of a job. */
+static inline const carom_player *carom_opponent_of(const carom_plan_job *job,
+                                                    const carom_plan_options *options) {
+  if (job->opponent != NULL)
+    return job->opponent;
+  if (options != NULL && options->opponent != NULL)
+    return options->opponent;
+  return job->player;
+}
+
 /* value.c */
 void carom_view_make(carom_view *view, const carom_plan_job *job,
                      const carom_plan_options *options);
@@ -191,11 +201,14 @@ enum {
   DRAW_TABLES,      /* tables that are not known, */
   DRAW_REPLAY,      /* the errors of the shots that choose nothing, */
   DRAW_MIND,        /* whether a player thinks of nothing but potting, */
+  DRAW_REASONS,     /* the errors of strokes that explain a choice, */
   DRAW_RUN_OUTS,    /* the seeds of the strokes of a run-out, */
   DRAW_ROUND = 16   /* and the errors of the rounds, a stage each. */
 };
 /* between 0 and 1, without the ends */
 double carom_uniform(uint64_t seed, uint32_t stage, uint64_t row, uint32_t number);
+/* two normal numbers, of the uniform ones `number` and the next; and the first six */
+void carom_normal_pair(uint64_t seed, uint32_t stage, uint64_t row, uint32_t number, double z[2]);
 void carom_normals(uint64_t seed, uint32_t stage, uint64_t row, double z[6]);
 
 /* stick.c: the least elevation, degrees, with which the stick of a cue is over the cushions and the
@@ -209,6 +222,9 @@ double carom_least_elevation(const carom_table *table, const carom_shot_ball *ba
 enum { PLAYER_SHOTS_LEAST = 100, PLAYER_SHOTS_MOST = 2000 };
 /* Whether the numbers of a player are within their ranges. */
 bool carom_player_is_good(const carom_player *p);
+/* The player of a rating in a game where a difference of 100 points is one of steps[0] points of
+ * carom_player_fargo() below a rating of 500, and of steps[1] above it. */
+carom_player carom_player_stepped(double rating, const double steps[2]);
 /* The player with his bounds: 0 becomes the value it stands for. */
 carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue);
 /* A stroke by a player with bounds; z are his errors in standard deviations. */

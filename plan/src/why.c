@@ -1,27 +1,28 @@
-/* Why a choice of a plan is good: its stroke without errors is played and ruled; then some with
- * errors, and the same without those of speed and without those of aim, which shows what these
- * cost. */
+/* Why a choice of a plan is good: its stroke without errors is played and ruled, and rows of the
+ * plan play it with errors, so that chances and values are those of the plan's own estimator.
+ *
+ * Let V(S) be the value with the errors of a set S. All errors together cost V({}) - V(all). An
+ * error that is added to others costs V(others) - V(others with it); each error gets the mean of
+ * what it costs where the errors are added in the order of carom_why_error, and in the reverse one,
+ * so the costs add up to that of all. */
 #include "carom_coach.h"
 #include "coach.h"
+#include "goals.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
+#include "ranking.h"
+#include "rows.h"
 #include "rules.h"
-#include "search_state.h"
 #include "shot/shot.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { EVENTS = 64 };
-static const double luck = 0.1; /* a chance to play on below which balls fall by luck */
+enum { EVENTS = 64, ALL_ERRORS = (1 << CAROM_WHY_ERRORS) - 1 };
 
-/* What the job's memory has while no plan is in it. */
+/* What the job's memory has behind the rows of a plan, for a stroke that is ruled. */
 typedef struct workspace {
-  union {
-    carom_event events[EVENTS]; /* of the stroke without errors, */
-    carom_search search;        /* then of the values of what strokes leave */
-  };
-  carom_ruling ruling;
+  carom_event events[EVENTS];
   carom_stroke_room room;
   carom_shot_ball balls[CAROM_BALLS_MOST];
 } workspace;
@@ -32,16 +33,7 @@ static void play(const carom_plan_job *job, const carom_cue *cue, carom_call cal
   carom_play_stroke(job, cue, call, &((workspace *)job->memory)->room, shot, ruling);
 }
 
-/* The stroke of a choice with the errors of number n. */
-static carom_cue stroke_of(const carom_plan_job *job, const carom_player *player,
-                           const carom_plan_stroke *choice, int n) {
-  carom_cue stroke = choice->cue;
-  const uint64_t seed = job->options != NULL ? job->options->seed : 0;
-  carom_player_strike(player, seed, (uint64_t)n, &stroke);
-  return stroke;
-}
-
-/* The best stroke from what is left. */
+/* The best stroke from what is left, for whoever plays next. */
 static carom_status plan_next(const carom_plan_job *job, const carom_ruling *ruling,
                               carom_plan_stroke *choice) {
   carom_plan_rules rules;
@@ -52,75 +44,87 @@ static carom_status plan_next(const carom_plan_job *job, const carom_ruling *rul
   return carom_plan_hand(&next, NULL, NULL, choice, 1, &found);
 }
 
-/* Results of strokes with errors: how many, and sums. */
-typedef struct stroke_sums {
-  int keeps, misses, fouls, loses;
-  double worth, squares, opponent; /* to the player, and of their squares; of the misses to the
-                                      opponent */
-} stroke_sums;
+/* ---- Rows of a choice */
 
-static int left_of(const carom_plan_job *job, const carom_shot_ball *balls) {
-  uint32_t in_play = 0;
-  int32_t left[2];
-  for (int k = 0; k < job->count; k++)
-    in_play |= (uint32_t)(balls[k].state.label != CAROM_BALL_POCKETED) << k;
-  job->rules->left(&job->rules->state, in_play, left);
-  return (int)carom_max(left[0], 1);
+/* The layout of a choice: that of the job, with the cue ball on the choice's place. */
+static carom_status place_choice(const carom_plan_job *job, const carom_plan_stroke *choice,
+                                 carom_shot_ball balls[CAROM_BALLS_MOST], carom_plan_job *placed) {
+  *placed = *job;
+  memcpy(balls, job->balls, (size_t)job->count * sizeof *balls);
+  placed->balls = balls;
+  return carom_place_ball(job->table, balls, (int)job->count, (int)job->cue->ball, choice->place[0],
+                          choice->place[1], NULL);
 }
 
-/* What a stroke is worth to the player, by the value of what it leaves: the chance to win, or the
- * share of the balls before it. */
-static double worth_of(const carom_plan_job *job, const carom_ruling *ruling, double *opponent) {
-  const bool alone = job->rules->race == CAROM_RACE_ALONE,
-             passes = ruling->turn.outcome == CAROM_TURN_PASS;
-  if (ruling->turn.outcome >= CAROM_TURN_WIN)
-    return ruling->turn.outcome != CAROM_TURN_LOSE;
-  carom_plan_rules rules;
-  carom_plan_job next = carom_job_after(job, ruling, &rules);
-  const bool seats = job->rules->race == CAROM_RACE_SEATS;
-  if (seats)
-    next.rules = job->rules; /* the seat that has played asks */
-  double chance = 0.0;
-  if (!(alone && passes))
-    carom_search_value(&((workspace *)job->memory)->search, &next, &ruling->state, seats && passes,
-                       ruling->hand, &chance);
-  if (alone)
-    return fmin(1.0, (ruling->turn.points + chance * left_of(&next, ruling->balls)) /
-                         left_of(job, job->balls));
-  if (!passes)
-    return chance;
-  *opponent = chance;
-  return 1.0 - chance;
+/* Makes a plan whose one candidate is a choice. */
+static carom_status prepare_choice(const carom_plan_job *job, const carom_plan_stroke *choice,
+                                   carom_search **prepared) {
+  carom_plan_job placed;
+  carom_search *plan = job->memory;
+  carom_status status = place_choice(job, choice, plan->hand, &placed);
+  if (status != CAROM_OK)
+    return status;
+  status = carom_search_prepare(&placed, false, 1, &plan);
+  if (status != CAROM_OK)
+    return status;
+
+  /* it is played to its end, however the plan would be stopped */
+  plan->options.stop = NULL;
+  plan->seconds = 0.0;
+  plan->count = 1;
+  plan->found[0] = (carom_candidate){.r = {choice->place[0], choice->place[1]},
+                                     .speed = choice->cue.speed,
+                                     .phi = choice->cue.phi,
+                                     .theta = choice->cue.theta,
+                                     .a = choice->cue.a,
+                                     .b = choice->cue.b,
+                                     .kind = CAROM_PLAN_GIVEN,
+                                     .ball = (int16_t)choice->ball,
+                                     .pocket = (int16_t)choice->pocket};
+  if (choice->kind == CAROM_PLAN_PUSH)
+    plan->found[0].kind = CAROM_PLAN_PUSH;
+  *prepared = plan;
+  return CAROM_OK;
 }
 
-/* Plays the stroke with the errors of a player. All players have the same luck. */
-static stroke_sums play_with(const carom_plan_job *job, const carom_player *player,
-                             const carom_plan_stroke *choice) {
-  const carom_call call = {choice->ball, choice->pocket};
-  carom_ruling *ruling = &((workspace *)job->memory)->ruling;
-  stroke_sums s = {0};
-  for (int n = 0; n < CAROM_WHY_STROKES; n++) {
-    const carom_cue stroke = stroke_of(job, player, choice, n);
-    carom_shot shot = {.events = NULL};
-    double opponent = 0.0;
-    play(job, &stroke, call, &shot, ruling);
-    const double worth = worth_of(job, ruling, &opponent);
-    s.worth += worth;
-    s.squares += worth * worth;
-    s.opponent += opponent;
-    s.keeps += ruling->turn.outcome != CAROM_TURN_PASS && ruling->turn.outcome != CAROM_TURN_LOSE;
-    s.misses += ruling->turn.outcome == CAROM_TURN_PASS;
-    s.fouls += ruling->turn.foul != CAROM_FOUL_NONE;
-    s.loses += ruling->turn.outcome == CAROM_TURN_LOSE;
-  }
-  return s;
+static void play_choice(void *context, carom_crew *crew) {
+  carom_search *plan = context;
+  plan->crew = crew;
+  carom_search_play(plan);
+}
+
+/* Plays the choice with some errors of the player, a set of carom_why_error. All sets have the same
+ * luck. Without errors one stroke tells all where the table is known. */
+static carom_tally repeat(carom_search *plan, uint32_t errors) {
+  const carom_player player = plan->player;
+  int64_t strokes = CAROM_WHY_STROKES;
+  if (!(errors >> CAROM_WHY_AIM & 1))
+    plan->player.phi = plan->player.theta = 0.0;
+  if (!(errors >> CAROM_WHY_SPEED & 1))
+    plan->player.speed = plan->player.speed_share = 0.0;
+  if (!(errors >> CAROM_WHY_TIP & 1))
+    plan->player.a = plan->player.b = 0.0;
+  if (!(errors >> CAROM_WHY_EYE & 1))
+    plan->player.eye = 0.0;
+  if (errors == 0 && plan->drawn == NULL)
+    strokes = 1;
+  carom_search_stage(plan, 0, 1, strokes, DRAW_REASONS);
+  plan->found[0].fresh = (carom_tally){0};
+  carom_search_with_crew(plan, play_choice);
+  carom_search_replayed(plan);
+  plan->player = player;
+  return plan->found[0].fresh;
+}
+
+static double mean_of(const carom_tally *tally) {
+  return tally->sum / (double)tally->seen;
 }
 
 int carom_names_ball(const carom_plan_stroke *choice) {
   if (choice == NULL || choice->ball < 0)
     return 0;
   const bool is_meant = choice->kind == CAROM_PLAN_POT || choice->kind == CAROM_PLAN_GIVEN;
-  return is_meant || choice->keep >= luck;
+  return is_meant || choice->keep >= carom_luck;
 }
 
 /* Whether event k of a shot is a cushion that the ball meets, and no hop along the one before. */
@@ -161,22 +165,57 @@ static void find_aim(const carom_plan_job *job, const carom_cue *cue, const caro
   why->speed = sqrt(struck.v[0] * struck.v[0] + struck.v[1] * struck.v[1]);
 }
 
-/* What strokes with errors come to, and what the errors cost. */
-static void find_costs(const carom_plan_job *job, const carom_plan_stroke *choice, carom_why *why) {
-  const double n = CAROM_WHY_STROKES;
-  const stroke_sums sums = play_with(job, job->player, choice);
-  why->strokes = CAROM_WHY_STROKES;
-  why->misses = sums.misses / n;
-  why->loses = sums.loses / n;
+/* What strokes with errors come to. Returns the row of the one that passes the turn and leaves what
+ * those that do leave on average; -1: none does. */
+static int64_t find_chances(carom_search *plan, carom_why *why) {
+  const carom_tally all = repeat(plan, ALL_ERRORS);
+  const double n = (double)all.seen;
+  why->strokes = all.seen;
+  why->value = mean_of(&all);
+  why->loses = all.lose / n;
+  int64_t passes = 0, typical = -1;
+  double sum = 0.0;
+  for (int64_t k = 0; k < all.seen; k++) {
+    if (plan->outcome[k].turn != CAROM_TURN_PASS)
+      continue;
+    sum += plan->outcome[k].worth;
+    passes++;
+  }
+  why->misses = (double)passes / n;
   why->opponent = (double)NAN;
-  if (sums.misses > 0 && job->rules->race != CAROM_RACE_ALONE)
-    why->opponent = sums.opponent / sums.misses;
+  if (passes > 0 && plan->job.rules->race != CAROM_RACE_ALONE && !carom_has_goal(&plan->job))
+    why->opponent = 1.0 - sum / (double)passes;
 
-  carom_player aims = *job->player, times = *job->player;
-  aims.speed = aims.speed_share = 0.0;
-  times.phi = times.theta = times.a = times.b = 0.0;
-  why->speed_cost = fmax(0.0, (play_with(job, &aims, choice).worth - sums.worth) / n);
-  why->aim_cost = fmax(0.0, (play_with(job, &times, choice).worth - sums.worth) / n);
+  const double mean = sum / (double)carom_max(passes, 1);
+  for (int64_t k = 0; k < all.seen; k++) {
+    const double off = fabs(plan->outcome[k].worth - mean);
+    const bool passed = plan->outcome[k].turn == CAROM_TURN_PASS;
+    if (passed && (typical < 0 || off < fabs(plan->outcome[typical].worth - mean)))
+      typical = k;
+  }
+  return typical;
+}
+
+/* What the errors cost, added in one order and in the reverse one. */
+static void find_costs(carom_search *plan, carom_why *why) {
+  const carom_tally none = repeat(plan, 0);
+  why->flawless_value = mean_of(&none);
+  memset(why->cost, 0, sizeof why->cost);
+  for (int order = 0; order < 2; order++) {
+    uint32_t errors = 0;
+    double before = why->flawless_value;
+    for (int k = 0; k < CAROM_WHY_ERRORS; k++) {
+      const int added = order == 0 ? k : CAROM_WHY_ERRORS - 1 - k;
+      errors |= UINT32_C(1) << added;
+      double worth = why->value;
+      if (errors != ALL_ERRORS) {
+        const carom_tally some = repeat(plan, errors);
+        worth = mean_of(&some);
+      }
+      why->cost[added] += 0.5 * (before - worth);
+      before = worth;
+    }
+  }
 }
 
 static bool is_whole(const carom_plan_job *job) {
@@ -184,17 +223,6 @@ static bool is_whole(const carom_plan_job *job) {
          job->player != NULL && job->rules != NULL && job->memory != NULL &&
          job->memory_size >= carom_plan_memory(job->options) &&
          job->memory_size >= sizeof(workspace);
-}
-
-/* The layout of a choice: that of the job, with the cue ball on the choice's place. */
-static carom_plan_job job_of(const carom_plan_job *job, const carom_plan_stroke *choice,
-                             carom_shot_ball balls[CAROM_BALLS_MOST], carom_status *status) {
-  carom_plan_job placed = *job;
-  memcpy(balls, job->balls, (size_t)job->count * sizeof *balls);
-  placed.balls = balls;
-  *status = carom_place_ball(job->table, balls, (int)job->count, (int)job->cue->ball,
-                             choice->place[0], choice->place[1], NULL);
-  return placed;
 }
 
 carom_status carom_why_of(const carom_plan_job *job, const carom_plan_stroke *choice,
@@ -205,42 +233,59 @@ carom_status carom_why_of(const carom_plan_job *job, const carom_plan_stroke *ch
     return CAROM_ERROR_BALLS;
   if (choice->kind == CAROM_PLAN_PASS)
     return CAROM_ERROR_OPTIONS;
-  carom_status status;
-  const carom_plan_job placed = job_of(job, choice, ((workspace *)job->memory)->balls, &status);
+  carom_search *plan;
+  carom_status status = prepare_choice(job, choice, &plan);
+  if (status != CAROM_OK)
+    return status;
 
-  /* the stroke without errors */
+  /* a stroke that is not meant to pot leaves what it mostly does, even if it pots without errors */
+  const int64_t typical = find_chances(plan, why);
+  carom_cue stroke = choice->cue;
+  why->leave = (double)NAN;
+  if (typical >= 0 && !carom_names_ball(choice)) {
+    stroke = carom_search_stroke(plan, &plan->found[0], DRAW_REASONS, typical);
+    why->leave = plan->outcome[typical].worth;
+  }
+  find_costs(plan, why);
+  if (isnan(why->leave))
+    why->leave = why->flawless_value;
+  if (carom_has_goal(job))
+    why->leave = (double)NAN;
+
+  /* the aim, and what is left, in the memory of the plan; last the best stroke from there */
+  carom_plan_job placed;
+  status = place_choice(job, choice, ((workspace *)job->memory)->balls, &placed);
   const carom_call call = {choice->ball, choice->pocket};
   carom_ruling *ruling = &why->ruling;
   carom_shot shot = {.events = ((workspace *)job->memory)->events, .room = EVENTS};
   play(&placed, &choice->cue, call, &shot, ruling);
   find_aim(&placed, &choice->cue, &shot, why);
-
-  /* a stroke that is not meant to pot leaves what it mostly does, even if it pots without errors */
-  for (int n = 0; !carom_names_ball(choice) && ruling->turn.outcome != CAROM_TURN_PASS &&
-                  n < CAROM_WHY_STROKES;
-       n++) {
-    const carom_cue stroke = stroke_of(&placed, placed.player, choice, n);
+  if (typical >= 0 && !carom_names_ball(choice)) {
+    stroke.ball = choice->cue.ball;
     play(&placed, &stroke, call, &(carom_shot){.events = NULL}, ruling);
   }
   const bool ends =
       ruling->turn.outcome >= CAROM_TURN_WIN ||
       (ruling->turn.outcome == CAROM_TURN_PASS && job->rules->race == CAROM_RACE_ALONE);
-  find_costs(&placed, choice, why);
-  /* last, because the plan overwrites the workspace */
   why->has_next = !ends && plan_next(&placed, ruling, &why->next) == CAROM_OK;
   return status;
 }
 
 /* Gives a choice the chances of strokes that are played anew. */
-static void replay(const carom_plan_job *job, carom_plan_stroke *choice) {
-  const stroke_sums s = play_with(job, job->player, choice);
-  const double n = CAROM_WHY_STROKES, mean = s.worth / n;
+static carom_status replay(const carom_plan_job *job, carom_plan_stroke *choice) {
+  carom_search *plan;
+  const carom_status status = prepare_choice(job, choice, &plan);
+  if (status != CAROM_OK)
+    return status;
+  const carom_tally all = repeat(plan, ALL_ERRORS);
+  const double n = (double)all.seen, mean = mean_of(&all);
   choice->value = mean;
-  choice->error = sqrt(fmax(s.squares / n - mean * mean, 0.0) / (n - 1.0));
-  choice->keep = s.keeps / n;
-  choice->foul = s.fouls / n;
-  choice->lose = s.loses / n;
-  choice->seen = CAROM_WHY_STROKES;
+  choice->error = sqrt(fmax(all.squares / n - mean * mean, 0.0) / (n - 1.0));
+  choice->keep = all.keep / n;
+  choice->foul = all.foul / n;
+  choice->lose = all.lose / n;
+  choice->seen = all.seen;
+  return CAROM_OK;
 }
 
 carom_status carom_plan_replay(const carom_plan_job *job, carom_plan_stroke *choices, int n) {
@@ -252,10 +297,11 @@ carom_status carom_plan_replay(const carom_plan_job *job, carom_plan_stroke *cho
     return CAROM_ERROR_OPTIONS;
   for (int k = 0; k < n; k++) {
     carom_plan_stroke choice = choices[k];
-    carom_status status;
-    const carom_plan_job placed = job_of(job, &choice, ((workspace *)job->memory)->balls, &status);
+    carom_status status = CAROM_OK;
     if (choice.kind != CAROM_PLAN_PASS)
-      replay(&placed, &choice);
+      status = replay(job, &choice);
+    if (status != CAROM_OK)
+      return status;
     int index = k;
     for (; index > 0 && choices[index - 1].value < choice.value; index--)
       choices[index] = choices[index - 1];

@@ -29,7 +29,7 @@ TEST(arguments_of_plans) {
   REFUSED(job.memory_size, job.memory_size - 1, CAROM_ERROR_NULL);
   REFUSED(job.count, 1, CAROM_ERROR_BALLS);
   REFUSED(job.count, 33, CAROM_ERROR_BALLS);
-  REFUSED(job.reserved[1], 1, CAROM_ERROR_OPTIONS);
+  REFUSED(job.reserved[0], 1, CAROM_ERROR_OPTIONS);
   REFUSED(job.leave, -1, CAROM_ERROR_OPTIONS);
   REFUSED(job.leave, CAROM_LEAVE_BAULK + 1, CAROM_ERROR_OPTIONS);
   REFUSED(options.shots, -1, CAROM_ERROR_OPTIONS);

@@ -49,7 +49,7 @@ TEST(a_pot_is_explained) {
   ck_assert(carom_names_ball(&best[0]) == 1);
   ck_assert(why.rails == 0 && why.first == 8 && fabs(why.cut) < 10.0 && why.part > 0.8);
   ck_assert(why.ruling.turn.outcome == CAROM_TURN_WIN && why.has_next == 0 && why.speed > 0.3);
-  ck_assert(why.misses < 0.2 && why.speed_cost >= 0.0 && why.aim_cost >= 0.0);
+  ck_assert(why.misses < 0.2 && why.flawless_value == 1.0);
   ck_assert_int_eq(why.strokes, CAROM_WHY_STROKES);
 
   /* the cushion of a kick is named, and its place lies at that rail */
@@ -66,6 +66,80 @@ TEST(a_pot_is_explained) {
   kick.kind = CAROM_PLAN_PASS;
   ck_assert_int_eq(carom_why_of(&job, &kick, &why), CAROM_ERROR_OPTIONS);
   edge_free(&memory);
+}
+
+/* The value of a choice to a player without some errors, by strokes that are played anew. */
+static double value_with(const carom_plan_stroke *choice, const carom_player *some) {
+  carom_plan_stroke again = *choice;
+  job.player = some;
+  expect_ok(carom_plan_replay(&job, &again, 1));
+  job.player = &player;
+  return again.value;
+}
+
+/* A layout is worth the same to every player, so that values follow from strokes alone. */
+static double by_balls(const carom_rules_state *state, const carom_ball_state *layout, int count,
+                       int in_hand) {
+  (void)state;
+  int left = 0;
+  for (int k = 1; k < count; k++)
+    left += layout[k].label < CAROM_BALL_POCKETED;
+  return 0.5 + 0.1 * in_hand + 0.3 * layout[0].r[1] / (1.0 + left);
+}
+
+/* The costs of errors are those of strokes that players without these errors play, they add up to
+ * the cost of all, and the chances of a choice do not contradict each other. */
+TEST(costs_of_errors) {
+  enum { LAYOUTS = 12 };
+  static carom_why why;
+  int meant = 0, passing = 0;
+  for (uint64_t seed = 1; seed <= LAYOUTS; seed++) {
+    make_layout(seed, 2 + (int)(seed % 5));
+    rules.value = by_balls;
+    make_memory();
+    expect_ok(carom_plan(&job, best, 5, &found));
+    for (int k = 0; k < found; k++) {
+      carom_plan_stroke choice = best[k];
+      expect_ok(carom_plan_replay(&job, &choice, 1));
+      expect_ok(carom_why_of(&job, &choice, &why));
+      ck_assert(why.value == choice.value);
+      double sum = 0.0;
+      for (int error = 0; error < CAROM_WHY_ERRORS; error++)
+        sum += why.cost[error];
+      ck_assert_double_eq_tol(why.flawless_value - why.value, sum, 1e-12);
+
+      /* of speed, between aim and tip: the mean of what it costs with aim, and with tip and eye */
+      const carom_player none = {.eye = -1.0};
+      carom_player aims = none, tips = {0}, others = player, timed = player;
+      aims.phi = player.phi, aims.theta = player.theta;
+      tips.a = player.a, tips.b = player.b;
+      timed.a = timed.b = 0.0;
+      timed.eye = -1.0;
+      others.phi = others.theta = 0.0;
+      const double cost = 0.5 * (value_with(&choice, &aims) - value_with(&choice, &timed) +
+                                 value_with(&choice, &tips) - value_with(&choice, &others));
+      ck_assert_double_eq_tol(why.cost[CAROM_WHY_SPEED], cost, 1e-12);
+      ck_assert_double_eq_tol(why.flawless_value, value_with(&choice, &none), 1e-12);
+
+      /* the turn passes, is kept or loses; what it leaves is between the worst and the best */
+      ck_assert_double_eq_tol(choice.keep + why.misses + why.loses, 1.0, 1e-12);
+      double passed = 0.0;
+      if (why.misses > 0.0)
+        passed = why.misses * (1.0 - why.opponent);
+      ck_assert(choice.value >= passed - 1e-12 && choice.value <= passed + choice.keep + 1e-12);
+      const bool passes = why.ruling.turn.outcome == CAROM_TURN_PASS;
+      if (carom_names_ball(&choice)) {
+        ck_assert_double_eq_tol(why.leave, why.flawless_value, 1e-12);
+        meant++;
+      } else if (why.misses > 0.5) {
+        ck_assert(passes);
+        ck_assert_double_eq_tol(why.leave, 1.0 - why.opponent, 0.2);
+        passing++;
+      }
+    }
+    edge_free(&memory);
+  }
+  ck_assert(meant > LAYOUTS && passing > LAYOUTS / 4);
 }
 
 /* Breaks: two parts add up to the whole, the counts fit each other, and a wider error makes the cue

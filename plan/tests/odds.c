@@ -112,7 +112,6 @@ TEST(numbers_out_of_range_are_refused) {
       {.games = {9, 9}, .sets = {-1, 1}},
       {.games = {9, 9}, .order = 3},
       {.games = {9, 9}, .side = 2},
-      {.games = {9, 9}, .reserved = 1},
   };
   for (size_t n = 0; n < COUNT_OF(wrong); n++) {
     ck_assert_int_eq(carom_odds_of(&wrong[n], &odds), CAROM_ERROR_OPTIONS);

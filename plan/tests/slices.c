@@ -1,4 +1,5 @@
 /* Plans that are stopped, and plans in slices. */
+#include "carom_match.h"
 #include "plan_support.h"
 
 /* Rules that stop the plan when they have judged so many shots. */
@@ -61,6 +62,28 @@ TEST(stopped_plans) {
       ck_assert(best[0].seen == 1500 && best[1].seen > 0 && best[1].seen < 1500);
     edge_free(&memory);
   }
+}
+
+/* A plan that is stopped at once gives a choice that the match takes. */
+TEST(stopped_plans_can_be_played) {
+  static carom_match match;
+  make_layout(1, 2);
+  for (int kind = 0; carom_rules_about_of((carom_rules_kind)kind) != NULL; kind++)
+    for (uint64_t seed = 0; seed < 20; seed++) {
+      const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)kind);
+      carom_plan_stroke best;
+      int found;
+      carom_table_make((carom_table_kind)about->table, &table);
+      expect_ok(carom_match_begin(&match, (carom_rules_kind)kind, &table, seed, 0));
+      cue = carom_cue_of((carom_game)about->balls);
+      stop = 1;
+      options = (carom_plan_options){.shots = 200, .seed = seed, .stop = &stop};
+      make_memory();
+      expect_ok(carom_match_plan(&match, &job, &best, 1, &found));
+      edge_free(&memory);
+      ck_assert_msg(carom_match_prepare(&match, 0, &best) == CAROM_OK, "%s, seed %d: %s",
+                    about->name, (int)seed, match.fault);
+    }
 }
 
 /* A plan in slices has the choices of one call, bit for bit, and a slice plays no more shots than

@@ -23,6 +23,7 @@ LINES = {
     "break": ["--racks 20", ""],
     "match": ["--shots 100 --strokes 1", "--strokes 1"],
     "odds": ["--players 600,500"],
+    "practice": ["GAME"],
     "rating": ["RESULTS"],
     "calibrate": ["--read 4.7,5.6,5.6"],
     "hit": ["", "--solver euler", "--friction 0.06"],
@@ -60,10 +61,13 @@ def main(data, work):
         "IMPACTS": f"{data}/cushion-mathavan2010.csv",
         "RECORDING": f"{work}/recording.jsonl",
         "RESULTS": f"{work}/results.csv",
+        "GAME": f"{work}/game.jsonl",
     }
     assert run(["record", files["SHOTS"], "-o", files["RECORDING"]], work)[0] == 0
     with open(files["RESULTS"], "w") as results:
         results.write("500,3,2\n")
+    played = run(["match", "--shots", "100", "--players", "500,500", "-o", files["GAME"]], work)
+    assert played[0] == 0
     count, wrong = 0, []
     for command, lines in LINES.items():
         for name, value in defaults(command):

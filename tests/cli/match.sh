@@ -51,6 +51,8 @@ for words in "pair.jsonl" "--seat 2 pair.jsonl" "results.csv"; do
   # shellcheck disable=SC2086
   carom rating $words
 done
+carom practice --seat 2 --player 850 --drills 2 whole.jsonl
+carom practice --seat 2 --player 850 --csv --drills 1 whole.jsonl
 echo 500,3 > wrong.csv
 : > none.csv
 try_rows "odds and ratings, bad usage"

@@ -73,7 +73,7 @@ echo '{"constants": {"mu_slide": "0.3"}}' > text.json
 echo '{"constants": [0.3]}' > other.json
 for file in text other no; do carom shoot --cue 0.3,0.5 --with $file.json 2>&1 | head -n 1; done
 echo "--- a result is a layout: a break goes to a plan, a plan to a shot, a shot to its ways"
-carom break --rules nineball --racks 2 --seed 3 --json > breaks.jsonl
+carom break --rules nineball --racks 2 --seed 1 --json > breaks.jsonl
 sed -n 2p breaks.jsonl | carom plan --rules nineball --from final --shots 200 --json - > plan.jsonl
 head -n 1 plan.jsonl | carom shoot --events none - > shot.jsonl
 # the plan's balls are those at rest after the break, and the shot's those of the plan, digit by digit

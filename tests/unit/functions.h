@@ -449,7 +449,7 @@ static void set_up_games(void) {
 #else
 static OWN carom_cue aimed;
 static OWN carom_plan_rules rules;
-static OWN carom_player player;
+static OWN carom_player player, other_player;
 static OWN carom_plan_options plan_options;
 static OWN carom_plan_job plan;
 static OWN carom_ruling ruling;
@@ -471,6 +471,8 @@ static OWN carom_shot_way ways[4];
 static OWN carom_ways_result ways_result;
 static OWN carom_break_counts break_counts;
 static OWN carom_break_choice break_choices[CAROM_BREAK_CHOICES];
+static OWN carom_review review;
+static OWN carom_drill drill;
 static OWN carom_series series;
 static OWN carom_odds odds;
 static OWN carom_why why;
@@ -508,6 +510,10 @@ static const carom_break_job *break_job(void) {
                              .memory = heap->memory,
                              .memory_size = MEMORY};
   return &breaks;
+}
+static const carom_review *reviewed(void) {
+  review = (carom_review){.aim = cue, .ball = 1};
+  return &review;
 }
 static const carom_plan_stroke *stroke_choice(void) {
   choices[0] = (carom_plan_stroke){.cue = cue, .ball = -1, .pocket = -1};
@@ -590,6 +596,7 @@ static carom_match *moving(void) {
   F(match_end, carom_match_end(PTR(ready())))                                                      \
   F(match_extend, GIVES(carom_match_extend(MAYBE(ready()), ANYINT(0))))                            \
   F(match_next, GIVES(carom_match_next(MAYBE(ready()))))                                           \
+  F(match_opponent, carom_match_opponent(PTR(begun()), PTR(&player), PTR(&other_player)))          \
   F(match_place, carom_match_place(PTR(begun()), INT(0), NUM(0.6), NUM(0.5)))                      \
   F(match_plan, carom_match_plan(PTR(ready()), PTR(&plan), PTR(choices), LENGTH(4), PTR(&found)))  \
   F(match_prepare, carom_match_prepare(PTR(ready()), INT(0), PTR(&safety)))                        \
@@ -622,9 +629,12 @@ static carom_match *moving(void) {
   F(break_play, carom_break_play(PTR(break_job()), ANYINT(0), LENGTH(1), PTR(&break_counts)))      \
   F(break_spread, is_number(carom_break_spread(MAYBE(&break_counts), MAYBE(numbers))))             \
   F(break_stroke, carom_break_stroke(PTR(break_job()), ANYINT(0), PTR(balls), PTR(&aimed)))        \
+  F(drill_of, carom_drill_of(PTR(&plan), PTR(reviewed()), PTR(&drill)))                            \
   F(fair_series, carom_fair_series(PTR(&series), PTR(&series)))                                    \
   F(names_ball, GIVES(carom_names_ball(MAYBE(choices))))                                           \
   F(odds_of, carom_odds_of(PTR(&series), PTR(&odds)))                                              \
+  F(practice_name, is_text(carom_practice_name(ANYENUM(carom_practice, 0))))                       \
+  F(review_of, carom_review_of(PTR(&plan), PTR(&cue), ((carom_call){-1, -1}), PTR(&review)))       \
   F(plan_replay,                                                                                   \
     carom_plan_replay(PTR(&plan), PTR((carom_plan_stroke *)stroke_choice()), LENGTH(1)))           \
   F(way_chance, carom_way_chance(PTR(ways_job()), PTR(stroke_way())))                              \

@@ -3,7 +3,6 @@
 #include "rows/number.h"
 #include "support.h"
 
-
 TEST(what_is_read) {
   char texts[40][TEXT];
   double x;

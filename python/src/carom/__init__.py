@@ -6,7 +6,9 @@
     shots        simulate, simulate_batch, simulate_arrow, resume, Options, ALL_THREADS
     results      Shot, Shots, Features, EventType, Label, Status, CaromError
     derivatives  tangents, jacobian, hessian, aim_slope, Tangents, Hessian, Flag
-    plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating
+    plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating; Goal, sequence,
+                 RunOut
+    coach        odds, Odds; review, Review, Drill
     rules        Match, a whole game; referee, Rules, Ruling, Facts, Turn, Foul
     other        dtypes, the structured dtypes; cite, physics_revision, isa_in_force
     modules      record, tracks, fit, jax, torch, pooltool; games: potting, drills, pool, matches,
@@ -91,20 +93,28 @@ if _TYPE_CHECKING:
     from carom import rules as rules
     from carom import sb3 as sb3
     from carom.games import (
+        Drill as Drill,
         Facts as Facts,
         Foul as Foul,
+        Goal as Goal,
         Match as Match,
+        Odds as Odds,
         Pot as Pot,
         Rating as Rating,
+        Review as Review,
         Rules as Rules,
         Ruling as Ruling,
+        RunOut as RunOut,
         Turn as Turn,
         aim as aim,
         chances as chances,
+        odds as odds,
         plan as plan,
         player as player,
         rating as rating,
         referee as referee,
+        review as review,
+        sequence as sequence,
         value as value,
         with_errors as with_errors,
     )
@@ -112,18 +122,19 @@ if _TYPE_CHECKING:
 # What the package gives, as dir(carom) shows it. It has no __all__, since help(carom) would print the
 # whole of every name there.
 _OFFERED = (
-    "ALL_THREADS Calibration CaromError EventType Facts Features Flag Foul Hessian Label "
-    "Match Options Outcome Pot Rating Rules Ruling Shot Shots Status Table Tangents Turn aim "
-    "aim_slope alciatore balls by_number calibrate chances cite collide cue cushion "
-    "cushion_impacts cushion_trace dtypes hessian impacts isa_in_force jacobian mu_ball "
-    "physics_revision place_ball plan player racks rating referee resume simulate "
-    "simulate_arrow simulate_batch struck tables tangents trace value with_errors"
+    "ALL_THREADS Calibration CaromError Drill EventType Facts Features Flag Foul Goal Hessian "
+    "Label Match Odds Options Outcome Pot Rating Review Rules Ruling RunOut Shot Shots Status "
+    "Table Tangents Turn aim aim_slope alciatore balls by_number calibrate chances cite collide "
+    "cue cushion cushion_impacts cushion_trace dtypes hessian impacts isa_in_force jacobian "
+    "mu_ball odds physics_revision place_ball plan player racks rating referee resume review "
+    "sequence simulate simulate_arrow simulate_batch struck tables tangents trace value "
+    "with_errors"
 ).split()
 
 # Names of the folder games, and modules of folders, which are loaded when they are asked for.
 _OF_GAMES = frozenset(
-    "Facts Foul Match Pot Rating Rules Ruling Turn aim chances plan player rating referee value "
-    "with_errors".split()
+    "Drill Facts Foul Goal Match Odds Pot Rating Review Rules Ruling RunOut Turn aim chances odds "
+    "plan player rating referee review sequence value with_errors".split()
 )
 _MODULES_OF_FOLDERS = frozenset(
     "drills fit gymnasium matches pettingzoo plans pool potting rules sb3".split()

@@ -26,6 +26,7 @@ Turn = Literal["keep", "pass", "win", "lose", "draw"]
 Leave = Literal["after", "before", "anywhere", "kitchen", "d", "baulk"]
 Choice = Literal["pass", "push", "free_ball", "place", "rack", "other_rack", "stay", "spot"]
 Phase = Literal["none", "stroke", "place", "moving", "over"]
+Goal = Literal["win", "hidden", "snooker", "near", "apart"]
 StopAt = Literal[
     "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",
     "spinning_stationary", "slate", "rail_top", "left_table",

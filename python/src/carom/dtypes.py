@@ -41,6 +41,7 @@ __all__ = [
     "rail",
     "result",
     "rules_state",
+    "sequence_stroke",
     "shot",
     "shot_ball",
     "table",
@@ -109,6 +110,8 @@ brief_event: Record = _record("carom_brief_event")
 # How the strokes of a player differ from those that he means: standard deviations, and bounds.
 player: Record = _record("carom_player")
 plan_stroke: Record = _record("carom_plan_stroke")  # A shot that `carom.plan` proposes.
+# A stroke of a run-out by `carom.sequence`.
+sequence_stroke: Record = _record("carom_sequence_stroke")
 facts: Record = _record("carom_facts")  # What happened in a shot, which `carom.Features` shows.
 # How a game stands for the player at the table: opening, group, fouls, score, lost, pocket, may,
 # on, free_ball, target, innings; user is of one's own rules.

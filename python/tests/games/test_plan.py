@@ -838,6 +838,52 @@ def test_refusals(refusal):
     refused(refusal, globals())
 
 
+def test_odds():
+    """Odds are binomial without a break; sets are a chain; who is wrong is named."""
+    p = 2 / 3
+    odds = carom.odds((600, 500), (2, 1))
+    assert_allclose([odds.game, odds.match, odds.set], [p, p**2, p**2])
+    assert_allclose(odds.score[2, 0], p**2)
+    assert_allclose([odds.score[0, 1], odds.score[1, 1]], [1 - p, p * (1 - p)])
+    assert odds.fair == (2, 1) and sum(odds.score.values()) == pytest.approx(1.0)
+    sets = carom.odds((600, 500), sets=(2, 1), order="winner", side=0, break_points=100)
+    assert sets.score[2, 0] == pytest.approx(0.8 * 0.5) and sets.game == odds.game
+    for wrong in (
+        lambda: carom.odds((600,)),
+        lambda: carom.odds((600, 500), 101),
+        lambda: carom.odds((600, 500), break_points=1001),
+        lambda: carom.odds((600, 500), side=2),
+    ):
+        with pytest.raises(ValueError, match="ratings|games|break_points|side"):
+            wrong()
+    with pytest.raises((TypeError, ValueError), match="order"):
+        carom.odds((600, 500), order="luck")
+
+
+def test_reviews():
+    """A stroke beside the aim that a plan finds is off by so much, and costs a miss; the drill is
+    of its pot.
+    """
+    table = carom.tables.pool_9ft()
+    layout = carom.balls([[0.5, 1.2], [0.9, 1.3], [0.35, 1.9]])
+    balls = carom.by_number(layout, ["cue", 9, 8], "nineball")
+    aim = carom.aim(table, balls, carom.cue(speed=2.0), ball=8, pocket="foot-left").cue
+    played = aim.copy()
+    played["phi"] += 3.0
+    asked = {"rules": "nineball", "player": carom.player(2.0)}
+    review = carom.review(table, balls, played, **asked)
+    assert (review.ball, review.pocket, review.kept) == (8, 2, False)
+    assert review.off == pytest.approx(3.0) and review.aim["phi"] == pytest.approx(aim["phi"])
+    assert review.miss_cost > 0.05 and 0.2 < review.told <= 1.0
+    assert review.miss_cost + review.place_cost == pytest.approx(review.value - review.came)
+    assert 200 <= review.drill.rating <= 850 and review.drill.radius == 0.0
+    played["phi"] += 177.0
+    other = carom.review(table, balls, played, **asked)
+    assert (other.group, other.ball, other.drill) == ("no pot", None, None)
+    with pytest.raises(carom.CaromError, match="rules"):
+        carom.review(table, balls, played, rules="potting")
+
+
 def test_rating():
     """A rating by games is that of a fine sum over all ratings; a score in error is named."""
     random, r = np.random.default_rng(7), np.linspace(200, 850, 200_001)

@@ -55,11 +55,16 @@ import type {
   Measures,
   Motion,
   PlanOptions,
+  Sequence,
+  SequenceOptions,
   Player,
   RackName,
+  Odds,
   Rating,
+  Review,
   Ruling,
   Score,
+  Series,
   ShotBall,
   ShotOptions,
   Skill,
@@ -1231,10 +1236,11 @@ export class Carom {
   // ---- Plans and games --------------------------------------------------------------------------
 
   /**
-   * A player by his errors: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each
-   * way, times `errors`. Or by a Fargo rating, 200 to 850, such as 500: its plans then play as
-   * rated where `shots` is not given; `onlyPots: 0` makes plans that advise such a player. A rating
-   * is one of a game, `rules`: by it, players of other ratings than 500 differ more or less.
+   * A player by his errors of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees of direction and of elevation
+   * and 0.003 radii each way, times `errors`; they grow with the speed. Or by a Fargo rating, 200
+   * to 850, such as 500: its plans then play as rated where `shots` is not given; `onlyPots: 0`
+   * makes plans that advise such a player. With `rules`, a player of matches of this game, in which
+   * 100 points are odds of 2 to 1.
    */
   player(skill: Skill = {}): Player {
     refuseUnknown(skill, KEYS.player);
@@ -1247,6 +1253,26 @@ export class Carom {
    */
   rating(scores: readonly Score[]): Rating {
     return this.#plans.rating(scores);
+  }
+
+  /** The odds of a match by two ratings, and its fairest handicap. */
+  odds(series: Series): Odds {
+    return this.#plans.odds(series);
+  }
+
+  /**
+   * What a stroke of a game of two sides with pockets meant, and what it cost a player; and a drill
+   * of it. Balls, options and call are those before the stroke.
+   */
+  review(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    options: PlanOptions = {},
+    call?: Call,
+  ): Review {
+    this.#resident = undefined;
+    return this.#plans.review(table, balls, cue, call, options);
   }
 
   /**
@@ -1329,6 +1355,14 @@ export class Carom {
     options: PlanOptions = {},
   ): PlanStroke[] {
     return this.#plans.plan(table, balls, cues, options);
+  }
+
+  /**
+   * A run-out as a whole: each stroke from what the one before leaves without errors, with the
+   * landing zone of the cue ball, and the chance of the whole by run-outs that are played.
+   */
+  sequence(table: Table, balls: readonly ShotBall[], options: SequenceOptions = {}): Sequence {
+    return this.#plans.sequence(table, balls, options);
   }
 
   /** The balls that may be met first, and potted. */

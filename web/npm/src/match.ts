@@ -539,8 +539,20 @@ export class Match extends Owner<Host> {
   // ---- Plans
 
   /**
+   * Who plays against the seat at the table, as carom_match_opponent() says: by rating, else
+   * `player` with the errors that strokes of the other side show.
+   */
+  opponent(player: Player): Player {
+    return this.#using(["carom_player", "carom_player"], ([asks, found]) => {
+      const { memory } = this.#host;
+      this.#fill(asks, "carom_player", player, "player");
+      memory.exports.carom_match_opponent(this.#pointer, asks, found);
+      return readStruct<Player>(memory, found, "carom_player");
+    });
+  }
+  /**
    * The best strokes of the seat at the table, with a cue ball in hand within `bounds`. By default
-   * the cue is that of the seat, and the player one of its rating.
+   * the cue is that of the seat, the player one of its rating, and the opponent `opponent()`.
    */
   plan(options: PlanOptions = {}): PlanStroke[] {
     return this.think(options, 0).next().value as PlanStroke[];
@@ -551,8 +563,11 @@ export class Match extends Owner<Host> {
     if (this.phase === "moving") throw new RangeError("plan: balls move: continue() the shot");
     const { ball, ...stick } = this.cue;
     const { rating } = this.seats[this.seat]!;
+    const skill = rating > 0 ? { fargo: rating, rules: this.#rules.rules } : {};
+    const player = options.player ?? this.#host.player(skill);
     const request: PlanOptions = {
-      ...(rating > 0 && { player: this.#host.player({ fargo: rating, rules: this.#rules.rules }) }),
+      player,
+      opponent: this.opponent(player),
       ...options,
       ...this.game,
       cue: { ...stick, ...options.cue, ...(this.strikable.length === 1 && { ball }) },

@@ -24,18 +24,26 @@ import type {
   Call,
   PlanStroke,
   Cue,
+  Drill,
   EventType,
   GameRules,
   GameState,
+  Odds,
   PlanOptions,
   Player,
   Rating,
+  Review,
   Ruling,
   Score,
+  Sequence,
+  SequenceOptions,
+  SequenceStroke,
+  Series,
   ShotBall,
   ShotOptions,
   Skill,
   Table,
+  Vec2,
 } from "./types.js";
 
 const PLAYER = layout.carom_player;
@@ -43,6 +51,9 @@ const RULES = layout.carom_plan_rules;
 const OPTIONS = layout.carom_plan_options;
 const JOB = layout.carom_plan_job;
 const CHOICE = layout.carom_plan_stroke;
+const GOAL = layout.carom_plan_goal;
+const STEP = layout.carom_sequence_stroke;
+const COUNTS = layout.carom_sequence_counts;
 const RULING = layout.carom_ruling.offset;
 const POT = layout.carom_pot;
 const PART = layout.carom_part;
@@ -69,6 +80,7 @@ const fieldsOf = (state: object, keys: readonly string[]): object =>
     Object.entries(state).filter(([key, value]) => keys.includes(key) && value !== undefined),
   );
 const SCORE = layout.carom_score;
+const SERIES = layout.carom_series;
 const BOUNDS = {
   speedShare: 0,
   speedLeast: 0,
@@ -77,6 +89,7 @@ const BOUNDS = {
   growth: 0,
   onlyPots: 0,
   shots: 0,
+  eye: 0,
 };
 
 /** What the calls of this file need of the library. */
@@ -113,6 +126,10 @@ function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: str
     );
 }
 
+function refuseShots({ shots }: PlanOptions): never {
+  throw new RangeError(`shots: it must be a whole number from 100 to 1000000, not ${shots}`);
+}
+
 /** A call as carom_call has it. */
 function numbersOf(call: Call | undefined): { ball: number; pocket: number } {
   if (call === undefined) return { ball: -1, pocket: -1 };
@@ -135,6 +152,8 @@ export class Plans {
     | "call"
     | "corners"
     | "found"
+    | "goal"
+    | "counts"
     | "pot",
     Pointer
   >;
@@ -154,6 +173,8 @@ export class Plans {
       call: room(8),
       corners: room(layout.carom_bounds.size),
       found: room(8),
+      goal: room(GOAL.size),
+      counts: room(COUNTS.size),
       pot: room(POT.size),
     };
   }
@@ -173,7 +194,7 @@ export class Plans {
     return struck;
   }
 
-  player({ errors: scale, fargo, rules = "eightball" }: Skill): Player {
+  player({ errors: scale, fargo, rules }: Skill): Player {
     if (scale !== undefined && fargo !== undefined)
       throw new TypeError("errors, fargo: a player has errors or a rating, not both");
     const errors = scale ?? 1;
@@ -182,10 +203,13 @@ export class Plans {
     if (fargo !== undefined && !(fargo >= 200 && fargo <= 850))
       throw new RangeError(`fargo: it must be 200 to 850, not ${fargo}`);
     const { exports } = this.#memory;
-    const kind = value("carom_rules_kind", rules, "rules");
-    if (fargo === undefined) exports.carom_player_of(this.#addresses.player, errors);
-    else exports.carom_player_rated(this.#addresses.player, fargo, kind);
-    return readStruct<Player>(this.#memory, this.#addresses.player, "carom_player");
+    const { player } = this.#addresses;
+    if (fargo === undefined && rules !== undefined)
+      throw new TypeError("rules: a game needs a rating in it, fargo");
+    if (fargo === undefined) exports.carom_player_of(player, errors);
+    else if (rules === undefined) exports.carom_player_fargo(player, fargo);
+    else exports.carom_player_rated(player, fargo, value("carom_rules_kind", rules, "rules"));
+    return readStruct<Player>(this.#memory, player, "carom_player");
   }
 
   rating(scores: readonly Score[]): Rating {
@@ -205,6 +229,75 @@ export class Plans {
       return rating;
     } finally {
       memory.free(rows);
+    }
+  }
+
+  /** The odds of a match, and its fairest handicap. */
+  odds(series: Series): Odds {
+    refuseUnknown(series, KEYS.series);
+    const { ratings, games = 1, sets = 1, order = "alternate", side, breakPoints = 0 } = series;
+    const memory = this.#memory;
+    const both = (given: number | readonly number[]): readonly number[] =>
+      typeof given === "number" ? [given, given] : given;
+    const needed = { games: both(games), sets: both(sets) };
+    const room = memory.allocate(SERIES.size + layout.carom_odds.size);
+    const found = room + SERIES.size;
+    try {
+      const numbers = {
+        rating: ratings,
+        breakPoints,
+        ...needed,
+        order: value("carom_break_order", order, "order"),
+        side: side ?? -1,
+      };
+      writeStruct(memory, room, "carom_series", numbers, "series");
+      if (memory.exports.carom_odds_of(room, found) < 0)
+        throw new RangeError(
+          `series: ratings must be 0 to 1000, breakPoints -1000 to 1000, games and sets 1 to ${values.CAROM_SERIES_MOST}, and side 0 or 1`,
+        );
+      const odds = readStruct<C.Odds>(memory, found, "carom_odds");
+      memory.exports.carom_fair_series(room, room);
+      const [first = 0, second = 0] = Math.max(...needed.sets) > 1 ? needed.sets : needed.games;
+      const most = values.CAROM_SERIES_MOST;
+      return {
+        ...odds,
+        score: [odds.score.slice(0, second), odds.score.slice(most, most + first)],
+        fair: readStruct<C.Series>(memory, room, "carom_series").games,
+      };
+    } finally {
+      memory.free(room);
+    }
+  }
+
+  /** What a stroke of a game meant and cost, and a drill of it. */
+  review(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    call: Call | undefined,
+    options: PlanOptions,
+  ): Review {
+    const memory = this.#memory;
+    const { call: callAt, job } = this.#addresses;
+    const { size } = layout.carom_review;
+    this.#writeJob(table, balls, { ...options, cue });
+    const room = memory.allocate(size + layout.carom_drill.size);
+    try {
+      const { ball, pocket } = numbersOf(call);
+      memory.i32[callAt / 4] = ball;
+      memory.i32[callAt / 4 + 1] = pocket;
+      const { cue: played } = this.#host.addresses;
+      this.#refuse(memory.exports.carom_review_of(job, played, callAt, room), "review");
+      const isDirect = memory.exports.carom_drill_of(job, room, room + size) === 0;
+      const found = readStruct<C.Review>(memory, room, "carom_review");
+      return {
+        ...found,
+        group: memory.text(memory.exports.carom_practice_name(found.group))!,
+        kept: found.kept !== 0,
+        ...(isDirect && { drill: readStruct<Drill>(memory, room + size, "carom_drill") }),
+      };
+    } finally {
+      memory.free(room);
     }
   }
 
@@ -253,10 +346,7 @@ export class Plans {
       throw new RangeError(`${cues ? "cues: there" : "best: it"} must be 1 to 1000, not ${most}`);
     this.#writeJob(table, balls, options);
     const size = memory.exports.carom_plan_memory(this.#addresses.options);
-    if (size === 0)
-      throw new RangeError(
-        `shots: it must be a whole number from 100 to 1000000, not ${options.shots}`,
-      );
+    if (size === 0) refuseShots(options);
     const room = memory.allocate(size);
     const choices = memory.allocate(most * CHOICE.size);
     const strokes = memory.allocate(most * layout.carom_cue.size);
@@ -299,6 +389,57 @@ export class Plans {
     } finally {
       for (const pointer of [room, choices, strokes]) memory.free(pointer);
     }
+  }
+
+  /** A run-out as a whole, and the share of those that are played. */
+  sequence(
+    table: Table,
+    balls: readonly ShotBall[],
+    { within = 0.03, plays = 100, ...options }: SequenceOptions,
+  ): Sequence {
+    refuseUnknown(options, KEYS.sequence);
+    const { inHand = "no" } = options;
+    const memory = this.#memory;
+    const job = this.#writeJob(table, balls, options);
+    const size = memory.exports.carom_sequence_memory(this.#addresses.options);
+    if (size === 0) refuseShots(options);
+    const most = values.CAROM_SEQUENCE_MOST;
+    const room = memory.allocate(size);
+    const steps = memory.allocate(most * STEP.size);
+    try {
+      const { counts, found } = this.#addresses;
+      const more = { memory: room, memorySize: size, leave: leaveOf(inHand) };
+      setStruct(memory, job, "carom_plan_job", more, false);
+      const hand = Number(inHand !== "no");
+      this.#refuse(
+        memory.exports.carom_sequence(job, hand, within, steps, most, found),
+        "sequence",
+      );
+      const strokes = Array.from({ length: memory.i32[found / 4]! }, (_, k) =>
+        this.#readStep(steps + k * STEP.size, options, balls),
+      );
+      setStruct(memory, counts, "carom_sequence_counts", {});
+      const many = BigInt(whole(plays, "plays"));
+      this.#refuse(memory.exports.carom_sequence_play(job, hand, 0n, many, counts), "sequence");
+      const { runs } = readStruct<C.SequenceCounts>(memory, counts, "carom_sequence_counts");
+      return { strokes, chance: runs / plays, plays };
+    } finally {
+      for (const pointer of [room, steps]) memory.free(pointer);
+    }
+  }
+
+  #readStep(pointer: Pointer, game: Rules, balls: readonly ShotBall[]): SequenceStroke {
+    const memory = this.#memory;
+    const corners = (pointer + STEP.offset.zone) / 8;
+    return {
+      ...readStruct<C.SequenceStroke>(memory, pointer, "carom_sequence_stroke"),
+      choice: this.#readChoice(pointer + STEP.offset.choice),
+      ruling: this.readRuling(pointer + STEP.offset.ruling, game, balls),
+      zone: Array.from(
+        { length: values.CAROM_ZONE_CORNERS },
+        (_, k): Vec2 => [memory.f64[corners + 2 * k]!, memory.f64[corners + 2 * k + 1]!],
+      ),
+    };
   }
 
   /**
@@ -638,6 +779,22 @@ export class Plans {
       );
   }
 
+  /** A goal in the module's memory; 0: none. */
+  #writeGoal(goal: PlanOptions["goal"]): Pointer {
+    if (!goal) return 0;
+    refuseUnknown(goal, KEYS.goal, "goal");
+    const { kind, ball = 0, balls = [], place = [0, 0], distance = 0 } = goal;
+    const { goal: pointer } = this.#addresses;
+    setStruct(this.#memory, pointer, "carom_plan_goal", {
+      kind: value("carom_goal_kind", kind, "goal.kind"),
+      ball,
+      balls: balls.reduce((set, k) => set | (1 << k), 0),
+      distance,
+    });
+    this.#memory.f64.set(place, (pointer + GOAL.offset.place) / 8);
+    return pointer;
+  }
+
   #writeJob(table: Table, balls: readonly ShotBall[], options: PlanOptions): Pointer {
     const memory = this.#memory;
     const { addresses } = this.#host;
@@ -670,6 +827,7 @@ export class Plans {
       shot,
       options: optionsAt,
       count: balls.length,
+      goal: this.#writeGoal(options.goal),
     });
   }
 

@@ -211,7 +211,7 @@ export type RackName = C.RackKind;
 /** How the strokes of a player differ from those that are meant. What is missing is 0. */
 export type Player = Optional<
   C.Player,
-  "speedShare" | "speedLeast" | "speedMost" | "tipMost" | "growth" | "onlyPots" | "shots"
+  "speedShare" | "speedLeast" | "speedMost" | "tipMost" | "growth" | "onlyPots" | "shots" | "eye"
 >;
 
 /** Games won and lost against a player of a Fargo rating, 0 to 1000. */
@@ -223,6 +223,40 @@ export interface Skill extends Pick<Partial<GameState>, "rules"> {
 }
 /** A rating by games: the mean of the likely ones, and the interval that has 95 % of them. */
 export type Rating = Omit<C.Rating, "row">;
+
+/** A match of two rated sides, for `odds`. One number of games or sets is for both sides. */
+export interface Series {
+  /** Fargo ratings, 0 to 1000: 100 points more win two games for each one of the other. */
+  ratings: readonly [number, number];
+  /** How many win a set, 1 to 100. Default 1. */
+  games?: number | readonly [number, number];
+  /** How many win the match. Default 1. */
+  sets?: number | readonly [number, number];
+  /** Who breaks within a set; sets are begun in turn. Default "alternate". */
+  order?: C.BreakOrder;
+  /** Which side breaks first. Default: either, by lot. */
+  side?: 0 | 1;
+  /** How many points a side has more in a game that it breaks. Default 0. */
+  breakPoints?: number;
+}
+/** The chances of the first side, and of all final scores. */
+export interface Odds extends Omit<C.Odds, "score"> {
+  /**
+   * `score[s][k]`: that side s wins while the other has k sets; where one set decides, k games.
+   */
+  score: [number[], number[]];
+  /** The games of both sides with which the match is fairest. */
+  fair: readonly number[];
+}
+/** A layout to practise a stroke: that of the review. */
+export type Drill = C.Drill;
+/** What a stroke meant and cost. Numbers of a stroke at no pocket are NaN, and it has no drill. */
+export interface Review extends Omit<C.Review, "group" | "kept"> {
+  /** Such as "long thin cut". */
+  group: string;
+  kept: boolean;
+  drill?: Drill;
+}
 
 /**
  * A game between two strokes, as the player at the table sees it. Ball k is ball k of the game,
@@ -381,7 +415,7 @@ export interface Aim {
 export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   /** Default: `player()`. */
   player?: Player;
-  /** Default: as the player. */
+  /** Default: as the player; in `Match.plan` its `opponent()`. */
   opponent?: Player;
   /**
    * Where a cue ball in hand may be put, as a ruling says it: behind the head string ("kitchen"), in
@@ -390,6 +424,8 @@ export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   inHand?: Ruling["hand"] | readonly [Vec2, Vec2];
   /** Plan to run out: a turn that ends before the game is won is worth nothing. */
   runOut?: boolean;
+  /** What the stroke is to leave; `value` is then the chance that it does, without a foul. */
+  goal?: Goal;
   /** How many choices at most; default 5. */
   best?: number;
   /**
@@ -399,6 +435,44 @@ export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   cue?: Partial<Cue>;
   /** Models; when to stop is not read. */
   shot?: ShotOptions;
+}
+
+/** What a stroke is to leave; `carom_goal_kind` of the C header explains the kinds. */
+export interface Goal {
+  kind: C.GoalKind;
+  /** Of "snooker": the ball. */
+  ball?: number;
+  /** Of "apart": the balls. */
+  balls?: readonly number[];
+  /** Of "near": the place, m. */
+  place?: Vec2;
+  /** Of "near" and "apart": the largest distance, or the smallest gap, m. */
+  distance?: number;
+}
+
+/** Options of run-outs: those of plans, and how far and how often. */
+export interface SequenceOptions extends Omit<PlanOptions, "goal" | "safeties" | "best"> {
+  /** How much chance to run out the cue ball may lose within a landing zone; default 0.03. */
+  within?: number;
+  /** How many run-outs to play for the chance of the whole; default 100. */
+  plays?: number;
+}
+
+/** A stroke of a run-out, with its landing zone and its tolerance. */
+export interface SequenceStroke extends Omit<C.SequenceStroke, "choice" | "ruling" | "zone"> {
+  choice: PlanStroke;
+  /** What the stroke leaves without errors. */
+  ruling: Ruling;
+  /** The corners of the landing zone of the cue ball, m. */
+  zone: Vec2[];
+}
+
+/** A run-out as one answer. */
+export interface Sequence {
+  strokes: SequenceStroke[];
+  /** The share of the played run-outs that succeeded. */
+  chance: number;
+  plays: number;
 }
 
 /** A stroke, and what is known of it. */

@@ -556,3 +556,23 @@ test("a rating grows with what is won, by both builds; a score in error is named
   expect(builds[0]!.carom.rating([]).high).toBeCloseTo(696.51005, 4);
   expect(() => plain!(-1)).toThrow("scores[0]: a rating must be 0 to 1000");
 });
+
+test("odds are those of Python, and a stroke beside its aim is reviewed, by both builds", () => {
+  for (const { carom } of builds) {
+    const odds = carom.odds({ ratings: [600, 500], games: [2, 1] });
+    expect(odds.match).toBeCloseTo(4 / 9, 12);
+    expect(odds.score[1]).toEqual([odds.score[1][0], odds.score[1][1]]);
+    expect(odds.score[1][1]).toBeCloseTo(2 / 9, 12);
+    expect(odds.fair).toEqual([2, 1]);
+    expect(() => carom.odds({ ratings: [600, 5000] })).toThrow("ratings must be 0 to 1000");
+
+    const places: Record<number, Vec2> = { 0: [0.5, 1.2], 8: [0.35, 1.9], 9: [0.9, 1.3] };
+    const { table, balls } = lay(carom, "nineball", places);
+    const { cue } = carom.aim(table, balls, { speed: 2 }, { ball: 8, pocket: "foot-left" });
+    const options = { rules: "nineball", player: carom.player({ errors: 2 }) } as const;
+    const review = carom.review(table, balls, { ...cue, phi: cue.phi + 3 }, options);
+    expect([review.ball, review.kept, review.drill!.ball]).toEqual([8, false, 8]);
+    expect(review.off).toBeCloseTo(3, 9);
+    expect(review.missCost + review.placeCost).toBeCloseTo(review.value - review.came, 12);
+  }
+});

@@ -47,7 +47,7 @@ _USUAL = Options()
 _PHASES = get_args(Phase)
 _CHOICES = get_args(Choice)
 _OWN = 1000  # the number of a game of one's own in recordings
-_ORDERS = {"alternate": 0, "winner": 1, "loser": 2}
+ORDERS = {"alternate": 0, "winner": 1, "loser": 2}
 
 
 class Bounds(NamedTuple):
@@ -101,7 +101,7 @@ def _fill(struct: Any, values: Mapping[str, Any], name: str) -> None:
                     stick[stroke] = 0
                 ffi.buffer(ffi.addressof(struct, member))[:] = stick.tobytes()
             elif member == "order":
-                struct.order = choice(_ORDERS, value, f"{name}: order")
+                struct.order = choice(ORDERS, value, f"{name}: order")
             else:
                 setattr(struct, member, value.encode() if isinstance(value, str) else value or 0)
         except (TypeError, OverflowError, IndexError) as wrong:
@@ -342,7 +342,7 @@ class Match:
                 seat.side,
                 seat.handicap,
                 seat.rating,
-                _cue(ffi.addressof(seat, "cue")),
+                cue_of(ffi.addressof(seat, "cue")),
             )
             for seat in seats
         )
@@ -358,7 +358,7 @@ class Match:
         values = _members(self._c.record.set)
         won = values["won"][: len(self.standing.won)]
         is_one = values["race"] > 0
-        return {**values, "order": [*_ORDERS][values["order"]], "won": won} if is_one else None
+        return {**values, "order": [*ORDERS][values["order"]], "won": won} if is_one else None
 
     @property
     def standing(self) -> Standing:
@@ -408,7 +408,7 @@ class Match:
     @property
     def cue(self) -> Records:
         """The cue of the seat at the table, at the cue ball: aim it, `cue["phi"] = 90.0`."""
-        return _cue(ffi.addressof(self._c, "cue"))
+        return cue_of(ffi.addressof(self._c, "cue"))
 
     @property
     def on(self) -> frozenset[int]:
@@ -442,7 +442,7 @@ class Match:
         if self._shot[0] != key:
             size = self._c.record.count * dtypes.shot_ball.itemsize
             before = np.frombuffer(ffi.buffer(self._c.before, size), dtypes.shot_ball)
-            cue = _cue(ffi.addressof(self._c, "stroke"))
+            cue = cue_of(ffi.addressof(self._c, "stroke"))
             try:
                 shot = replayed(self.table, before, cue, self.options, self._c)
             except CaromError as failed:
@@ -649,7 +649,8 @@ class Match:
         """The best strokes of the seat at the table, with a cue ball in hand within `bounds`.
 
         `wanted` is as for `carom.plan`: player, opponent, shots, best, seed, ... By default the cue
-        is that of the seat, and the player one of its rating.
+        is that of the seat, and the player one of its rating. The opponent is the next seat of the
+        other side, by its rating, else as strong as its strokes in this set show.
         """
 
         c = self.copy()._c  # whose text and cue a plan changes
@@ -662,7 +663,7 @@ class Match:
 
         is_own = isinstance(self.rules, Rules)
         if rating := self._c.seating.seat[self.seat].rating:
-            game = "eightball" if is_own else self.rules
+            game: Game = "eightball" if isinstance(self.rules, Rules) else self.rules
             wanted = {"player": player(fargo=rating, rules=game), **wanted}
         return plan(
             self.table,
@@ -684,7 +685,7 @@ def _refuse(match: Any, code: int, field: str) -> None:
         raise CaromError(code, act or field, text=right or None)
 
 
-def _cue(cue: Any) -> Records:
+def cue_of(cue: Any) -> Records:
     return np.frombuffer(ffi.buffer(cue), dtypes.cue).copy().reshape(())
 
 

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from carom import dtypes
 from carom._carom import ffi, lib
+from carom._described import Goal as GoalKind
 from carom._faults import argument_error, shot_arguments
 from carom._rows import Array, Arrays, as_array, choice, copied, listing, number, pointer
 from carom._rows import Seed, seed_of, several, whole
@@ -30,14 +31,17 @@ if TYPE_CHECKING:
     from carom._shot_options import Changes
 
 __all__ = [
+    "Goal",
     "Kind",
     "Pot",
     "Rating",
+    "RunOut",
     "aim",
     "chances",
     "plan",
     "player",
     "rating",
+    "sequence",
     "value",
     "with_errors",
 ]
@@ -72,8 +76,26 @@ class Kind(enum.IntEnum):
         return str(ffi.string(lib.carom_plan_kind_name(self)).decode())
 
 
+class Goal(NamedTuple):
+    """What a stroke of `plan` is to leave.
+
+    The kinds are the words of `carom plan --leave`; `carom_goal_kind` of `carom_plan.h` explains
+    each.
+    """
+
+    kind: GoalKind
+    ball: int = 0
+    """Of "snooker": the index of the ball."""
+    balls: Sequence[int] = ()
+    """Of "apart": indices of the balls."""
+    place: tuple[float, float] = (0.0, 0.0)
+    """Of "near": the place, m."""
+    distance: float = 0.0
+    """Of "near" and "apart": the largest distance, or the smallest gap, m."""
+
+
 def player(
-    errors: float | None = None, *, fargo: float | None = None, rules: Game = "eightball"
+    errors: float | None = None, *, fargo: float | None = None, rules: Game | None = None
 ) -> Records:
     """A player whose strokes err, as an array of `carom.dtypes.player`, shape ().
 
@@ -82,17 +104,16 @@ def player(
     Parameters
     ----------
     errors : float
-        At least 0. Standard deviations: 0.1 m/s, 0.1 degrees of direction and of elevation and
-        0.003 radii each way, times errors. Default: 1. The speed is that of a cue whose tip loses
-        nothing; others err by 2/(1 + tip_restitution) times as much.
+        At least 0. Standard deviations of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees of direction and
+        of elevation and 0.003 radii each way, times errors; they grow with the speed. Default: 1.
     fargo : float, optional
         A Fargo rating, 200 to 850, instead: errors that grow with the speed, the shots of a plan and
         `only_pots`, the share of strokes in which the player thinks of nothing but potting. Such
         players beat those who are 100 points weaker in about 2 of 3 games, if `shots` of `plan` is
         not given (docs/understanding/plan.md). Set `only_pots` to 0 for a plan that advises one.
-    rules : str
-        The game in which the player has this rating: by it, players of other ratings than 500 differ
-        more or less.
+    rules : str, optional
+        A game in whose matches the player plays: there, players of other ratings than 500 differ so
+        much that 100 points are odds of 2 to 1. Not given: the person, whom a plan advises.
     """
     if errors is not None and fargo is not None:
         raise ValueError("errors, fargo: a player has errors or a rating, not both")
@@ -105,11 +126,15 @@ def player(
         <= 850.0
     ):
         raise ValueError(f"fargo: it must be 200 to 850, not {fargo}")
-    game = choice(GAMES, rules, "rules")
     record: Array = np.zeros((), dtypes.player)
-    pointer("carom_player[]", record)[0] = (
-        lib.carom_player_of(errors) if fargo is None else lib.carom_player_rated(fargo, game)
-    )
+    made = lib.carom_player_of(errors)
+    if fargo is not None:
+        made = lib.carom_player_fargo(fargo)
+    if rules is not None:
+        if fargo is None:
+            raise ValueError("rules: a game needs a rating in it, fargo")
+        made = lib.carom_player_rated(fargo, choice(GAMES, rules, "rules"))
+    pointer("carom_player[]", record)[0] = made
     return record
 
 
@@ -311,6 +336,8 @@ def aim(
 
 
 _usual_player = player
+# the ranges of a player's numbers, except those from 0 to 1000
+_RANGES = {"tip_most": (0.0, 1.0), "eye": (-np.inf, 0.01), "reserved": (0.0, 0.0)}
 
 
 def _one_player(player: Records, name: str = "player") -> Any:
@@ -319,9 +346,11 @@ def _one_player(player: Records, name: str = "player") -> Any:
     if record.ndim != 0:
         raise ValueError(f"{name}: one is needed, of shape (), not {record.shape}")
     for field in dtypes.player.names or ():
-        most = {"tip_most": 1.0, "reserved": 0.0}.get(field, 1000.0)
-        if not ((record[field] >= 0.0) & (record[field] <= most)).all():
-            raise ValueError(f"{name}: {field}: it must be 0 to {most:g}, not {record[field]}")
+        least, most = _RANGES.get(field, (0.0, 1000.0))
+        if not ((record[field] >= least) & (record[field] <= most)).all():
+            raise ValueError(
+                f"{name}: {field}: it must be {least:g} to {most:g}, not {record[field]}"
+            )
     return pointer("carom_player[]", record)
 
 
@@ -361,7 +390,24 @@ def _stoppable(call: Callable[[], int], flag: Any, stop: threading.Event | None)
     return called.result()
 
 
-class _Job:
+_GOALS = {word: k for k, word in enumerate(get_args(GoalKind))}
+
+
+def _goal(goal: Goal, count: int) -> Any:
+    """A goal for C, which checks its numbers."""
+    return ffi.new(
+        "carom_plan_goal *",
+        {
+            "kind": choice(_GOALS, goal.kind, "goal"),
+            "ball": whole(goal.ball, "goal: ball", most=count - 1),
+            "balls": sum(1 << whole(k, "goal: balls", most=count - 1) for k in {*goal.balls}),
+            "place": [number(x, "goal: place") for x in goal.place],
+            "distance": number(goal.distance, "goal: distance"),
+        },
+    )
+
+
+class Job:
     """What a plan is made for, checked, as C has it; and what has to live as long."""
 
     def __init__(
@@ -381,6 +427,9 @@ class _Job:
         level: bool = False,
         seconds: float = 0.0,
         run_out: bool = False,
+        goal: Goal | None = None,
+        safeties: bool = False,
+        memory_of: Callable[[Any], int] = lib.carom_plan_memory,
     ) -> None:
         check_table(table)
         self.layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
@@ -408,13 +457,15 @@ class _Job:
         if not 0.0 <= request.seconds <= 1e6:
             raise ValueError(f"seconds: they must be 0 to 1e6, not {seconds}")
         request.chance_opponent = whole(run_out, "run_out", most=1)
+        request.safeties = whole(safeties, "safeties", most=1)
         request.once = stop is None and seconds == 0.0  # Ctrl-C asks for no choice
         rival = None if opponent is None else _one_player(opponent, "opponent")
         request.opponent = ffi.NULL if rival is None else rival
         request.stop = game.stop
         player = _one_player(_usual_player() if personal is None else personal)
         game.check_layout(table, self.layout)
-        memory: Array = np.empty(lib.carom_plan_memory(request) // 8 + 1, np.float64)
+        memory: Array = np.empty(memory_of(request) // 8 + 1, np.float64)
+        wanted = ffi.NULL if goal is None else _goal(goal, len(self.layout))
         record = table.record
         self.c = ffi.new(
             "carom_plan_job *",
@@ -429,13 +480,14 @@ class _Job:
                 "options": request,
                 "memory": pointer("double[]", memory),
                 "memory_size": memory.nbytes,
+                "goal": wanted,
             },
         )
         self.table, self.game, self.stop, self.references = (
             table,
             game,
             stop,
-            (request, rival, player, memory, record),
+            (request, rival, player, memory, record, wanted),
         )
 
     def call(self, function: Callable[..., int], *arguments: Any, field: str = "balls") -> None:
@@ -478,6 +530,8 @@ def plan(
     unsure: float = 0.0,
     level: bool = False,
     run_out: bool = False,
+    goal: Goal | None = None,
+    safeties: bool = False,
     stop: threading.Event | None = None,
     options: Options = _USUAL,
     _by: ByMatch | None = None,
@@ -536,6 +590,11 @@ def plan(
         cue is raised over them.
     run_out : bool
         Whether to plan to run out: a turn that ends before the game is won is worth nothing.
+    goal : Goal, optional
+        What the stroke is to leave, such as `Goal("near", place=(0.6, 0.6), distance=0.2)`. `value`
+        is then the chance that it does, without a foul.
+    safeties : bool
+        Whether to try only safeties: strokes that without errors pass the turn without a foul.
     stop : threading.Event, optional
         Ends the plan early when another thread, or a handler of a signal, sets it: the plan then
         has one choice, the best so far. Without a handler of yours Ctrl-C ends the plan, too, and
@@ -558,7 +617,7 @@ def plan(
     corners = _corners(in_hand)
     game = (_by and _by.game_record) or Made(rules, state, group, opening)
     game.stop[0] = 0
-    job = _Job(
+    job = Job(
         table,
         balls,
         cue,
@@ -574,6 +633,8 @@ def plan(
         level,
         seconds,
         run_out,
+        goal,
+        safeties,
     )
     choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.plan_stroke)
     found = ffi.new("int *")
@@ -586,6 +647,85 @@ def plan(
     else:
         job.call(lib.carom_plan, rows, len(choices), found)
     return choices[: found[0]]
+
+
+class RunOut(NamedTuple):
+    """A run-out as one answer."""
+
+    strokes: Records
+    """`carom.dtypes.sequence_stroke`, shape (strokes,): `choice` is the stroke, `zone` the corners of
+    the landing zone of the cue ball (m), `speed` and `phi` the tolerance, and `turn_ball` the ball
+    that is played instead where the cue ball misses the zone, or -1. `carom_coach.h` has the rest.
+    """
+    chance: float
+    """The share of the played run-outs that succeeded; NaN of none."""
+    plays: int
+    """How many were played."""
+
+
+def sequence(
+    table: Table,
+    balls: Records,
+    cue: Records | None = None,
+    *,
+    rules: Game | Rules = "eightball",
+    group: Group | None = None,
+    state: GivenState | None = None,
+    player: Records | None = None,
+    shots: int | None = None,
+    in_hand: Hand = "no",
+    within: float = 0.03,
+    plays: int = 100,
+    seed: Seed = 0,
+    threads: int = 0,
+    stop: threading.Event | None = None,
+    options: Options = _USUAL,
+    **changes: Unpack[Changes],
+) -> RunOut:
+    """Plan a run-out as a whole: each stroke from what the one before leaves without errors.
+
+    Parameters
+    ----------
+    table, balls, cue, rules, group, state, player, shots, in_hand, seed, threads, stop, options
+        As for `plan`.
+    within : float
+        How much chance to run out the cue ball may lose within a landing zone.
+    plays : int
+        How many run-outs with errors to play for the chance of the whole, each stroke planned anew.
+
+    Raises
+    ------
+    CaromError
+        The layout, the cue or an option is in error.
+    """
+    check_table(table)
+    corners = _corners(in_hand)
+    job = Job(
+        table,
+        balls,
+        cue,
+        Made(rules, state, group, False),
+        player,
+        None,
+        shots,
+        seed,
+        threads,
+        0.0,
+        stop,
+        chosen(options, changes),
+        memory_of=lib.carom_sequence_memory,
+    )
+    if corners is not None:
+        job.c.leave = corners[0]
+    hand = corners is not None
+    strokes: Array = np.zeros(lib.CAROM_SEQUENCE_MOST, dtypes.sequence_stroke)
+    found = ffi.new("int *")
+    rows = pointer("carom_sequence_stroke[]", strokes)
+    job.call(lib.carom_sequence, hand, number(within, "within"), rows, len(strokes), found)
+    counts = ffi.new("carom_sequence_counts *")
+    job.call(lib.carom_sequence_play, hand, 0, whole(plays, "plays"), counts)
+    chance = counts.runs / counts.plays if counts.plays > 0 else np.nan
+    return RunOut(strokes[: found[0]], chance, counts.plays)
 
 
 def chances(
@@ -638,7 +778,7 @@ def chances(
     if not 1 <= strokes.size <= 1000:
         raise ValueError(f"cues: 1 to 1000 are needed, not {strokes.size}")
     game = Made(rules, state, group, opening)
-    job = _Job(
+    job = Job(
         table,
         balls,
         strokes.reshape(-1)[0],
@@ -688,7 +828,7 @@ def value(
     CaromError
         The layout or an option is in error.
     """
-    job = _Job(
+    job = Job(
         table,
         balls,
         None,

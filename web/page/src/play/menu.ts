@@ -1,7 +1,7 @@
 // The dialog of a new game: which one, against whom, and how the page plays it.
 import { words } from "carom";
 import { GAMES, hasMember, PLAYED, POOL_TABLE_NAMES } from "../table/games.js";
-import { RATINGS } from "../table/words.js";
+import { percent, RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
 import { CLOCKS } from "./clock.js";
 import { calibrationPage, ownCushion, wordsOfCushion } from "./calibration.js";
@@ -14,6 +14,8 @@ import { begin } from "./opening.js";
 import { chooseLanguage, language, LANGUAGE_NAMES, texts, translate } from "../texts/texts.js";
 
 const KEY = "carom-settings";
+/** Games of the race whose odds are told. */
+const RACE = 7;
 const LINES: readonly (readonly [Settings["lines"], string])[] = [
   ["level", texts.byYourRating],
   ["none", texts.none],
@@ -80,6 +82,13 @@ function ladderOf(choose: (rating: string) => void): {
     root.replaceChildren(...rungs);
   }
   return { root, mark };
+}
+
+/** How an opponent of a rating plays, and how likely one wins by one's own rating. */
+function wordsOfOpponent(s: Session, against: string): string {
+  const { rating, words } = s.training.rating();
+  const { game, match } = s.carom.odds({ ratings: [rating, Number(against)], games: RACE });
+  return `${texts.theComputerPlaysLike(against, words)} ${texts.youWinOf(percent(game), percent(match), RACE)}`;
 }
 
 export function menu(
@@ -218,9 +227,7 @@ export function menu(
       person: texts.bothOfYouPlay,
       link: texts.youBreakSendThe,
     };
-    note.textContent =
-      notes[against.select.value] ??
-      texts.theComputerPlaysLike(against.select.value, s.training.rating().words);
+    note.textContent = notes[against.select.value] ?? wordsOfOpponent(s, against.select.value);
   }
   const chosenTable = (): ReturnType<typeof tableOf> =>
     tableOf({
