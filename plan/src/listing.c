@@ -166,6 +166,8 @@ static bool is_listed(const search *plan, const candidate *c) {
     return true;
   if (c->round == 0 || (alone && pot_of(c).ball < 0))
     return false;
+  if (plan->only_safeties && carom_luck * c->chose.seen < c->chose.keep)
+    return false;
   const double mean = mean_of(&c->chose), best_mean = mean_of(&best->chose);
   return mean >= best_mean - points_most && !(mean > best_mean && c->round < best->round);
 }

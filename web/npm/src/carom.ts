@@ -55,6 +55,8 @@ import type {
   Measures,
   Motion,
   PlanOptions,
+  Sequence,
+  SequenceOptions,
   Player,
   RackName,
   Odds,
@@ -1353,6 +1355,14 @@ export class Carom {
     options: PlanOptions = {},
   ): PlanStroke[] {
     return this.#plans.plan(table, balls, cues, options);
+  }
+
+  /**
+   * A run-out as a whole: each stroke from what the one before leaves without errors, with the
+   * landing zone of the cue ball, and the chance of the whole by run-outs that are played.
+   */
+  sequence(table: Table, balls: readonly ShotBall[], options: SequenceOptions = {}): Sequence {
+    return this.#plans.sequence(table, balls, options);
   }
 
   /** The balls that may be met first, and potted. */
