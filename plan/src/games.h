@@ -163,9 +163,9 @@ static const learned learned_of[] = {
 };
 
 /* By how many points of carom_player_fargo() players differ who differ by 100 points in a game:
- * below a rating of 500, and above it. With these, 100 points are odds of 2 to 1 in the unit of the
- * comment, as `carom-lab plan --rules GAME --players A,B` shows; with twice as many they would be
- * about 4 to 1. Games without a row have those of eight-ball. */
+ * below a rating of 500, and above it. With these, 100 points are odds of 2 to 1 in the unit of
+ * the comment, as `carom-lab plan --rules GAME --players A,B` shows; with twice as many points
+ * they would be odds of about 4 to 1. Games without a row have those of eight-ball. */
 static const double rating_steps[][2] = {
     [CAROM_RULES_EIGHTBALL] = {70.0, 95.0},    /* a rack */
     [CAROM_RULES_NINEBALL] = {180.0, 110.0},   /* a rack */
