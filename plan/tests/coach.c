@@ -109,8 +109,8 @@ TEST(costs_of_errors) {
       ck_assert_double_eq_tol(why.flawless_value - why.value, sum, 1e-12);
 
       /* of speed, between aim and tip: the mean of what it costs with aim, and with tip and eye */
-      const carom_player none = {.eye = -1.0};
-      carom_player aims = none, tips = {0}, others = player, timed = player;
+      const carom_player none = {.eye = -1.0, .growth = player.growth};
+      carom_player aims = none, tips = {.growth = player.growth}, others = player, timed = player;
       aims.phi = player.phi, aims.theta = player.theta;
       tips.a = player.a, tips.b = player.b;
       timed.a = timed.b = 0.0;
