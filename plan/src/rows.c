@@ -222,7 +222,7 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   if (!ends)
     leave_layout(plan, &game, c, final, taken_back, &turn);
   if (carom_has_goal(&plan->job))
-    o.worth = !taken_back && carom_search_reaches(plan, &game, final, &turn);
+    o.worth = !taken_back && carom_search_reaches(plan, &game, final, &turn, &o.near);
   else if (!ends)
     o.worth = carom_search_leave(plan, &game, final, &turn);
   return o;
@@ -318,6 +318,10 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     cue.ball = plan->cue_ball;
     const carom_prepared layout =
         carom_search_layout(plan, c, s->draws, row % s->each, result.drawn);
+    if (s->measure != NULL) {
+      shot.events = plan->path + row * PATH_EVENTS;
+      shot.room = PATH_EVENTS;
+    }
     const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
     if (plan->plays < plan->view.count)
       spread(plan, &result);
@@ -340,6 +344,8 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     else
       *o = judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
     o->events = work_of(&shot);
+    if (s->measure != NULL)
+      o->miss = s->measure(plan, c, shot.events, shot.count);
   }
   return end;
 }

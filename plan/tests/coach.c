@@ -108,13 +108,14 @@ TEST(costs_of_errors) {
         sum += why.cost[error];
       ck_assert_double_eq_tol(why.flawless_value - why.value, sum, 1e-12);
 
-      /* of speed, between aim and tip: the mean of what it costs with aim and with the tip */
+      /* of speed, between aim and tip: the mean of what it costs with aim, and with tip and eye */
       const carom_player none = {.growth = player.growth, .eye = -1.0};
-      carom_player aims = none, tips = none, others = player, timed = player;
-      aims.phi = player.phi, aims.theta = player.theta, aims.eye = player.eye;
+      carom_player aims = none, tips = {.growth = player.growth}, others = player, timed = player;
+      aims.phi = player.phi, aims.theta = player.theta;
       tips.a = player.a, tips.b = player.b;
       timed.a = timed.b = 0.0;
-      others.phi = others.theta = 0.0, others.eye = -1.0;
+      timed.eye = -1.0;
+      others.phi = others.theta = 0.0;
       const double cost = 0.5 * (value_with(&choice, &aims) - value_with(&choice, &timed) +
                                  value_with(&choice, &tips) - value_with(&choice, &others));
       ck_assert_double_eq_tol(why.cost[CAROM_WHY_SPEED], cost, 1e-12);

@@ -3,7 +3,7 @@
 #include "carom_coach.h"
 #include "plan_support.h"
 
-enum { STROKES = 60 };
+enum { STROKES = 40 };
 
 /* Sums of the reviews of strokes at the 8, which are played `beside` degrees to the left. */
 typedef struct review_sums {
