@@ -326,7 +326,7 @@ static const command_form form = {
         "columns of --csv: "
         "rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,phi_low,phi_high,speed_low,speed_high,"
         "chance,error,found,scanned\n"
-        "Pots with a window below 0.04 degrees are left out.\n"
+        "Pots with a window below 0.02 degrees are left out.\n"
         "\n"
         "exit code: 0; 1 if there is no way; 2 for bad usage or unreadable input\n",
     .example = "carom ways --cue 0.6,0.8 --balls 0.3,1.9:0.9,1.7 --ball 1 --plot ways.svg",

@@ -74,7 +74,9 @@ typedef struct carom_ways_job {
   const carom_player *player;   /* whose errors the chances have. */
   const carom_shot_options *shot; /* models, space, fast and threads; NULL: the defaults. */
   int64_t scan;                   /* how many directions of all strokes together, at least one for
-                                     each stroke. 1800 for a stroke are steps of 0.2 degrees. */
+                                     each stroke. 1800 for a stroke are steps of 0.2 degrees. For
+                                     pots of one ball, and where no way was found, each stroke has
+                                     at least 18000. */
   int32_t goal;                   /* a carom_way_goal. */
   int32_t ball;                   /* for pots: the ball, or -1 for any. */
   int32_t pocket;                 /* for pots: the pocket, or -1 for any. */
@@ -104,7 +106,7 @@ CAROM_API size_t carom_ways_memory(int64_t room);
 
 /* Finds the ways to the goal, and writes up to `room` of them to ways[]: those with the best
  * chance first, and of equal chances the widest. With `each` 1 they are in the order of the
- * strokes. A pot whose directions are less than 0.04 degrees apart is left out. Returns CAROM_OK;
+ * strokes. A pot whose directions are less than 0.02 degrees apart is left out. Returns CAROM_OK;
  * CAROM_ERROR_NULL if a pointer is NULL or there is too little memory; CAROM_ERROR_OPTIONS for a
  * number out of its range, a bad player, or cues of different balls; or an error of carom_shoot(),
  * with *result as far as the search came. The ways depend only on the arguments, not on the number

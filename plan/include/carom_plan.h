@@ -451,11 +451,11 @@ CAROM_API const char *carom_rules_fault(carom_rules_kind kind, const carom_rules
 /* The rules, with the state after the break; those of EIGHTBALL for a value not listed. */
 CAROM_API carom_plan_rules carom_plan_rules_of(carom_rules_kind kind);
 
-/* A player with a rating in a game, as the seats of a match have it: 100 points are odds of 2 to 1 in
- * a rack, a frame of snooker, 15 points of three-cushion or 15 of straight pool. A 500 has the
+/* A player with a rating in a game, as the seats of a match have it: 100 points are odds of 2 to 1
+ * in a rack, a frame of snooker, 15 points of three-cushion or 15 of straight pool. A 500 has the
  * errors of carom_player_fargo() in each game. Others differ from a 500 by the errors of another
- * rating, which is nearer to 500 where a game lets the better player win more often. A kind that is
- * none counts as eight-ball. */
+ * rating, which is nearer to 500 where a game lets the better player win more often. A kind that
+ * is none counts as eight-ball. */
 CAROM_API carom_player carom_player_rated(double rating, carom_rules_kind rules);
 
 /* Puts balls[ball] on the foot spot, or as near to it as there is room on the long string: behind

@@ -69,15 +69,6 @@ typedef struct progress {
   carom_brief_event end; /* that; of type 0: nothing did */
 } progress;
 
-/* An angle of less than three half turns, as one of at most half a turn. */
-static double wrapped(double angle) {
-  if (angle > pi)
-    return angle - 2.0 * pi;
-  if (angle < -pi)
-    return angle + 2.0 * pi;
-  return angle;
-}
-
 /* Whether two rails are on one line. */
 static bool in_line(const carom_rail *r, const carom_rail *s) {
   const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1], length = x * x + y * y;
@@ -266,7 +257,7 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
   const double o[2] = {s->r[0] + back * u[0], s->r[1] + back * u[1]};
   const carom_window window = carom_window_of(&w->mouth, o, w->alone[w->balls - 1].kind.radius);
   *half = window.half;
-  *e = wrapped(window.psi - carom_angle_of(u[0], u[1]));
+  *e = carom_wrapped(window.psi - carom_angle_of(u[0], u[1]));
   return p;
 }
 
@@ -373,8 +364,8 @@ static double cut_of(const way *w, carom_cue cue) {
     carom_strike(&cue, &w->alone[0].kind, &struck);
     v = struck.v;
   }
-  return wrapped(carom_angle_of(s[1].r[0] - s[0].r[0], s[1].r[1] - s[0].r[1]) -
-                 carom_angle_of(v[0], v[1])) /
+  return carom_wrapped(carom_angle_of(s[1].r[0] - s[0].r[0], s[1].r[1] - s[0].r[1]) -
+                       carom_angle_of(v[0], v[1])) /
          degree;
 }
 

@@ -319,7 +319,8 @@ carom_status carom_break_best(const carom_break_job *job, int64_t breaks,
   if (job == NULL || choices == NULL || job->player == NULL || job->cue == NULL ||
       job->balls == NULL || job->table == NULL)
     return CAROM_ERROR_NULL;
-  if (breaks < 16 || room < 1 || room > FINALISTS || !carom_break_has_rules((carom_rack_kind)job->rack))
+  if (breaks < 16 || room < 1 || room > FINALISTS ||
+      !carom_break_has_rules((carom_rack_kind)job->rack))
     return CAROM_ERROR_OPTIONS;
   carom_status status = carom_break_play(job, 0, 0, &(carom_break_counts){0});
   if (status != CAROM_OK)

@@ -3,6 +3,7 @@
  * first that is on. */
 #include "candidates.h"
 
+#include "miss.h"
 #include "places.h"
 #include "platform/elementary.h"
 #include "platform/promise.h"
@@ -168,6 +169,18 @@ static void move_aside(candidate *c, int side) {
   c->r[1] += offset[side][1];
 }
 
+/* Whether a stroke that is steered is beside one that was. */
+static bool is_known(const search *plan, const candidate *c) {
+  static const double apart = 0.3; /* degrees */
+  for (int64_t k = 0; k < plan->count; k++) {
+    const candidate *other = &plan->found[k];
+    if (other->miss.slope != 0.0f && other->speed == c->speed && other->a == c->a &&
+        other->b == c->b && fabs(other->phi - c->phi) < apart)
+      return true;
+  }
+  return false;
+}
+
 /* Strokes near the best `parents` ones, between those of the grid: one of speed, both places of the
  * tip and, where nothing is aimed, the direction changed at a time, and pots aimed anew. carom-lab
  * plan --racks 1000 --shots 1000 runs out 761 racks with them, 740 without; half of these steps,
@@ -181,8 +194,10 @@ void carom_search_near(search *plan, int64_t parents) {
     const bool pot = plan->found[k].kind == CAROM_PLAN_POT;
     if (!pot && plan->found[k].kind != CAROM_PLAN_SCAN)
       continue;
+    const float slope = plan->found[k].miss.slope;
+    const bool steered = plan->found[k].pots != 0 && slope != 0.0f && isfinite(slope);
     int strokes = WAYS;
-    if (pot)
+    if (pot || steered)
       strokes = POT_WAYS;
     for (int way = 0; way < strokes + places; way++) {
       candidate c = plan->found[k];
@@ -200,6 +215,9 @@ void carom_search_near(search *plan, int64_t parents) {
         if (!aim(plan, &c))
           continue;
       }
+      c.miss.miss = (float)NAN;
+      if (steered && (is_known(plan, &c) || !carom_search_turn(plan, &c, plan->path)))
+        continue;
       carom_search_add(plan, c);
     }
   }
@@ -254,6 +272,7 @@ void carom_search_pots(search *plan, int64_t most) {
                             .a = tip[0],
                             .b = tip[1],
                             .kind = CAROM_PLAN_POT,
+                            .chance = way[w].way.chance,
                             .aimed_ball = (int16_t)way[w].ball,
                             .aimed_pocket = (int16_t)way[w].pocket});
     }
@@ -356,12 +375,15 @@ static double towards(const search *plan, uint64_t row) {
  * 0.595 with it, 0.572 without. */
 bool carom_search_scan(search *plan) {
   /* in blocks that are sooner made than a plan has to stop */
-  enum { LEAST = 16, MOST = 64 };
+  enum { LEAST = 16, MOST = PATH_ROWS, MEASURED = 1000 };
   const double parts = (double)carom_max(plan->places, 2);
   const int64_t block = (int64_t)carom_within((double)plan->scan / parts, LEAST, MOST);
   if (plan->tried >= 4 * plan->scan || plan->count >= plan->scan_end || carom_is_stopped(plan))
     return false;
   carom_search_next_place(plan);
+  const bool is_caroms = plan->job.rules->rack == CAROM_RACK_BILLIARDS; /* and in-offs */
+  const bool to_balls = plan->places > 0 || is_caroms || (plan->blind && plan->view.pockets > 0);
+  const int slowest = plan->cushions == 3; /* the least speed seldom meets three cushions */
   const double begin = carom_uniform(plan->options.seed, DRAW_SCAN, 0, 0);
   const int64_t first = plan->count;
   const int64_t end = carom_min(plan->tried + block, 4 * plan->scan);
@@ -370,8 +392,8 @@ bool carom_search_scan(search *plan) {
     const uint64_t row = (uint64_t)plan->tried + 1;
     double turn = begin + 0.61803398874989485 * (double)plan->tried;
     turn -= floor(turn);
-    const int speed =
-        (int)((double)SCAN_SPEEDS * carom_uniform(plan->options.seed, DRAW_SCAN, row, 0));
+    const int speed = slowest + (int)((double)(SCAN_SPEEDS - slowest) *
+                                      carom_uniform(plan->options.seed, DRAW_SCAN, row, 0));
     const double *tip =
         scan_tip[(int)((double)TIPS * carom_uniform(plan->options.seed, DRAW_SCAN, row, 1))];
     double drawn[2];
@@ -385,8 +407,7 @@ bool carom_search_scan(search *plan) {
       tip = drawn;
     }
     double phi = 360.0 * turn;
-    const bool is_caroms = plan->job.rules->rack == CAROM_RACK_BILLIARDS; /* and in-offs */
-    if ((plan->places > 0 || is_caroms) && plan->tried % 2 == 1)
+    if (to_balls && plan->tried % 2 == 1)
       phi = towards(plan, row);
     int16_t kind = CAROM_PLAN_SCAN;
     if ((plan->permissions & CAROM_CHOICE_PUSH) && plan->tried % 2 == 1)
@@ -399,6 +420,8 @@ bool carom_search_scan(search *plan) {
   }
   plan->tried = end;
   carom_search_stage(plan, first, plan->count - first, 1, 0);
+  if (carom_search_is_steered(plan) && first < MEASURED)
+    plan->stage.measure = carom_search_measure;
   return true;
 }
 
@@ -411,8 +434,13 @@ void carom_search_scanned(search *plan) {
     if (plan->found[first + k].kind == CAROM_PLAN_PUSH ||
         carom_search_may_join(plan, &plan->outcome[k])) {
       plan->found[plan->count] = plan->found[first + k];
-      plan->found[plan->count].order = (int32_t)plan->count;
+      candidate *c = &plan->found[plan->count];
+      outcome o = plan->outcome[k];
+      c->order = (int32_t)plan->count;
+      c->miss = o.miss;
+      if (o.ball >= 0 && c->miss.slope != 0.0f)
+        o.worth = carom_search_worth(plan, c, o.worth);
       plan->count++;
-      carom_search_take(plan, plan->count - 1, &plan->outcome[k]);
+      carom_search_take(plan, plan->count - 1, &o);
     }
 }

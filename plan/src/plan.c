@@ -47,7 +47,7 @@ typedef carom_search search;
 static const carom_plan_options no_options = {0};
 static const carom_shot_options no_shot = {0};
 /* FIRST: of the first round of doubling; IN_HAND_LEAST: of a plan whose places race */
-enum { IN_HAND_LEAST = 600, SHOTS_USUAL = 2000, SHOTS_IN_TIME = 200000, FIRST = 100, SPARE = 160 };
+enum { IN_HAND_LEAST = 600, SHOTS_USUAL = 2000, SHOTS_IN_TIME = 200000, FIRST = 100, SPARE = 400 };
 
 static carom_status check_options(const carom_plan_options *o) {
   CAROM_PLAN_OPTIONS(CAROM_CHECK_OPTION)
@@ -69,7 +69,7 @@ static int64_t shots_of(const carom_plan_options *o) {
  * least numbers of both. */
 static int64_t most_candidates(int64_t shots, double scan) {
   return (int64_t)((1.0 - scan) * (double)shots / 4.0) + (int64_t)(1.5 * scan * (double)shots) +
-         SPARE;
+         carom_min(shots, SCAN_MORE) + SPARE;
 }
 
 /* Rows of the largest stage; those of reasons are of one candidate. */
@@ -90,7 +90,8 @@ size_t carom_plan_memory(const carom_plan_options *options) {
   const int64_t shots = shots_of(o);
   const double scan = carom_scan_of(o);
   size_t bytes = sizeof(search) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
-                 (size_t)most_rows(shots, scan) * sizeof(outcome);
+                 (size_t)most_rows(shots, scan) * sizeof(outcome) +
+                 PATH_ROWS * PATH_EVENTS * sizeof(carom_event);
   if (o->unsure > 0.0)
     bytes += TABLES * sizeof(carom_drawn_table);
   return bytes;
@@ -217,6 +218,7 @@ static void share_memory(search *plan) {
   plan->room = most_rows(shots, scan);
   plan->found = (candidate *)(plan + 1);
   plan->outcome = (outcome *)(plan->found + plan->most);
+  plan->path = (carom_event *)(plan->outcome + plan->room);
   plan->drawn = NULL;
 }
 
@@ -324,7 +326,7 @@ carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int c
   plan->choices_most = (int)carom_min(choices, LISTED_MOST);
   plan->seconds = plan->options.seconds;
   if (plan->options.unsure > 0.0)
-    carom_search_tables(plan, (carom_drawn_table *)(plan->outcome + plan->room));
+    carom_search_tables(plan, (carom_drawn_table *)(plan->path + PATH_ROWS * PATH_EVENTS));
   *prepared = plan;
   return CAROM_OK;
 }

@@ -116,7 +116,7 @@ static carom_status check(const carom_plan_job *job, const carom_cue *stroke) {
   if (job == NULL || stroke == NULL || job->table == NULL || job->balls == NULL ||
       job->player == NULL || job->rules == NULL)
     return CAROM_ERROR_NULL;
-  const carom_race race = job->rules->race;
+  const int32_t race = job->rules->race;
   if (!carom_player_is_good(job->player) || race == CAROM_RACE_SEATS || race == CAROM_RACE_ALONE ||
       job->table->pockets == 0)
     return CAROM_ERROR_OPTIONS;

@@ -1,7 +1,7 @@
 /* The state of a search for the best shot: all that its sources share. What they do stands in a
  * header of each. A source knows this file and the headers that stand before its own, in this
- * order: goals.h, drawn_tables.h, rows.h, ranking.h, choice_kind.h, listing.h, places.h,
- * candidates.h, search.h, anytime.h. */
+ * order: goals.h, drawn_tables.h, rows.h, ranking.h, choice_kind.h, listing.h, places.h, miss.h,
+ * candidates.h, mirrors.h, steer.h, search.h, anytime.h. */
 #ifndef CAROM_PLAN_SEARCH_STATE_H
 #define CAROM_PLAN_SEARCH_STATE_H
 
@@ -13,6 +13,7 @@
 
 enum { PLACES_MOST = 24 }; /* of a cue ball in hand, from which strokes are candidates */
 enum { ROWS_LEAST = 4 };   /* rows worth a thread */
+enum { SCAN_MORE = 1000 }; /* strokes of the scan more on a table without pockets, at most */
 enum { LISTED_MOST = 16 }; /* choices behind the best that are played anew */
 
 /* A chance to play on below which balls fall by luck. */
@@ -25,6 +26,14 @@ typedef struct carom_tally {
   int32_t seen;             /* number of shots */
   int32_t keep, foul, lose; /* shots by which the player keeps his turn, fouls, loses */
 } carom_tally;
+
+/* How far a shot misses a pocket or a ball; steer.c has the measure. */
+typedef struct carom_miss {
+  float miss; /* within -1 to 1 where the goal is reached; infinite: none is near; NaN: not known */
+  float slope;         /* by the direction of the cue, 1/degree; 0: not known */
+  int8_t ball, target; /* of the shot; a pocket, or another ball of the shot */
+  int16_t piece;       /* contacts of the ball before the piece of its way */
+} carom_miss;
 
 /* A stroke that may be chosen, and what its shots have told. */
 typedef struct carom_candidate {
@@ -41,6 +50,9 @@ typedef struct carom_candidate {
   int16_t own_ball, own_pocket, own_cushions; /* this one */
   int16_t seen_kind, seen_ball, seen_pocket;  /* 1 + the kind by which it was seen to make a pot, */
                                               /* 0: not yet; and that pot */
+  carom_miss miss; /* of the shot without errors, where it was measured */
+  carom_miss lead; /* of a kick: the miss of the first ball with which it is met as it has to be */
+  double chance;   /* of the direct pot that it was aimed at */
 } carom_candidate;
 
 /* What one shot tells. */
@@ -53,15 +65,24 @@ typedef struct carom_outcome {
   int8_t first;        /* the ball that was met first, or -1 */
   uint16_t events;     /* of the shot */
   float near;          /* 1 on the place that is the goal, 0 from 1 m on */
+  carom_miss miss;     /* where the stage measures misses */
 } carom_outcome;
+
+/* The miss of a shot of a candidate without errors, which had so many events. */
+typedef struct carom_search carom_search;
+typedef carom_miss carom_measurer(const carom_search *plan, const carom_candidate *c,
+                                  carom_event *room, int64_t count);
+/* Rows of a stage that measures misses, and the events of each that are kept. */
+enum { PATH_ROWS = 32, PATH_EVENTS = 40 };
 
 /* A stage plays each of some candidates several times. Row k is the shot of candidate
  * first + k / each, with the errors number k % each of the draws. */
 typedef struct carom_stage {
   carom_part_worker *work;
   int64_t first, each, rows;
-  int64_t done;   /* rows that have been played */
-  uint32_t draws; /* 0: without errors */
+  int64_t done;            /* rows that have been played */
+  uint32_t draws;          /* 0: without errors */
+  carom_measurer *measure; /* of misses, in at most PATH_ROWS rows; NULL: none */
 } carom_stage;
 
 /* What the search does when all rows of its stage have been played. */
@@ -70,6 +91,8 @@ typedef enum carom_search_next {
   NEXT_AIMED,  /* it plays the pots that could be aimed, once without errors */
   NEXT_TAKEN,  /* it takes them as candidates, and begins the scan */
   NEXT_SCAN,   /* it takes the strokes of a block of the scan, and plays the next block */
+  NEXT_STEER,  /* it keeps the strokes that could be steered, and plays them */
+  NEXT_PLAYED, /* it takes those */
   NEXT_ROUND,  /* it sorts the candidates of a round with errors, and begins the next round */
   NEXT_NEAR,   /* it takes strokes near the best one into the round */
   NEXT_DUEL,   /* it sorts the few best, which were played against each other */
@@ -100,7 +123,7 @@ typedef struct carom_drawn_table {
 } carom_drawn_table;
 
 /* All of a plan. It is in the caller's memory, since shots need most of a small stack. */
-typedef struct carom_search {
+struct carom_search {
   carom_crew *crew;   /* the threads that play its shots */
   carom_plan_job job; /* with shot and options of its own */
   carom_shot_options shot;
@@ -150,6 +173,11 @@ typedef struct carom_search {
   carom_stage stage;
   carom_search_next next;
   int64_t shots;                 /* of all stages, about, */
+  double share;                  /* of them that the scan has */
+  carom_event *path;             /* room for the events of a stage that measures misses */
+  uint32_t deciding;             /* balls of the shot whose ways reach a goal */
+  int cushions;                  /* of a point; -1: pots are the goals */
+  int steered;                   /* stages of strokes that were steered */
   int64_t scan, scan_end, tried; /* those of the scan; where its candidates end; tried so far */
   int64_t better;                /* the candidate that is looked at again */
   int64_t entered;               /* candidates of that round from the one before, */
@@ -161,7 +189,7 @@ typedef struct carom_search {
   uint64_t drawn_places;         /* places of a cue ball in hand that have been drawn */
   int tried_places;              /* and those of them that could be tried */
   carom_candidate best;          /* of the rounds of doubling before */
-} carom_search;
+};
 
 /* plan.c: prepares a job once for all that is played of it: its plan, in the job's memory, from
  * which shots can be played. */

@@ -18,6 +18,15 @@ static inline double carom_within(double x, double least, double most) {
   return x;
 }
 
+/* An angle of less than three half turns, as one of at most half a turn. */
+static inline double carom_wrapped(double angle) {
+  if (angle > pi)
+    return angle - 2.0 * pi;
+  if (angle < -pi)
+    return angle + 2.0 * pi;
+  return angle;
+}
+
 /* A direction, degrees, of -360 to below 720 as one of 0 to below 360. */
 static inline double carom_turned(double phi) {
   if (phi < 0.0)
@@ -76,6 +85,10 @@ typedef struct carom_mouth {
   double centre[2], jaw[2][3]; /* of the pocket; of each jaw, with its radius */
   bool jaws;                   /* whether there are such jaws; else jaw[0][2] is the pocket's
                                   radius */
+  bool rails;                  /* whether rails lead into it, */
+  double rail[2][2];           /* in these directions, to each jaw */
+  double axis;                 /* the direction of the middle of the mouth, rad */
+  int left;                    /* the jaw on the left of it */
 } carom_mouth;
 
 /* The directions in which a ball gets into a pocket: their middle psi, with its sine and cosine,
@@ -125,6 +138,19 @@ carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double
  * anywhere. A chance of at most `least` is told as 0. */
 carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                        int k, int pocket, int seat, bool in_hand, double least);
+/* The cue ball's contact with a ball that goes through a window: its place, half the range of its
+ * directions there, rad, and the chance. */
+typedef struct carom_hit {
+  double ghost[2], half, chance;
+} carom_hit;
+/* The contact with a ball at o that goes through a window, from c, or an easy one if c is NULL, by
+ * the player `seat`. False where there is none. */
+bool carom_way_into(const carom_view *view, const double o[2], double radius, const double c[2],
+                    const carom_window *window, int seat, carom_hit *hit);
+/* Whether no ball but i and j is nearer to the segment from p to q than its radius and R
+ * together. */
+bool carom_is_free_way(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                       const double p[2], const double q[2], int i, int j, double R);
 /* chances.c */
 /* What a chance to pot is made of, the numbers of games.h: 1; view->log_error; the mean
  * of the best pots of the balls of `targets`; the best pot; that of the next best ball; whether one
@@ -200,6 +226,7 @@ enum {
   DRAW_BREAKS,      /* the order of the strokes of a break, */
   DRAW_TABLES,      /* tables that are not known, */
   DRAW_REPLAY,      /* the errors of the shots that choose nothing, */
+  DRAW_MIRRORS,     /* the strokes of banks, kicks and combinations, */
   DRAW_MIND,        /* whether a player thinks of nothing but potting, */
   DRAW_REASONS,     /* the errors of strokes that explain a choice, */
   DRAW_RUN_OUTS,    /* the seeds of the strokes of a run-out, */

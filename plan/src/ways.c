@@ -1,6 +1,8 @@
 /* The ways of carom_coach.h: strokes in all directions. Those that pot or score are counted by the
  * rails and balls that they meet, and a way's best direction is the middle of the widest run of
- * neighbouring ones, whose ends are bisected. */
+ * neighbouring ones, whose ends are bisected. For one ball, and where no way was found, there are
+ * at least FINE directions, because the window of a frozen ball is often narrower than 0.2
+ * degrees. */
 #include "carom_coach.h"
 #include "coach.h"
 #include "platform/ranges.h"
@@ -12,15 +14,15 @@
 typedef carom_shot_way way;
 
 /* strokes with errors for a chance; those of one batch */
-enum { TRIES = 400, BLOCK = 256, HALVINGS = 10 };
+enum { TRIES = 400, BLOCK = 256, HALVINGS = 10, FINE = 18000 };
 /* m/s, of the cue; and degrees, of a pot */
-static const double speed_least = 0.05, speed_most = 15.0, window_least = 0.04;
+static const double speed_least = 0.05, speed_most = 15.0, window_least = 0.02;
 
-/* The run of neighbouring directions of a way, and the longest one with its end, degrees; and the
- * number of the way before they are sorted. */
+/* The run of neighbouring directions of a way, and the longest one, degrees; the last direction of
+ * a way, counted as those of a search; and the number of the way before they are sorted. */
 typedef struct way_run {
-  int64_t last, run, longest, number;
-  double end;
+  int64_t last, number;
+  double start, low, high;
 } way_run;
 
 /* The shots of a batch, and of one stroke whose events are read. */
@@ -315,8 +317,9 @@ static bool is_same(const way *a, const way *b) {
 
 /* ---- Strokes in all directions */
 
-/* Counts a way of direction k of a stroke. Of pots each window of a stroke is a way. */
-static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, double step) {
+/* Counts a way of direction k, in degrees phi, of a stroke. Of pots each window of a stroke is a
+ * way. */
+static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, double phi) {
   const bool pots = s->job->goal == CAROM_WAY_POT;
   int64_t index = 0;
   while (index < s->result.ways &&
@@ -332,23 +335,24 @@ static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, do
   if (index == s->result.ways) {
     *w = *seen;
     w->stroke = stroke;
-    *run = (way_run){.last = -2};
+    *run = (way_run){.last = -2, .low = phi, .high = phi};
     s->result.ways++;
   }
   w->found++;
-  run->run = run->last == k - 1 ? run->run + 1 : 1;
+  if (run->last != k - 1)
+    run->start = phi;
   run->last = k;
-  if (run->run > run->longest) {
-    run->longest = run->run;
-    run->end = step * (double)k;
+  if (phi - run->start > run->high - run->low) {
+    run->low = run->start;
+    run->high = phi;
     w->stroke = stroke;
   }
 }
 
-/* Counts the way of the ball, -1 of points and places, by the stroke of direction k where its shot
- * is good, or that there was no room for it. */
+/* Counts the way of the ball, -1 of points and places, by a stroke whose shot is good, or that
+ * there was no room for it. */
 static void read_shot(ways_search *s, const carom_shot *shot, const carom_cue *cue, int ball,
-                      int stroke, int64_t k, double step) {
+                      int stroke, int64_t k) {
   way seen = {.kind = -1, .ball = ball, .pocket = -1};
   if (ball >= 0)
     seen.pocket = shot->facts->pocket[ball];
@@ -357,7 +361,7 @@ static void read_shot(ways_search *s, const carom_shot *shot, const carom_cue *c
   switch (read_stroke(s, cue, &seen)) {
   case A_WAY:
     s->result.good++;
-    count_way(s, &seen, stroke, k, step);
+    count_way(s, &seen, stroke, k, cue->phi);
     break;
   case NO_ROOM:
     s->result.left_out++;
@@ -399,12 +403,12 @@ static double edge_of(const ways_search *s, way *w, double *field, double in, do
 /* The best stroke of a way that was counted, the window around it, and its chance; false after an
  * error. */
 static bool finish_way(ways_search *s, way *w, const way_run *run, double step) {
-  const double begin = run->end - step * (double)(run->longest - 1);
+  const double low = run->low, high = run->high;
   w->cue = s->job->cues[w->stroke];
-  w->phi[0] = edge_of(s, w, &w->cue.phi, begin, 1.0, -step, run->end - 360.0, run->end);
-  w->phi[1] = edge_of(s, w, &w->cue.phi, run->end, 1.0, step, begin, begin + 360.0);
+  w->phi[0] = edge_of(s, w, &w->cue.phi, low, 1.0, -step, high - 360.0, high);
+  w->phi[1] = edge_of(s, w, &w->cue.phi, high, 1.0, step, low, low + 360.0);
   const double middle = 0.5 * (w->phi[0] + w->phi[1]);
-  w->cue.phi = run->end - step * (double)((run->longest - 1) / 2);
+  w->cue.phi = high;
   if (holds(s, w, &w->cue.phi, middle))
     w->cue.phi = middle;
   way probe = {.kind = -1, .ball = w->ball, .pocket = w->pocket};
@@ -419,6 +423,13 @@ static bool finish_way(ways_search *s, way *w, const way_run *run, double step) 
   return narrow || find_chance(s, w);
 }
 
+/* Whether a way has a better chance than another, or the same in a wider window. */
+static bool is_better(const way *a, const way *b) {
+  if (a->chance != b->chance)
+    return a->chance > b->chance;
+  return a->phi[1] - a->phi[0] > b->phi[1] - b->phi[0];
+}
+
 /* Of the ways of pots those that are wide enough stay, each once where directions end; and of those
  * that differ by the stroke alone, unless each is asked for, that with the best chance. */
 static void keep_best(ways_search *s, double step) {
@@ -431,7 +442,7 @@ static void keep_best(ways_search *s, double step) {
     for (int64_t n = 0; n < retained && !s->job->each; n++)
       if (is_same(&s->found[n], &w))
         index = n;
-    if (index == retained || w.chance > s->found[index].chance)
+    if (index == retained || is_better(&w, &s->found[index]))
       s->found[index] = w;
     retained += index == retained;
   }
@@ -459,10 +470,10 @@ static bool scan_block(ways_search *s, int stroke, int64_t first, int n, double 
   for (int k = 0; k < n; k++) {
     s->result.scanned++;
     if (s->job->goal != CAROM_WAY_POT)
-      read_shot(s, &shot[k], &cue[k], -1, stroke, first + k, step);
+      read_shot(s, &shot[k], &cue[k], -1, stroke, first + k);
     for (int ball = 0; ball < s->job->count && s->job->goal == CAROM_WAY_POT; ball++)
       if (is_asked(s, shot[k].facts, ball))
-        read_shot(s, &shot[k], &cue[k], ball, stroke, first + k, step);
+        read_shot(s, &shot[k], &cue[k], ball, stroke, first + k);
   }
   return true;
 }
@@ -472,24 +483,42 @@ static void report(const ways_search *s, const char *stage, int64_t done, int64_
     s->job->progress(s->job->context, stage, (double)done, (double)total);
 }
 
-/* Plays strokes in all directions; false after an error. */
-static bool scan(ways_search *s) {
-  const int64_t each = s->job->scan / s->job->strokes;
-  const double step = 360.0 / (double)each;
-  bool fine = true;
-  for (int stroke = 0; stroke < s->job->strokes && fine; stroke++)
-    for (int64_t start = 0; start < each && fine; start += BLOCK) {
-      const int64_t left = each - start;
-      fine = scan_block(s, stroke, start, left < BLOCK ? (int)left : BLOCK, step);
-      report(s, "strokes", s->result.scanned, each * s->job->strokes);
+/* Plays strokes in n directions each; false after an error. */
+static bool scan_directions(ways_search *s, int64_t n) {
+  const double step = 360.0 / (double)n;
+  s->result = (carom_ways_result){0};
+  for (int stroke = 0; stroke < s->job->strokes; stroke++)
+    for (int64_t start = 0; start < n; start += BLOCK) {
+      if (!scan_block(s, stroke, start, (int)carom_min(n - start, BLOCK), step))
+        return false;
+      report(s, "strokes", s->result.scanned, n * s->job->strokes);
     }
-  for (int64_t k = 0; k < s->result.ways && fine; k++) {
-    fine = finish_way(s, &s->found[k], &s->run[k], step);
+  return true;
+}
+
+/* Finds the ways of n directions for each stroke; false after an error. */
+static bool find_ways(ways_search *s, int64_t n) {
+  const double step = 360.0 / (double)n;
+  if (!scan_directions(s, n))
+    return false;
+  for (int64_t k = 0; k < s->result.ways; k++) {
+    if (!finish_way(s, &s->found[k], &s->run[k], step))
+      return false;
     report(s, "ways", k, s->result.ways);
   }
-  if (s->job->goal == CAROM_WAY_POT && fine)
+  if (s->job->goal == CAROM_WAY_POT)
     keep_best(s, step);
-  return fine;
+  return true;
+}
+
+/* Finds the ways; false after an error. */
+static bool scan(ways_search *s) {
+  const int64_t each = s->job->scan / s->job->strokes;
+  const bool pots = s->job->goal == CAROM_WAY_POT, asked = pots && s->job->ball >= 0;
+  const int64_t fine = carom_max(each, FINE);
+  if (!find_ways(s, asked ? fine : each))
+    return false;
+  return !pots || asked || s->result.ways > 0 || find_ways(s, fine);
 }
 
 /* ---- The calls */
@@ -497,11 +526,8 @@ static bool scan(ways_search *s) {
 /* Whether way k comes before way n: a better chance, then a wider window, then the earlier find. */
 static bool is_before(const ways_search *s, int64_t k, int64_t n) {
   const way *a = &s->found[k], *b = &s->found[n];
-  const double width_a = a->phi[1] - a->phi[0], width_b = b->phi[1] - b->phi[0];
-  if (a->chance != b->chance)
-    return a->chance > b->chance;
-  if (width_a != width_b)
-    return width_a > width_b;
+  if (is_better(a, b) || is_better(b, a))
+    return is_better(a, b);
   return s->run[k].number < s->run[n].number;
 }
 

@@ -6,7 +6,7 @@
  * two. Where a change of the method or of the physics is meant to change them, the new hash is
  * the one that this test prints. */
 TEST(golden_choices) {
-  static const uint64_t golden = UINT64_C(0xd0cba4c16a93baa9);
+  static const uint64_t golden = UINT64_C(0x1e0407191773b410);
   uint64_t h = UINT64_C(0xcbf29ce484222325);
   int pots = 0;
   for (int k = 0; k < 20; k++) {
@@ -189,8 +189,8 @@ TEST(three_cushion) {
         y = random_between(&r, 0.05, 2.79);
       } while (carom_place_ball(&table, balls, 3, ball, x, y, NULL) != CAROM_OK);
     }
-    options.shots = 1000;
     const int found = plan(false, best, 5);
+    options.shots = 1000;
     const carom_plan_stroke repeated = repeat(&best[0].cue);
     const double p = repeated.keep, n = (double)best[0].seen;
     ck_assert(fabs(best[0].value - best[0].keep) < 1e-12 && best[0].pocket == -1);
@@ -208,7 +208,7 @@ TEST(three_cushion) {
     sum += p;
   }
   printf("three-cushion: %g of four strokes score\n", sum);
-  ck_assert(sum > 1.5);
+  ck_assert(sum > 3.0);
 }
 
 static void make_break(carom_rules_kind kind, uint64_t seed, double fargo) {

@@ -7,6 +7,7 @@ static carom_plan_goal goal;
 /* A layout of six balls, and a plan of its best stroke. */
 static carom_plan_stroke best_for(uint64_t seed, carom_goal_kind kind) {
   make_layout(seed, 6);
+  player.eye = -1.0; /* the strokes below are played where the balls lie */
   goal = (carom_plan_goal){.kind = (int32_t)kind, .ball = 8, .place = {0.6, 0.6}, .distance = 0.3};
   if (kind == CAROM_GOAL_APART) {
     place_ball(3, balls[2].state.r[0] < 0.6 ? 0.8 : 0.4, 1.2);

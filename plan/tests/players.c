@@ -87,8 +87,8 @@ TEST(errors_grow) {
 }
 
 /* A player who thinks of nothing but potting plans as one whose opponent makes every ball; a share
- * of strokes is drawn by the seeds of one layout, and by the layouts of one seed; the player's shots
- * count where the options have none, and a player whose errors grow never smashes. */
+ * of strokes is drawn by the seeds of one layout, and by the layouts of one seed; the player's
+ * shots count where the options have none, and a player whose errors grow never smashes. */
 TEST(players_choose) {
   enum { PLANS = 8 };
   carom_plan_stroke choice[2];

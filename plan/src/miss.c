@@ -1,0 +1,304 @@
+/* How far a stroke misses a pocket or a ball, and how it is turned until it does not.
+ *
+ * The way of a ball is a row of straight pieces between its events. A piece misses a pocket by its
+ * angle to the middle psi of the directions that lead into the pocket (pots.c), in half ranges of
+ * these; and a ball by the distance of its centre from the line of the piece, in radii of both
+ * balls together. So a miss m is within -1 to 1 where the goal is reached. Pieces of one ball with
+ * the same goal and number of contacts before are one way. Along it m is a smooth function of the
+ * direction phi of the cue, and secants find its root. There the stroke may err by 1 / |dm/dphi| to
+ * either side, so an error s of the direction leaves it on its way with the chance
+ *
+ *   erf(1 / (s |dm/dphi| sqrt 2)),
+ *
+ * which a hundred shots with errors would show less well. */
+#include "miss.h"
+
+#include "platform/elementary.h"
+#include "rows.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef carom_candidate candidate;
+typedef carom_search search;
+
+static const carom_miss no_miss = {.miss = INFINITY, .ball = -1, .target = -1, .piece = -1};
+
+/* ---- The goals */
+
+/* The number of cushions that the cue ball has to meet before the second ball, as the rules judge a
+ * stroke that meets two balls; -1: that is no point. */
+static int cushions_of_point(const search *plan) {
+  enum { MOST = 3 };
+  const int cue_ball = plan->view.cue_ball;
+  carom_facts facts = carom_no_facts;
+  int met = 0;
+  for (int k = plan->view.count - 1; k >= 0 && met < 2; k--)
+    if (k != cue_ball && (plan->in_play >> k & 1))
+      facts.first[met++] = k;
+  if (plan->view.pockets > 0 || met < 2)
+    return -1;
+  facts.first_set = UINT32_C(1) << facts.first[0];
+  facts.touches = 1;
+  for (int n = 0; n <= MOST; n++) {
+    facts.cushions_before[1] = n;
+    carom_rules_state game = plan->job.rules->state; /* rules change it as they judge */
+    const carom_call call = {facts.first[0], -1};
+    if (plan->job.rules->judge(&game, plan->in_play, cue_ball, &facts, call).points > 0.0)
+      return n;
+  }
+  return -1;
+}
+
+void carom_search_find_goals(search *plan) {
+  plan->cushions = cushions_of_point(plan);
+  plan->deciding = 0;
+  for (int k = 0; k < plan->plays; k++) {
+    const uint32_t ball = UINT32_C(1) << plan->layout_ball[k];
+    bool decides = plan->job.rules->calls != 1 || (plan->targets & ball) != 0;
+    if (k == plan->cue_ball || plan->cushions >= 0)
+      decides = k == plan->cue_ball && plan->cushions >= 0;
+    if (decides)
+      plan->deciding |= UINT32_C(1) << k;
+  }
+}
+
+bool carom_search_is_steered(const search *plan) {
+  return plan->places == 0 && !plan->breaks && !plan->only_safeties;
+}
+
+/* ---- How far a shot misses */
+
+/* A piece of the way of a ball. */
+typedef struct piece {
+  double p[2], u[2], length; /* m: where it begins; its direction */
+  int ball, contacts;        /* of the shot; of the ball before it */
+} piece;
+
+/* A shot whose misses are compared. */
+typedef struct measure {
+  const search *plan;
+  const carom_miss *same; /* NULL: each way counts */
+  carom_miss best;
+  uint32_t met; /* by the cue ball */
+  int cushions; /* that the cue ball has met */
+  double start[CAROM_BALLS_MOST][2];
+  int contacts[CAROM_BALLS_MOST];
+} measure;
+
+static void compare(measure *s, const piece *w, int target, double miss) {
+  const carom_miss *same = s->same;
+  if (same != NULL &&
+      (w->ball != same->ball || target != same->target || w->contacts != same->piece))
+    return;
+  if (fabs(miss) < fabs((double)s->best.miss))
+    s->best = (carom_miss){.miss = (float)miss,
+                           .ball = (int8_t)w->ball,
+                           .target = (int8_t)target,
+                           .piece = (int16_t)w->contacts};
+}
+
+/* The misses of the pockets that count, by a ball that comes near them. */
+static void miss_pockets(measure *s, const piece *w) {
+  static const double farthest[2] = {0.3, 1.2},
+                      beyond[2] = {0.12, 0.6}; /* m: from the line; behind its end */
+  const search *plan = s->plan;
+  const int known = s->same != NULL;
+  const double radius = plan->view.radius[plan->layout_ball[w->ball]];
+  for (int p = 0; p < plan->view.pockets; p++) {
+    const carom_mouth *mouth = &plan->view.mouth[p];
+    const double x = mouth->centre[0] - w->p[0], y = mouth->centre[1] - w->p[1];
+    const double along = x * w->u[0] + y * w->u[1], off = x * w->u[1] - y * w->u[0];
+    if (!(plan->pockets >> p & 1) || along <= 0.0 || along > w->length + beyond[known] ||
+        fabs(off) > farthest[known])
+      continue;
+    const carom_window window = carom_window_of(mouth, w->p, radius);
+    const double sine = window.cosine * w->u[1] - window.sine * w->u[0];
+    if (window.half > 0.0)
+      compare(s, w, p, carom_asin(carom_within(sine, -1.0, 1.0)) / window.half);
+  }
+}
+
+/* The misses of the balls that the cue ball has not met. */
+static void miss_balls(measure *s, const piece *w) {
+  const carom_shot_ball *played = s->plan->played;
+  for (int k = 0; k < s->plan->plays; k++) {
+    if (k == s->plan->cue_ball || (s->met >> k & 1))
+      continue;
+    const double x = played[k].state.r[0] - w->p[0], y = played[k].state.r[1] - w->p[1];
+    const double along = x * w->u[0] + y * w->u[1];
+    const double both = played[k].kind.radius + played[s->plan->cue_ball].kind.radius;
+    if (along > 0.0 && along <= w->length + both)
+      compare(s, w, k, (x * w->u[1] - y * w->u[0]) / both);
+  }
+}
+
+/* Measures the piece that ends in an event of a ball; `partner` is the other one, or -1. */
+static void measure_piece(measure *s, const carom_event *e, int side, int partner) {
+  static const double least = 1e-3; /* m */
+  const search *plan = s->plan;
+  const int ball = side == 0 ? e->a : e->b;
+  double *start = s->start[ball];
+  const double x = e->before[side].r[0] - start[0], y = e->before[side].r[1] - start[1];
+  const double length = sqrt(x * x + y * y);
+  const piece w = {{start[0], start[1]}, {x / length, y / length}, length, ball, s->contacts[ball]};
+  const bool may_score = s->met != 0 && s->cushions >= plan->cushions;
+  if (length > least && ball != plan->cue_ball)
+    miss_pockets(s, &w);
+  else if (length > least && (plan->cushions < 0 || may_score))
+    miss_balls(s, &w);
+
+  /* the next piece */
+  memcpy(start, e->after[side].r, sizeof s->start[ball]);
+  s->contacts[ball] += partner >= 0 || e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW;
+  if (ball == plan->cue_ball && e->type == CAROM_EVENT_RAIL)
+    s->cushions++;
+  if (ball == plan->cue_ball && partner >= 0)
+    s->met |= UINT32_C(1) << partner;
+}
+
+/* The least miss of a shot of a candidate; or the least on the way of `same`. */
+static carom_miss miss_of(const search *plan, const candidate *c, const carom_event *events,
+                          int64_t count, const carom_miss *same) {
+  measure s = {.plan = plan, .same = same, .best = no_miss};
+  const uint32_t balls = same == NULL ? plan->deciding : UINT32_C(1) << same->ball;
+  for (int k = 0; k < plan->plays; k++)
+    memcpy(s.start[k], plan->played[k].state.r, sizeof s.start[k]);
+  memcpy(s.start[plan->cue_ball], c->r, sizeof s.start[0]);
+  for (int64_t n = 0; n < carom_min(count, PATH_EVENTS); n++) {
+    const carom_event *e = &events[n];
+    const bool pair = e->type == CAROM_EVENT_BALL_BALL;
+    if (balls >> e->a & 1)
+      measure_piece(&s, e, 0, pair ? e->b : -1);
+    if (pair && (balls >> e->b & 1))
+      measure_piece(&s, e, 1, e->a);
+  }
+  return s.best;
+}
+
+/* ---- Steering */
+
+static const double step = 0.02, turned_most = 4.0; /* degrees */
+static const double slope_most = 25.0;              /* 1/degree */
+static const double good = 0.3, fair = 0.8;         /* misses of strokes that are steered enough */
+
+/* The miss of a candidate without errors in another direction, on the way of `same`; NaN where it
+ * leaves it. */
+static double miss_at(const search *plan, const candidate *c, const carom_miss *same, double phi,
+                      carom_event *room) {
+  candidate turned = *c;
+  turned.phi = carom_turned(phi);
+  carom_shot shot = {.events = room, .room = PATH_EVENTS};
+  carom_cue cue = carom_search_stroke(plan, &turned, 0, 0);
+  cue.ball = plan->cue_ball;
+  carom_ball_state drawn[CAROM_BALLS_MOST];
+  const carom_prepared layout = carom_search_layout(plan, c, 0, 0, drawn);
+  if (carom_shoot_prepared(&layout, &cue, &shot) < 0)
+    return (double)NAN;
+  const carom_miss m = miss_of(plan, c, room, shot.count, same);
+  if (m.ball < 0)
+    return (double)NAN;
+  return (double)m.miss;
+}
+
+/* The slope of a miss, by the stroke beside it; infinite where that leaves the way. */
+static float slope_of(const search *plan, const candidate *c, carom_event *room) {
+  const double slope =
+      (miss_at(plan, c, &c->miss, c->phi + step, room) - (double)c->miss.miss) / step;
+  if (isnan(slope))
+    return INFINITY;
+  return (float)slope;
+}
+
+carom_miss carom_search_measure(const search *plan, const candidate *c, carom_event *room,
+                                int64_t count) {
+  static const float most = 12.0f;
+  candidate measured = *c;
+  measured.miss = miss_of(plan, c, room, count, NULL);
+  if (fabsf(measured.miss.miss) < most)
+    measured.miss.slope = slope_of(plan, &measured, room);
+  return measured.miss;
+}
+
+bool carom_search_is_good(const carom_miss *m) {
+  return fabs((double)m->miss) < good;
+}
+
+bool carom_search_is_in_reach(const carom_miss *m) {
+  const double slope = fabs((double)m->slope);
+  return slope > 0.0 && slope < slope_most && fabs((double)m->miss) < slope * turned_most;
+}
+
+/* Turns a kick until the cue ball meets the first ball about as it has to: a secant each step. */
+static void turn_to_ball(const search *plan, candidate *c, carom_event *room) {
+  enum { STEPS = 3 };
+  static const double first = 0.5, enough = 0.1; /* degrees; misses */
+  double change = first, off = 0.0;
+  for (int n = 0; n <= STEPS; n++) {
+    const double phi = n == 0 ? c->phi : c->phi + change;
+    const double next = miss_at(plan, c, &c->lead, phi, room) - (double)c->lead.miss;
+    if (isnan(next))
+      return;
+    if (n > 0)
+      change *= next / (off - next);
+    off = next;
+    c->phi = phi;
+    if (fabs(off) < enough || !(fabs(change) < turned_most))
+      return;
+  }
+}
+
+bool carom_search_turn(const search *plan, candidate *c, carom_event *room) {
+  enum { STEPS = 4 };
+  if (c->lead.piece > 0 && isnan(c->miss.miss))
+    turn_to_ball(plan, c, room);
+  if (isnan(c->miss.miss))
+    c->miss.miss = (float)miss_at(plan, c, &c->miss, c->phi, room);
+  if (c->miss.slope == 0.0f)
+    c->miss.slope = slope_of(plan, c, room);
+  if (!carom_search_is_in_reach(&c->miss))
+    return false;
+
+  /* secants; a step that leaves the way is halved */
+  double miss = (double)c->miss.miss, slope = (double)c->miss.slope, turned = 0.0;
+  double change = -miss / slope;
+  for (int n = 0; n < STEPS && fabs(miss) >= good; n++) {
+    if (fabs(change) < step)
+      change = step;
+    if (!(fabs(turned + change) <= turned_most))
+      break;
+    const double next = miss_at(plan, c, &c->miss, c->phi + turned + change, room);
+    if (isnan(next)) {
+      change *= 0.5;
+      continue;
+    }
+    slope = (next - miss) / change;
+    if (!(fabs(slope) > 0.0 && fabs(slope) < slope_most))
+      return false;
+    turned += change;
+    miss = next;
+    change = -miss / slope;
+  }
+  c->phi = carom_turned(c->phi + turned);
+  c->miss.miss = (float)miss;
+  c->miss.slope = (float)slope;
+  return fabs(miss) < fair;
+}
+
+double carom_search_expected(const search *plan, double chance, double worth) {
+  double missed = fmin(plan->foul_value, worth);
+  if (plan->cushions >= 0)
+    missed = 0.0;
+  return missed + chance * (worth - missed);
+}
+
+double carom_search_worth(const search *plan, const candidate *c, double worth) {
+  const double phi = plan->player.phi * carom_player_growth(&plan->player, c->speed);
+  const double spread = 1.4142135623730951 * fmax(phi, 1e-3) * fabs((double)c->miss.slope);
+  double chance = 0.0;
+  for (int side = -1; side <= 1; side += 2) {
+    const double room = (1.0 + side * (double)c->miss.miss) / spread;
+    chance += 0.5 * copysign(carom_erf(fabs(room)), room);
+  }
+  return carom_search_expected(plan, chance, worth);
+}
