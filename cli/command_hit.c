@@ -161,7 +161,7 @@ static double distance_of(const carom_ball *ball, const carom_motion *motion, do
                                        .label = CAROM_BALL_SLIDING};
   if (carom_shoot(&cloth, &pool_ball, 1, &none, NULL, &shot) != CAROM_OK)
     return (double)NAN;
-  return hypot(rests.r[0], rests.r[1]);
+  return plane_size(rests.r);
 }
 
 static double measure(const series *s, const one_case *c, int which_quantity) {
@@ -176,11 +176,10 @@ static double measure(const series *s, const one_case *c, int which_quantity) {
   case ROLLING_DEFLECTION:
     return sign_of(s) * d.deflection_rolls;
   case ANGLE_BETWEEN:
-    return hypot(d.rolling_1[0], d.rolling_1[1]) > 1e-9 * in->a.v[0]
-               ? fabs(turn(in, d.rolling_1, d.rolling_2))
-               : (double)NAN;
+    return plane_size(d.rolling_1) > 1e-9 * in->a.v[0] ? fabs(turn(in, d.rolling_1, d.rolling_2))
+                                                       : (double)NAN;
   case OBJECT_SPEED:
-    return hypot(out->b.v[0], out->b.v[1]);
+    return plane_size(out->b.v);
   case SPIN_TRANSFER:
     return 100.0 * d.spin_transfer;
   case CUE_DISTANCE:

@@ -211,7 +211,7 @@ static double measure(const series *s, const one_case *c, int which_quantity) {
   case REBOUND:
     return -d[1];
   case SPEED_AFTER:
-    return hypot(v[0], v[1]);
+    return plane_size(v);
   case SIDE_AFTER:
     return v[5];
   default:
@@ -225,7 +225,7 @@ static const char *rebound_text(double angle, const double v[2], char text[64]) 
   if (isnan(angle))
     snprintf(text, 64, "at rest");
   else
-    snprintf(text, 64, "%.3f m/s, %.2f degrees from the normal%s%s", hypot(v[0], v[1]), fabs(angle),
+    snprintf(text, 64, "%.3f m/s, %.2f degrees from the normal%s%s", plane_size(v), fabs(angle),
              text_if(aside, " to the "), text_if(aside, left_or_right(angle)));
   return text;
 }
@@ -321,8 +321,8 @@ static void tell(FILE *out, const one_case *c) {
       out,
       "A ball at %.4g m/s meets a cushion: %.4g degrees from its normal, spin %s%s (%.4g rad/s), "
       "%s.\n",
-      hypot(in->v[0], in->v[1]), c->inputs[ANGLE]->x, c->inputs[SPIN]->name,
-      share_of_rolling(c->inputs[SPIN]), copysign(hypot(in->w[0], in->w[1]), c->inputs[SPIN]->x),
+      plane_size(in->v), c->inputs[ANGLE]->x, c->inputs[SPIN]->name,
+      share_of_rolling(c->inputs[SPIN]), copysign(plane_size(in->w), c->inputs[SPIN]->x),
       english_text(in->w[2], text));
   fprintf(out, "Friction with the cushion %.4g, with the cloth %.4g, restitution %.4g; model %s.\n",
           in->mu_cushion, in->mu_slide, in->restitution, cushion_kind.name(&c->shared));
@@ -340,7 +340,7 @@ static void tell(FILE *out, const one_case *c) {
 
 static double draw(FILE *out, double top, const one_case *c, const char *words) {
   const carom_cushion_impact *in = (const carom_cushion_impact *)(const void *)c->row;
-  const double R = in->radius, speed = hypot(in->v[0], in->v[1]), x = in->v[0] / speed,
+  const double R = in->radius, speed = plane_size(in->v), x = in->v[0] / speed,
                y = in->v[1] / speed;
   double d[MOST_DERIVED];
   char way[64], lines[2048];

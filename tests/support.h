@@ -55,6 +55,11 @@ static inline double distance(const double a[2], const double b[2]) {
   return hypot(a[0] - b[0], a[1] - b[1]);
 }
 
+/* The size of a vector in the plane. */
+static inline double planar_size(const double a[2]) {
+  return hypot(a[0], a[1]);
+}
+
 double random_between(random_source *source, double low, double high);
 
 /* The same for each number of a vector. */

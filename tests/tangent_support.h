@@ -247,8 +247,7 @@ static inline layout draw(random_source *random, int most) {
     l.ball[i] = ball_at(random_between(random, 0.05, 1.22), y);
     bool alone = true;
     for (int j = 0; j < i; j++)
-      alone &= hypot(l.ball[i].state.r[0] - l.ball[j].state.r[0],
-                     l.ball[i].state.r[1] - l.ball[j].state.r[1]) > 0.07;
+      alone &= distance(l.ball[i].state.r, l.ball[j].state.r) > 0.07;
     i += alone;
   }
   const double *to = l.ball[1].state.r, *from = l.ball[0].state.r;

@@ -123,8 +123,10 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
 
 /* How often a stroke with errors misses, and what that leaves the other; and what errors cost. */
 static void tell_misses(FILE *out, const carom_plan_stroke *choice, const carom_why *why) {
-  static const char *const of_error[CAROM_WHY_ERRORS] = {
-      [CAROM_WHY_AIM] = "aim", [CAROM_WHY_SPEED] = "speed", [CAROM_WHY_TIP] = "the tip"};
+  static const char *const of_error[CAROM_WHY_ERRORS] = {[CAROM_WHY_AIM] = "aim",
+                                                         [CAROM_WHY_SPEED] = "speed",
+                                                         [CAROM_WHY_TIP] = "the tip",
+                                                         [CAROM_WHY_EYE] = "the eye"};
   char text[16];
   /* a safety is meant to pass the turn */
   fprintf(out, "   %s       %s", carom_names_ball(choice) ? "misses" : "passes",

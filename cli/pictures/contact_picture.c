@@ -103,8 +103,7 @@ static void move(const contact_picture *p, motion *m) {
     memcpy(b->state.v, p->outgoing[k]->v, sizeof b->state.v);
     memcpy(b->state.w, p->outgoing[k]->w, sizeof b->state.w);
     carom_rolling_velocity(b->state.v, b->state.w, R, rolling);
-    fastest =
-        fmax(fastest, fmax(hypot(b->state.v[0], b->state.v[1]), hypot(rolling[0], rolling[1])));
+    fastest = fmax(fastest, fmax(plane_size(b->state.v), plane_size(rolling)));
   }
   const carom_shot_options options = {.events_most = MOST_EVENTS, .time_most = 1e12};
   carom_shoot(&table, m->ball, p->balls, NULL, &options, &m->shot);
@@ -127,7 +126,7 @@ static void draw_path(sketch *s, const contact_picture *p, const motion *m, int 
     carom_shot_at(m->ball, p->balls, &m->shot, m->end * k / SAMPLES, states);
     memcpy(last, point, sizeof last);
     memcpy(point, states[ball].r, sizeof point);
-    sum += k > 0 ? hypot(point[0] - last[0], point[1] - last[1]) : 0.0;
+    sum += k > 0 ? plane_distance(point, last) : 0.0;
     fprintf(s->out, "%c%.1f %.1f", k > 0 ? 'L' : 'M', across(s, point), down(s, point));
     keep_free(&s->labels, across(s, point) - 4.0, down(s, point) - 4.0, across(s, point) + 4.0,
               down(s, point) + 4.0);

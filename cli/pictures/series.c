@@ -106,7 +106,7 @@ static bool check_all(const series *s, int count) {
 /* ---- Velocities and spins in words */
 
 const char *velocity_text(const double v[2], double scale, char text[64]) {
-  const double speed = hypot(v[0], v[1]), angle = angle_between((const double[]){1.0, 0.0}, v);
+  const double speed = plane_size(v), angle = angle_between((const double[]){1.0, 0.0}, v);
   if (speed < 1e-9 * scale)
     snprintf(text, 64, "at rest");
   else {
@@ -131,7 +131,7 @@ const char *english_text(double w_z, char text[64]) {
 }
 
 void tell_spin(FILE *out, const double v[2], const double w[3]) {
-  const double level = hypot(w[0], w[1]);
+  const double level = plane_size(w);
   char side[64], roll[64] = "no follow or draw";
 
   /* a ball that rolls along v turns about (-v_y, v_x) */

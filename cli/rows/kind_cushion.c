@@ -50,9 +50,8 @@ static void solve(const shared_options *shared, bool single, const void *in, siz
 /* The angle of a velocity that leaves the cushion from its normal; a mirror keeps that of the
  * velocity that came. */
 static double rebound(const carom_cushion_impact *in, const double v[2]) {
-  return hypot(v[0], v[1]) > 0.0
-             ? angle_between(v, (const double[]){-in->normal[0], -in->normal[1]})
-             : (double)NAN;
+  return plane_size(v) > 0.0 ? angle_between(v, (const double[]){-in->normal[0], -in->normal[1]})
+                             : (double)NAN;
 }
 
 static void derive_row(const void *in, const void *out, double *numbers) {

@@ -1,8 +1,6 @@
 /* What people ask of a collision beyond its twelve numbers. */
 #include "rows/quantities.h"
 
-#include <math.h>
-
 double angle_between(const double a[2], const double b[2]) {
   return atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]) / degree;
 }
@@ -21,10 +19,6 @@ double energy_of(double mass, double radius, const double v[3], const double w[3
   return 0.5 * mass * (speeds + 0.4 * radius * radius * spins);
 }
 
-static double length(const double a[2]) {
-  return hypot(a[0], a[1]);
-}
-
 derived derive(const carom_impact *in, const carom_result *out) {
   derived d;
   double rolling[3];
@@ -38,9 +32,10 @@ derived derive(const carom_impact *in, const carom_result *out) {
   d.rolling_2[0] = rolling[0];
   d.rolling_2[1] = rolling[1];
   /* A ball that stops to within rounding has no direction. */
-  const double least = 1e-9 * length(in->a.v);
-  d.deflection_deg = length(out->a.v) > least ? turn(in, in->a.v, out->a.v) : (double)NAN;
-  d.deflection_rolls = length(d.rolling_1) > least ? turn(in, in->a.v, d.rolling_1) : (double)NAN;
+  const double least = 1e-9 * plane_size(in->a.v);
+  d.deflection_deg = plane_size(out->a.v) > least ? turn(in, in->a.v, out->a.v) : (double)NAN;
+  d.deflection_rolls =
+      plane_size(d.rolling_1) > least ? turn(in, in->a.v, d.rolling_1) : (double)NAN;
   d.spin_transfer = in->a.w[2] != 0.0 ? (out->b.w[2] - in->b.w[2]) / in->a.w[2] : (double)NAN;
   const carom_ball *a = &in->a, *b = &in->b;
   const double energy_in =

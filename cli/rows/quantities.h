@@ -5,8 +5,18 @@
 
 #include "carom.h"
 
+#include <math.h>
+
 /* One degree in radians. */
 static const double degree = 3.14159265358979323846 / 180.0;
+
+/* The size of a vector in the plane of the cloth, and how far apart two places on it are. */
+static inline double plane_size(const double a[2]) {
+  return hypot(a[0], a[1]);
+}
+static inline double plane_distance(const double a[2], const double b[2]) {
+  return hypot(a[0] - b[0], a[1] - b[1]);
+}
 
 /* Its numbers stand in the order of DERIVED_COLUMNS. Angles in degrees, to the left as seen from
  * above. */

@@ -65,12 +65,12 @@ carom_table endless_cloth(double radius) {
 /* Computes q for a state on the path; returns its length, which is NaN where the ball has no
  * direction. */
 static double ball_met(const path *p, const carom_ball_state *s, double q[2]) {
-  const double h = s->r[2] - p->height, speed = hypot(s->v[0], s->v[1]);
+  const double h = s->r[2] - p->height, speed = plane_size(s->v);
   const double share = sqrt(fmax(p->touch * p->touch - h * h, 0.0)) / speed,
                x = share * cos(p->cut), y = share * sin(p->cut);
   q[0] = s->r[0] + x * s->v[0] - y * s->v[1];
   q[1] = s->r[1] + y * s->v[0] + x * s->v[1];
-  return hypot(q[0], q[1]);
+  return plane_size(q);
 }
 
 static double ball_met_at(const path *p, double time, double q[2]) {

@@ -2,6 +2,7 @@
 #include "shots/shoot_aim.h"
 
 #include "program/program.h"
+#include "rows/quantities.h"
 #include "shots/ball_aim.h"
 
 int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_TEXT]) {
@@ -65,7 +66,7 @@ int ball_in_front(const carom_shot_ball *ball, int count) {
   double nearest = INFINITY;
   int front = 0;
   for (int k = 1; k < count; k++) {
-    const double away = hypot(ball[k].state.r[0] - start[0], ball[k].state.r[1] - start[1]);
+    const double away = plane_distance(ball[k].state.r, start);
     if (away < nearest) {
       nearest = away;
       front = k;

@@ -410,8 +410,7 @@ static bool aim_to(const given_place *target, const layout *l, carom_cue *cue) {
   const bool at_rail = place_at_rail(l, target, 0.0, place);
   const double ahead[2] = {place[0] - start[0], place[1] - start[1]};
   carom_motion motion;
-  if ((target->touches[0] != '\0' && !at_rail) ||
-      hypot(ahead[0], ahead[1]) < l->ball[0].kind.radius) {
+  if ((target->touches[0] != '\0' && !at_rail) || plane_size(ahead) < l->ball[0].kind.radius) {
     complain(
         "--to is a place away from the cue ball: X,Y, or of a rail right,3d, or one that has a "
         "name");

@@ -2,6 +2,7 @@
 #include "shots/shot_fault.h"
 
 #include "program/program.h"
+#include "rows/quantities.h"
 
 /* How far the tip is from the centre, R. */
 double tip_off_centre(const carom_cue *cue) {
@@ -61,8 +62,7 @@ static void say_overlap(const shot_line *line, int ball, char *text, size_t room
   for (int k = 0; k < line->count; k++) {
     const carom_shot_ball *second = &line->ball[k];
     const double both = first->kind.radius + second->kind.radius;
-    const double distance =
-        hypot(first->state.r[0] - second->state.r[0], first->state.r[1] - second->state.r[1]);
+    const double distance = plane_distance(first->state.r, second->state.r);
     if (k == ball || is_out_of_play(&second->state) || distance - both >= least)
       continue;
     least = distance - both;

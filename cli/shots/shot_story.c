@@ -54,7 +54,7 @@ static bool has_ball(const carom_event *e, int ball) {
 /* ---- What counts */
 
 static double length_of(const carom_rail *r) {
-  return hypot(r->q[0] - r->p[0], r->q[1] - r->p[1]);
+  return plane_distance(r->q, r->p);
 }
 
 bool is_cushion(const carom_table *t, int rail) {
@@ -118,7 +118,7 @@ static int nearest_pocket(const carom_table *t, const double r[2]) {
   int nearest = -1;
   double least = (double)INFINITY;
   for (int k = 0; k < t->pockets; k++) {
-    const double d = hypot(t->pocket[k].centre[0] - r[0], t->pocket[k].centre[1] - r[1]);
+    const double d = plane_distance(t->pocket[k].centre, r);
     if (d < least) {
       nearest = k;
       least = d;
@@ -139,7 +139,7 @@ double diamonds_at(const carom_table *t, int rail, const double r[2]) {
 
 /* Degrees from 0 to 360, counterclockwise from +x; NaN of a ball at rest. */
 static double direction_of(const double v[3]) {
-  if (!(hypot(v[0], v[1]) > 0.0))
+  if (!(plane_size(v) > 0.0))
     return (double)NAN;
   const double turn = atan2(v[1], v[0]) / degree;
   return turn < 0.0 ? turn + 360.0 : turn;
@@ -152,14 +152,14 @@ static moment moment_at(moment_kind kind, double time, const carom_ball_state *s
                   .x = s->r[0],
                   .y = s->r[1],
                   .value = (double)NAN,
-                  .speed = hypot(s->v[0], s->v[1]),
+                  .speed = plane_size(s->v),
                   .direction = direction_of(s->v)};
 }
 
 /* The cut of a ball on another one at rest, degrees; NaN where the other one moves. */
 static double cut_of(const carom_ball_state *mover, const carom_ball_state *target) {
   const double along[2] = {target->r[0] - mover->r[0], target->r[1] - mover->r[1]};
-  if (hypot(target->v[0], target->v[1]) != 0.0 || !(hypot(mover->v[0], mover->v[1]) > 0.0))
+  if (plane_size(target->v) != 0.0 || !(plane_size(mover->v) > 0.0))
     return (double)NAN;
   return fabs(angle_between(mover->v, along));
 }
@@ -263,8 +263,7 @@ static bool passes(const shot_line *line, const carom_shot *shot, int ball, int 
   if (m->value > line->ball[ball].kind.radius)
     return false;
   /* of two that move the faster one passes */
-  const double speed = hypot(s[ball].v[0], s[ball].v[1]),
-               passed_speed = hypot(s[passed].v[0], s[passed].v[1]);
+  const double speed = plane_size(s[ball].v), passed_speed = plane_size(s[passed].v);
   return speed > passed_speed || (speed == passed_speed && ball < passed);
 }
 
@@ -609,7 +608,7 @@ void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const s
     number = "ball ";
   }
   fprintf(out, "%s table, cue at %.4g m/s, %s%s at %.4g m/s, aim %.2f degrees", line->table->id,
-          cue->speed, number, struck, hypot(v[0], v[1]), cue->phi);
+          cue->speed, number, struck, plane_size(v), cue->phi);
   if (cue->theta != 0.0)
     fprintf(out, ", cue raised by %.4g degrees", cue->theta);
   if (cue->a == 0.0 && cue->b == 0.0)

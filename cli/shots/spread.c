@@ -74,7 +74,7 @@ static void add_covariance(const double *d, double c[3]) {
  * before. */
 static void add_point(spread *s, int ball, double time, const carom_ball_state *state,
                       const double *d, double along[2], bool begins) {
-  const double v = hypot(state->v[0], state->v[1]);
+  const double v = plane_size(state->v);
   for (int axis = 0; axis < 2 && v > 1e-6; axis++)
     along[axis] = state->v[axis] / v;
   double sum = 0.0;

@@ -129,14 +129,15 @@ CAROM_API int carom_way_succeeds(const carom_ways_job *job, const carom_shot *sh
 enum {
   CAROM_WHY_STROKES = 300, /* strokes with errors that are played for a choice. */
   CAROM_WHY_RAILS = 16,    /* the largest number of rails that carom_why lists. */
-  CAROM_WHY_ERRORS = 3     /* values of carom_why_error. */
+  CAROM_WHY_ERRORS = 4     /* values of carom_why_error. */
 };
 
 /* The errors of a player, by what the stroke loses by them. */
 typedef enum carom_why_error {
   CAROM_WHY_AIM = 0,   /* of direction and elevation */
   CAROM_WHY_SPEED = 1, /* of speed */
-  CAROM_WHY_TIP = 2    /* of the place of the tip */
+  CAROM_WHY_TIP = 2,   /* of the place of the tip */
+  CAROM_WHY_EYE = 3    /* of the places of balls, as the player sees them */
 } carom_why_error;
 
 /* Why a choice of a plan is good. */

@@ -306,11 +306,12 @@ CAROM_API carom_status carom_match_read_from(carom_match *match, carom_record *s
  * match is an undo too. */
 CAROM_API size_t carom_match_undone(const char *lines, size_t size);
 
-/* Who plays against the seat at the table: of two sides, the other's seat that plays next, with its
- * rating. If that seat has none, the opponent is `player` with errors that are greater or smaller
- * by what the strokes of the other side in this set show: how often it kept the turn, and how likely
- * that was from each layout. Without such strokes, in games without pockets and in games that each
- * plays for itself, the opponent is as good as `player`. CAROM_OK or CAROM_ERROR_NULL. */
+/* Who plays against the seat at the table: of two sides, the other's seat that plays next, with
+ * its rating. If that seat has none, the opponent is `player` with errors that are greater or
+ * smaller by what the strokes of the other side in this set show: how often it kept the turn, and
+ * how likely that was from each layout. Without such strokes, in games without pockets and in
+ * games that each plays for itself, the opponent is as good as `player`. CAROM_OK or
+ * CAROM_ERROR_NULL. */
 CAROM_API carom_status carom_match_opponent(const carom_match *match, const carom_player *player,
                                             carom_player *opponent);
 

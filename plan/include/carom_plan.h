@@ -451,11 +451,11 @@ CAROM_API const char *carom_rules_fault(carom_rules_kind kind, const carom_rules
 /* The rules, with the state after the break; those of EIGHTBALL for a value not listed. */
 CAROM_API carom_plan_rules carom_plan_rules_of(carom_rules_kind kind);
 
-/* A player with a rating in a game, as the seats of a match have it: 100 points are odds of 2 to 1 in
- * a rack, a frame of snooker, 15 points of three-cushion or 15 of straight pool. A 500 has the
- * errors of carom_player_fargo() in each game. Where a game lets the better player win more often
- * than eight-ball does, others have errors that differ less from those. A kind that is none counts
- * as eight-ball. */
+/* A player with a rating in a game, as the seats of a match have it: 100 points are odds of 2 to 1
+ * in a rack, a frame of snooker, 15 points of three-cushion or 15 of straight pool. A 500 has the
+ * errors of carom_player_fargo() in each game. Others differ from a 500 by the errors of another
+ * rating, which is nearer to 500 where a game lets the better player win more often. A kind that
+ * is none counts as eight-ball. */
 CAROM_API carom_player carom_player_rated(double rating, carom_rules_kind rules);
 
 /* Puts balls[ball] on the foot spot, or as near to it as there is room on the long string: behind
@@ -741,8 +741,9 @@ typedef struct carom_plan_job {
 CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
 
 /* Finds the best shots of a layout. Writes up to `room` of them to choices[], best first, one for
- * each ball, pocket and kind. A choice behind the best is within 0.1 of its value; but the best
- * safety that was found is always among them. *found becomes their number, at least 1.
+ * each ball, pocket and kind. A choice behind the best is within 0.1 of its value. But the best
+ * safety that was found is always among them: it names no ball, and plays on in less than a tenth
+ * of the shots. *found becomes their number, at least 1.
  *
  * Returns CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is too little memory;
  * CAROM_ERROR_OPTIONS for bad options, a bad player, a goal that the layout or the rules do not

@@ -107,7 +107,7 @@ static void count_ruling(const carom_break_job *job, const carom_plan_rules *rul
                                .player = w->valued,
                                .rules = rules,
                                .shot = job->shot,
-                               .options = &(carom_plan_options){.opponent = job->opponent}};
+                               .opponent = job->opponent};
   carom_referee(rules, job->table, w->balls[k], (int)job->count, 0, &w->shot[k],
                 (carom_call){-1, -1}, &w->ruling);
   const carom_turn *turn = &w->ruling.turn;
@@ -319,7 +319,8 @@ carom_status carom_break_best(const carom_break_job *job, int64_t breaks,
   if (job == NULL || choices == NULL || job->player == NULL || job->cue == NULL ||
       job->balls == NULL || job->table == NULL)
     return CAROM_ERROR_NULL;
-  if (breaks < 16 || room < 1 || room > FINALISTS || !carom_break_has_rules(job->rack))
+  if (breaks < 16 || room < 1 || room > FINALISTS ||
+      !carom_break_has_rules((carom_rack_kind)job->rack))
     return CAROM_ERROR_OPTIONS;
   carom_status status = carom_break_play(job, 0, 0, &(carom_break_counts){0});
   if (status != CAROM_OK)

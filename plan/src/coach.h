@@ -1,5 +1,5 @@
-/* What the files of the coach share: the cushions of a table, cuts, strokes that are ruled, and what
- * they are worth. */
+/* What the files of the coach share: the cushions of a table, cuts, strokes that are ruled, and
+ * what they are worth. */
 #ifndef CAROM_PLAN_COACH_H
 #define CAROM_PLAN_COACH_H
 

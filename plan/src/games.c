@@ -111,14 +111,11 @@ bool carom_has_opening(carom_rules_kind kind) {
 }
 
 carom_player carom_player_rated(double rating, carom_rules_kind kind) {
-  static const double even = 500.0; /* whose errors are the same in all games */
   const size_t rows = sizeof rating_steps / sizeof *rating_steps;
-  double step = 0.0;
-  if (is_game(kind) && (size_t)kind < rows)
-    step = rating_steps[kind][rating > even];
-  if (!(step > 0.0))
-    step = rating_steps[CAROM_RULES_EIGHTBALL][0];
-  return carom_player_fargo(even + 0.01 * step * (rating - even));
+  const double *steps = rating_steps[CAROM_RULES_EIGHTBALL];
+  if (is_game(kind) && (size_t)kind < rows && rating_steps[kind][0] > 0.0)
+    steps = rating_steps[kind];
+  return carom_player_stepped(rating, steps);
 }
 
 carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {

@@ -83,7 +83,7 @@ static bool is_apart(const carom_search *plan, uint32_t in_play, int ball,
 }
 
 bool carom_search_reaches(const carom_search *plan, const carom_rules_state *game,
-                          const carom_ball_state *layout, const carom_turn *turn) {
+                          const carom_ball_state *layout, const carom_turn *turn, float *near) {
   const carom_plan_goal *goal = plan->job.goal;
   const bool passes = turn->outcome == CAROM_TURN_PASS, loses = turn->outcome == CAROM_TURN_LOSE;
   if (turn->foul != CAROM_FOUL_NONE || loses || passes != plan->only_safeties)
@@ -93,9 +93,13 @@ bool carom_search_reaches(const carom_search *plan, const carom_rules_state *gam
   const int cue_ball = plan->view.cue_ball;
   const uint32_t in_play = carom_in_play(layout, plan->view.count) & ~carom_only(cue_ball);
   const carom_ball_state *cue = &layout[cue_ball];
-  if (goal->kind == CAROM_GOAL_NEAR)
-    return cue->label == CAROM_BALL_STATIONARY && turn->leave < CAROM_LEAVE_ANYWHERE &&
-           carom_square(cue->r, goal->place) <= goal->distance * goal->distance;
+  if (goal->kind == CAROM_GOAL_NEAR) {
+    const double away = sqrt(carom_square(cue->r, goal->place));
+    if (cue->label != CAROM_BALL_STATIONARY || turn->leave >= CAROM_LEAVE_ANYWHERE)
+      return false;
+    *near = (float)fmax(1.0 - away, 0.0);
+    return away <= goal->distance;
+  }
   if (goal->kind != CAROM_GOAL_APART) {
     const uint32_t targets = plan->job.rules->on(game, in_play) & in_play;
     const bool alive = goal->kind != CAROM_GOAL_SNOOKER || (in_play & carom_only(goal->ball)) != 0;

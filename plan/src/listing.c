@@ -14,7 +14,7 @@ typedef carom_search search;
 static const double points_most = 0.1;
 /* And no safety that fouls so often, nor such a soft opening. */
 static const double foul_most = 0.25, opening_foul_most = 0.1;
-enum { SAFETIES = 3 }; /* that are played anew, of which the best is listed */
+enum { SAFETIES = 6 }; /* that are played anew, of which the best is listed */
 /* A chance of fewer shots is none. */
 enum { TOLD_LEAST = 20 };
 
@@ -125,13 +125,19 @@ carom_plan_stroke carom_search_choice(const search *plan, const candidate *c) {
   return choice;
 }
 
+/* Whether a choice is meant to pass the turn: balls fall by luck, if any do. */
+static bool is_safe(const carom_plan_stroke *choice) {
+  return choice->kind == CAROM_PLAN_SAFETY && choice->keep < carom_luck;
+}
+
 /* Whether two choices have the same ball, pocket and kind; of safeties alone, also about the same
  * direction. */
 static bool is_same(const search *plan, const carom_plan_stroke *a, const carom_plan_stroke *b) {
   static const double apart = 5.0; /* degrees */
   const double turn = fabs(a->cue.phi - b->cue.phi);
   const bool is_near = !plan->only_safeties || fmin(turn, 360.0 - turn) <= apart;
-  return a->ball == b->ball && a->pocket == b->pocket && a->kind == b->kind && is_near;
+  return a->ball == b->ball && a->pocket == b->pocket && a->kind == b->kind &&
+         is_safe(a) == is_safe(b) && is_near;
 }
 
 /* Whether n choices hold the same one. */
@@ -160,6 +166,8 @@ static bool is_listed(const search *plan, const candidate *c) {
     return true;
   if (c->round == 0 || (alone && pot_of(c).ball < 0))
     return false;
+  if (plan->only_safeties && carom_luck * c->chose.seen < c->chose.keep)
+    return false;
   const double mean = mean_of(&c->chose), best_mean = mean_of(&best->chose);
   return mean >= best_mean - points_most && !(mean > best_mean && c->round < best->round);
 }
@@ -170,8 +178,9 @@ static void swap(candidate *a, candidate *b) {
   *b = first;
 }
 
+/* The same of a candidate. */
 static bool is_safety(const candidate *c) {
-  return c->kind == CAROM_PLAN_SCAN && pot_of(c).ball == -1;
+  return c->kind == CAROM_PLAN_SCAN && pot_of(c).ball == -1 && told_of(c).keep < carom_luck;
 }
 
 /* Puts the safeties that look best, of those that are not listed, behind the list. */
@@ -191,7 +200,7 @@ static void list_safeties(search *plan) {
 }
 
 bool carom_search_list(search *plan) {
-  carom_plan_stroke listed[LISTED_MOST];
+  carom_plan_stroke *listed = plan->listing; /* the stack is for shots */
   for (int k = 0; k < plan->listed; k++)
     listed[k] = with_kind(plan, &plan->found[k]);
   for (; plan->examined < plan->count && plan->listed < plan->choices_most; plan->examined++) {
@@ -207,7 +216,7 @@ bool carom_search_list(search *plan) {
 
   bool safe = false;
   for (int k = 0; k < plan->listed; k++)
-    safe |= listed[k].kind == CAROM_PLAN_SAFETY;
+    safe |= is_safe(&listed[k]);
   const bool alone = plan->job.rules->race == CAROM_RACE_ALONE;
   if (plan->choices_most > 1 && !safe && !alone && !plan->breaks && plan->view.pockets > 0)
     list_safeties(plan);
@@ -259,7 +268,7 @@ int carom_search_give(search *plan, carom_plan_stroke *choices, int room) {
   /* the best of each ball, pocket and kind; the best safety takes the last place at least, and a
    * player who may pass is told so */
   for (int k = 0; k < n; k++) {
-    const bool safety = choice_list[k].kind == CAROM_PLAN_SAFETY;
+    const bool safety = is_safe(&choice_list[k]);
     const bool is_close = choice_list[k].value >= choice_list[0].value - points_most ||
                           choice_list[k].kind == CAROM_PLAN_PASS;
     if (has_same(plan, choices, written, &choice_list[k]) || !(is_close || safety))

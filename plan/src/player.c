@@ -26,17 +26,18 @@ carom_player carom_player_of(double scale) {
 }
 
 /* The numbers of players by rating, in steps of 100 from 200. Between them shots and the share are
- * linear, and the error of aim is exponential. docs/understanding/plan.md has the games of which
- * they come. */
-carom_player carom_player_fargo(double rating) {
+ * linear, and the error of aim is exponential, which also goes on beyond the ends where a game has
+ * greater steps. docs/understanding/plan.md has the games of which they come. */
+carom_player carom_player_stepped(double rating, const double steps[2]) {
   /* the error of aim of a stroke of 2 m/s, degrees; shots; the share of strokes that only pot */
   static const double at_rating[][3] = {
       {0.978, 146.0, 1.0},  {0.621, 163.0, 0.97}, {0.394, 183.0, 0.92}, {0.25, 205.0, 0.79},
       {0.159, 230.0, 0.57}, {0.101, 257.0, 0.31}, {0.05, 500.0, 0.0},   {0.012, 500.0, 0.0}};
   enum { STEPS = sizeof at_rating / sizeof at_rating[0] - 1 };
-  static const double least = 200.0, most = 850.0, step = 100.0;
-  const double r = fmin(fmax(rating, least), most); /* the least of NaN too */
-  const int k = (int)carom_min((int64_t)((r - least) / step), STEPS - 1);
+  static const double least = 200.0, even = 500.0, most = 850.0, step = 100.0;
+  const double given = fmin(fmax(rating, least), most); /* the least of NaN too */
+  const double r = even + 0.01 * steps[given > even] * (given - even);
+  const int k = (int)carom_max(0, carom_min((int64_t)((r - least) / step), STEPS - 1));
   const double part = (r - least) / step - k, *low = at_rating[k], *high = at_rating[k + 1];
 
   /* the other errors of a stroke of this speed, by a power of that of aim */
@@ -44,9 +45,15 @@ carom_player carom_player_fargo(double rating) {
   const double power = carom_exp(0.7 * carom_log(aim / 0.1));
   carom_player player = player_with(aim, 0.02 * power, carom_within(0.035 * power, 0.0, 0.25));
   player.speed = 0.02;
-  player.only_pots = low[2] + part * (high[2] - low[2]);
-  player.shots = round(low[1] + part * (high[1] - low[1]));
+  player.only_pots = carom_within(low[2] + part * (high[2] - low[2]), 0.0, 1.0);
+  player.shots = carom_within(round(low[1] + part * (high[1] - low[1])), PLAYER_SHOTS_LEAST,
+                              PLAYER_SHOTS_MOST);
   return player;
+}
+
+carom_player carom_player_fargo(double rating) {
+  static const double steps[2] = {100.0, 100.0};
+  return carom_player_stepped(rating, steps);
 }
 
 double carom_player_growth(const carom_player *player, double speed) {

@@ -15,13 +15,16 @@ typedef carom_search search;
  * 0.001 and 0.018 lost 281 */
 static const double softer = 0.001;
 
-/* and for a foul, where a goal is reached by none of two strokes or as often by both */
-static const double legal = 0.01;
+/* With a goal: for a foul, and for coming near a place, where strokes reach the goal as often. */
+static const double legal = 0.01, nearer = 0.1;
 
 static double merit_of(const search *plan, const candidate *c) {
-  double mean = c->chose.sum / (double)c->chose.seen;
+  const double seen = (double)c->chose.seen;
+  double mean = c->chose.sum / seen;
   if (carom_has_goal(&plan->job))
-    mean -= legal * c->chose.foul / (double)c->chose.seen;
+    mean += (nearer * c->chose.near - legal * c->chose.foul) / seen;
+  if (plan->only_safeties) /* a pot that mostly misses is no safety */
+    mean -= c->chose.keep / seen;
   if (c->kind == CAROM_PLAN_BREAK)
     return mean;
   return mean - softer * c->speed;
@@ -65,7 +68,7 @@ static void vote(candidate *c, const outcome *o) {
 void carom_search_take(search *plan, int64_t k, const outcome *o) {
   CAROM_PROMISE(k >= 0 && k < plan->count);
   candidate *c = &plan->found[k];
-  c->chose = (carom_tally){.sum = o->worth, .seen = 1, .foul = o->foul};
+  c->chose = (carom_tally){.sum = o->worth, .near = (double)o->near, .seen = 1, .foul = o->foul};
   name(c, o);
   c->votes = c->pots = o->ball >= 0;
   c->own_ball = c->ball;
@@ -98,6 +101,7 @@ void carom_search_sort(const search *plan, int64_t n) {
 
 static void add(carom_tally *t, const outcome *o) {
   t->sum += o->worth;
+  t->near += (double)o->near;
   t->squares += o->worth * o->worth;
   t->keep += o->turn == CAROM_TURN_KEEP;
   t->lose += o->turn == CAROM_TURN_LOSE;

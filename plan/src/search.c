@@ -218,11 +218,17 @@ static int64_t in_round(search *plan) {
   return carom_min(n, plan->count);
 }
 
+/* Whether strokes of the grid seldom succeed, so that those near the best join each round. */
+static bool is_sparse(const search *plan) {
+  const bool has_place = plan->job.goal != NULL && plan->job.goal->kind == CAROM_GOAL_NEAR;
+  return plan->blind || has_place;
+}
+
 /* Strokes near the best are played once without errors. False where there are none. */
 static bool add_near(search *plan) {
   const int64_t first = plan->count;
   int64_t parents = 1;
-  if (plan->blind)
+  if (is_sparse(plan))
     parents = BLIND_PARENTS;
   plan->neighbours = 0;
   plan->entered = in_round(plan);
@@ -257,7 +263,7 @@ static void next_round(search *plan) {
       look_again(plan);
     return;
   }
-  const bool joined = plan->round == NEAR_ROUND || (plan->blind && plan->round > 0);
+  const bool joined = plan->round == NEAR_ROUND || (is_sparse(plan) && plan->round > 0);
   if (joined && plan->neighbours < 0 && add_near(plan))
     return;
   int64_t n;

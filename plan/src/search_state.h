@@ -16,9 +16,13 @@ enum { ROWS_LEAST = 4 };   /* rows worth a thread */
 enum { SCAN_MORE = 1000 }; /* strokes of the scan more on a table without pockets, at most */
 enum { LISTED_MOST = 16 }; /* choices behind the best that are played anew */
 
+/* A chance to play on below which balls fall by luck. */
+static const double carom_luck = 0.1;
+
 /* What shots with errors came to. */
 typedef struct carom_tally {
   double sum, squares;      /* of the worths of the shots, and of their squares */
+  double near;              /* sum of how near they came to a goal that is a place */
   int32_t seen;             /* number of shots */
   int32_t keep, foul, lose; /* shots by which the player keeps his turn, fouls, loses */
 } carom_tally;
@@ -60,6 +64,7 @@ typedef struct carom_outcome {
   int16_t cushions;    /* impacts of that ball on cushions */
   int8_t first;        /* the ball that was met first, or -1 */
   uint16_t events;     /* of the shot */
+  float near;          /* 1 on the place that is the goal, 0 from 1 m on */
   carom_miss miss;     /* where the stage measures misses */
 } carom_outcome;
 
@@ -185,6 +190,7 @@ struct carom_search {
   int round, look, duels;        /* that have begun */
   int place, raced;              /* from which candidates are made; how many places are tried */
   int choices_most, listed;      /* choices that the caller has room for; that stand first */
+  carom_plan_stroke listing[LISTED_MOST]; /* the choices of the list while it is made */
   int64_t examined;              /* candidates that have been asked whether they are listed */
   uint64_t drawn_places;         /* places of a cue ball in hand that have been drawn */
   int tried_places;              /* and those of them that could be tried */

@@ -283,8 +283,8 @@ static bool is_pot(const carom_plan_stroke *choice) {
   return carom_names_ball(choice) || choice->keep >= often;
 }
 
-/* Plays the stroke without errors; where a pot misses, the first one with errors that plays on stands
- * for it. */
+/* Plays the stroke without errors; where a pot misses, the first one with errors that plays on
+ * stands for it. */
 static void find_leave(const run_out *r, carom_sequence_stroke *s) {
   play(r, &s->choice.cue, call_of(&s->choice), &s->ruling);
   for (int n = 0; n < CAROM_SEQUENCE_TRIES && is_pot(&s->choice) && !plays_on(&s->ruling); n++) {

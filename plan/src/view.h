@@ -249,6 +249,9 @@ double carom_least_elevation(const carom_table *table, const carom_shot_ball *ba
 enum { PLAYER_SHOTS_LEAST = 100, PLAYER_SHOTS_MOST = 2000 };
 /* Whether the numbers of a player are within their ranges. */
 bool carom_player_is_good(const carom_player *p);
+/* The player of a rating in a game where a difference of 100 points is one of steps[0] points of
+ * carom_player_fargo() below a rating of 500, and of steps[1] above it. */
+carom_player carom_player_stepped(double rating, const double steps[2]);
 /* The player with his bounds: 0 becomes the value it stands for. */
 carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue);
 /* A stroke by a player with bounds; z are his errors in standard deviations. */

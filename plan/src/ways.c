@@ -1,7 +1,8 @@
 /* The ways of carom_coach.h: strokes in all directions. Those that pot or score are counted by the
  * rails and balls that they meet, and a way's best direction is the middle of the widest run of
  * neighbouring ones, whose ends are bisected. For one ball, and where no way was found, there are
- * at least FINE directions, since windows of frozen balls are often narrower than 0.2 degrees. */
+ * at least FINE directions, because the window of a frozen ball is often narrower than 0.2
+ * degrees. */
 #include "carom_coach.h"
 #include "coach.h"
 #include "platform/ranges.h"
@@ -316,7 +317,8 @@ static bool is_same(const way *a, const way *b) {
 
 /* ---- Strokes in all directions */
 
-/* Counts a way of direction k, phi degrees. Of pots each window of a stroke is a way. */
+/* Counts a way of direction k, in degrees phi, of a stroke. Of pots each window of a stroke is a
+ * way. */
 static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, double phi) {
   const bool pots = s->job->goal == CAROM_WAY_POT;
   int64_t index = 0;

@@ -19,7 +19,6 @@
 #include <string.h>
 
 enum { EVENTS = 64, ALL_ERRORS = (1 << CAROM_WHY_ERRORS) - 1 };
-static const double luck = 0.1; /* a chance to play on below which balls fall by luck */
 
 /* What the job's memory has behind the rows of a plan, for a stroke that is ruled. */
 typedef struct workspace {
@@ -105,6 +104,8 @@ static carom_tally repeat(carom_search *plan, uint32_t errors) {
     plan->player.speed = plan->player.speed_share = 0.0;
   if (!(errors >> CAROM_WHY_TIP & 1))
     plan->player.a = plan->player.b = 0.0;
+  if (!(errors >> CAROM_WHY_EYE & 1))
+    plan->player.eye = 0.0;
   if (errors == 0 && plan->drawn == NULL)
     strokes = 1;
   carom_search_stage(plan, 0, 1, strokes, DRAW_REASONS);
@@ -123,7 +124,7 @@ int carom_names_ball(const carom_plan_stroke *choice) {
   if (choice == NULL || choice->ball < 0)
     return 0;
   const bool is_meant = choice->kind == CAROM_PLAN_POT || choice->kind == CAROM_PLAN_GIVEN;
-  return is_meant || choice->keep >= luck;
+  return is_meant || choice->keep >= carom_luck;
 }
 
 /* Whether event k of a shot is a cushion that the ball meets, and no hop along the one before. */

@@ -165,7 +165,7 @@ TEST(what_is_named_falls) {
       ck_assert(best[n].seen > 0 && (n == 0 || best[n].value <= best[n - 1].value));
       for (int m = 0; m < n; m++)
         ck_assert(best[n].ball != best[m].ball || best[n].pocket != best[m].pocket ||
-                  best[n].kind != best[m].kind);
+                  best[n].kind != best[m].kind || (best[n].keep < 0.1) != (best[m].keep < 0.1));
       without += best[n].ball < 0 && best[n].keep > 0.5;
       pots += aimed && best[n].ball < 0;
     }

@@ -114,19 +114,23 @@ TEST(chances_of_goals) {
   }
 }
 
-/* Only safeties are listed: several, apart by their directions, that name no ball. */
+/* Only safeties are listed: several, apart by their directions, that name no ball and seldom play
+ * on, although a hard stroke that just misses its pot without errors is worth more. */
 TEST(only_safeties) {
-  make_layout(3, 8);
-  options.safeties = 1;
-  options.shots = 1000;
-  carom_plan_stroke choices[5];
-  const int found = plan(false, choices, 5);
-  ck_assert_int_ge(found, 3);
-  for (int k = 0; k < found; k++) {
-    ck_assert(choices[k].kind == CAROM_PLAN_SAFETY && choices[k].ball == -1);
-    for (int n = 0; n < k; n++)
-      ck_assert(fabs(remainder(choices[k].cue.phi - choices[n].cue.phi, 360.0)) > 5.0);
+  int listed = 0;
+  for (uint64_t seed = 1; seed <= 6; seed++) {
+    make_layout(seed, 5);
+    options = (carom_plan_options){.shots = 600, .seed = seed, .safeties = 1};
+    carom_plan_stroke choices[5];
+    const int found = plan(false, choices, 5);
+    listed += found;
+    for (int k = 0; k < found; k++) {
+      ck_assert(choices[k].kind == CAROM_PLAN_SAFETY && choices[k].keep < 0.15);
+      for (int n = 0; n < k; n++)
+        ck_assert(fabs(remainder(choices[k].cue.phi - choices[n].cue.phi, 360.0)) > 5.0);
+    }
   }
+  ck_assert_int_ge(listed, 18);
 }
 
 /* A goal that a layout or its rules do not have is refused. */

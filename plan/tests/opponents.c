@@ -63,8 +63,8 @@ static void play_set(const double errors[2], int race, uint64_t seed) {
  * of a set, which whoever reads its lines knows too. */
 TEST(strokes_tell_the_opponent) {
   static const double errors[2] = {1.0, 3.0};
-  play_set(errors, 8, 5);
-  ck_assert(match.weighed[0] > 40 && match.weighed[1] > 20);
+  play_set(errors, 12, 5);
+  ck_assert(match.weighed[0] > 40 && match.weighed[1] > 15);
   int seats[2] = {0, 1};
   for (int n = 0; n < 2; n++) {
     carom_match asked = match;
@@ -103,7 +103,8 @@ TEST(other_opponents) {
   }
 
   begin(CAROM_RULES_NINEBALL, 1, 0, 0);
-  const carom_player asks = carom_player_of(1.0), rated = carom_player_fargo(300.0);
+  const carom_player asks = carom_player_of(1.0);
+  const carom_player rated = carom_player_rated(300.0, CAROM_RULES_NINEBALL);
   carom_player opponent;
   match.log_likelihood[1][16] = 50.0;
   match.weighed[1] = 50;

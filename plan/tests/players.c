@@ -55,11 +55,13 @@ TEST(ratings) {
   ck_assert_double_eq_tol(league.speed_share, 0.035 * pow(2.5, 0.7), 1e-12);
   ck_assert_double_eq_tol(carom_player_fargo(450.0).phi / league.phi, sqrt(0.394 / 0.25), 1e-12);
 
-  /* in each game a 500 is the same, and the best is better; what is no game counts as eight-ball */
+  /* in each game a 500 is the same, between the least and the best; what is none is eight-ball */
   for (int k = -1; carom_rules_about_of((carom_rules_kind)(k + 1)) != NULL; k++) {
     const carom_player same = carom_player_rated(500.0, (carom_rules_kind)k);
     const carom_player best = carom_player_rated(850.0, (carom_rules_kind)k);
+    const carom_player least = carom_player_rated(200.0, (carom_rules_kind)k);
     ck_assert(memcmp(&same, &league, sizeof same) == 0 && best.phi < league.phi);
+    ck_assert(least.phi > league.phi && least.shots >= 100.0 && least.only_pots <= 1.0);
   }
 }
 
@@ -85,8 +87,8 @@ TEST(errors_grow) {
 }
 
 /* A player who thinks of nothing but potting plans as one whose opponent makes every ball; a share
- * of strokes is drawn by the seeds of one layout, and by the layouts of one seed; the player's shots
- * count where the options have none, and a player whose errors grow never smashes. */
+ * of strokes is drawn by the seeds of one layout, and by the layouts of one seed; the player's
+ * shots count where the options have none, and a player whose errors grow never smashes. */
 TEST(players_choose) {
   enum { PLANS = 8 };
   carom_plan_stroke choice[2];

@@ -122,7 +122,7 @@ TEST(zones_and_tolerances) {
   printf("zone told %.3f, came %.3f; strays %.3f, %.3f; %d wins, %d turns\n", told[1], came[1],
          told[0], came[0], wins, turns);
   ck_assert(fabs(told[1] - came[1]) < 0.02 && fabs(told[0] - came[0]) < 0.02);
-  ck_assert(wins >= LAYOUTS - 2 && turns > LAYOUTS && corners > 700);
+  ck_assert(wins >= LAYOUTS - 2 && turns >= 6 && corners > 700);
 }
 
 /* A run-out by a match, whose plans are those of carom_match_plan(). */

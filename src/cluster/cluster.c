@@ -86,8 +86,8 @@ static inline void slip_of(bool flat, const contact *x, double u[2]) {
   const double W[3] = {p->W[0] + q->W[0], p->W[1] + q->W[1], p->W[2] + q->W[2]};
   cluster_across(flat, x->n, t, third);
   if (flat) {
-    u[0] = v[0] * t[0] + v[1] * t[1] - W[2];
-    u[1] = W[0] * t[0] + W[1] * t[1];
+    u[0] = carom_plane_dot(v, t) - W[2];
+    u[1] = carom_plane_dot(W, t);
   } else {
     u[0] = cluster_dot(false, v, t) - cluster_dot(false, W, third);
     u[1] = x->freedom * cluster_dot(false, v, third) + cluster_dot(false, W, t);
@@ -355,7 +355,7 @@ static inline void iterate(bool flat, contact *x, double change[2]) {
     f[1] = x->f[1] - share * u[1];
 
     /* as large as mu lets it be */
-    const double size2 = f[0] * f[0] + f[1] * f[1];
+    const double size2 = carom_plane_dot(f, f);
     if (size2 > most * most) {
       const double down = most / sqrt(size2);
       f[0] *= down;
@@ -397,7 +397,7 @@ static inline void begin_step(bool flat, state *c, pushes *pushed) {
     /* speeds, and mu, which falls only where the slip is the greatest so far */
     x->closing = closing_of(flat, x);
     slip_of(flat, x, x->u); /* with the freedom of the step before */
-    const double u = sqrt(x->u[0] * x->u[0] + x->u[1] * x->u[1]);
+    const double u = carom_plane_size(x->u);
     if (u > x->U) {
       x->U = u;
       double law[3];

@@ -5,6 +5,7 @@
 #include "carom_shot.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
+#include "platform/vectors.h"
 
 #include <math.h>
 
@@ -38,9 +39,9 @@ static inline void carom_tip_from(const carom_cue *cue, double R, const double o
 
 /* p/|p| along these axes, of which the last two are the (a, b) of a touch. Returns |p|^2. */
 static inline double carom_tip_on(double axes[3][3], const double p[3], double offset[3]) {
-  const double p2 = p[0] * p[0] + p[1] * p[1] + p[2] * p[2], over = 1.0 / sqrt(p2);
+  const double p2 = carom_space_dot(p, p), over = 1.0 / sqrt(p2);
   for (int k = 0; k < 3; k++)
-    offset[k] = over * (p[0] * axes[k][0] + p[1] * axes[k][1] + p[2] * axes[k][2]);
+    offset[k] = over * carom_space_dot(p, axes[k]);
   return p2;
 }
 

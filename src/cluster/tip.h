@@ -134,8 +134,8 @@ static inline void slide_on(carom_cluster_state *c, const double P[3]) {
   carom_cluster_tip *x = &c->tip;
   carom_cluster_ball *p = &c->ball[x->ball];
   const double *n = x->n, m = p->inverse_mass;
-  const double turn[3] = {P[1] * n[2] - P[2] * n[1], P[2] * n[0] - P[0] * n[2],
-                          P[0] * n[1] - P[1] * n[0]};
+  double turn[3];
+  carom_cross(P, n, turn);
   cluster_add(!c->in_space, p->v, m, P);
   cluster_add(false, p->W, 2.5 * m, turn);
   cluster_add(false, c->touch[x->touch].P, 1.0, P);

@@ -3,14 +3,13 @@
 #ifndef CAROM_SRC_CLUSTER_VECTORS_H
 #define CAROM_SRC_CLUSTER_VECTORS_H
 
-#include "platform/arithmetic.h"
+#include "platform/vectors.h"
 
 #include <math.h>
 #include <stdbool.h>
 
 static inline double cluster_dot(bool flat, const double a[3], const double b[3]) {
-  const double level = a[0] * b[0] + a[1] * b[1];
-  return flat ? level : level + a[2] * b[2];
+  return flat ? carom_plane_dot(a, b) : carom_space_dot(a, b);
 }
 
 /* out = a - b */
@@ -31,7 +30,7 @@ static inline void cluster_add(bool flat, double a[3], double x, const double b[
 /* Two unit vectors across n and each other: t, horizontal, or along n x e_x where n is nearly
  * upright, and t x n, which is up on the cloth. */
 static inline void cluster_across(bool flat, const double n[3], double t[3], double third[3]) {
-  const double level = flat ? 1.0 : sqrt(n[0] * n[0] + n[1] * n[1]);
+  const double level = flat ? 1.0 : carom_plane_size(n);
   if (level >= 0.1) {
     const double size = flat ? 1.0 : 1.0 / level;
     t[0] = flat ? n[1] : n[1] * size;

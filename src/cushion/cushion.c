@@ -2,6 +2,7 @@
 #include "cushion/models.h"
 #include "platform/ranges.h"
 #include "platform/threads.h"
+#include "platform/vectors.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -36,7 +37,7 @@ void carom_lose_roll(const carom_cushion_options *opt, double R, const carom_cus
   if (carom_absent(opt->roll_loss) && carom_absent(opt->roll_loss_log))
     return;
   const double n[2] = {frame->y_x, frame->y_y};
-  const double v_t = v[0] * n[1] - v[1] * n[0], roll = R * (w[0] * n[0] + w[1] * n[1]);
+  const double v_t = v[0] * n[1] - v[1] * n[0], roll = R * carom_plane_dot(w, n);
   const double share = carom_absent(opt->roll_loss_log)
                            ? opt->roll_loss
                            : opt->roll_loss + opt->roll_loss_log * log_v;

@@ -86,9 +86,9 @@ static double end_of_rise(const quartic *f, double T) {
 
 static quartic squared(const carom_separation *d, double reach) {
   const double *p = d->d0, *v = d->d1, *a = d->d2;
-  return (quartic){{p[0] * p[0] + p[1] * p[1] - reach * reach, 2.0 * (p[0] * v[0] + p[1] * v[1]),
-                    v[0] * v[0] + v[1] * v[1] + 2.0 * (p[0] * a[0] + p[1] * a[1]),
-                    2.0 * (v[0] * a[0] + v[1] * a[1]), a[0] * a[0] + a[1] * a[1]}};
+  return (quartic){{carom_plane_dot(p, p) - reach * reach, 2.0 * carom_plane_dot(p, v),
+                    carom_plane_dot(v, v) + 2.0 * carom_plane_dot(p, a),
+                    2.0 * carom_plane_dot(v, a), carom_plane_dot(a, a)}};
 }
 
 /* Adds the third coordinate. */

@@ -7,6 +7,7 @@
 
 #include "platform/arithmetic.h"
 #include "platform/ranges.h"
+#include "platform/vectors.h"
 
 #include <stdbool.h>
 

@@ -31,19 +31,9 @@ static const double most_turn = 0.5, most_bend = 0.02;
 /* rad, of an interval: a damaged state may have any spin. */
 static const double most_angle = 5e6;
 
-static void cross(const double a[3], const double b[3], double out[3]) {
-  out[0] = a[1] * b[2] - a[2] * b[1];
-  out[1] = a[2] * b[0] - a[0] * b[2];
-  out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static double size_of(const double a[3]) {
-  return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-}
-
 /* Turns q further, about the axes of the table, by the vector `by`. */
 static void turn(double q[4], const double rotation[3]) {
-  const double angle = size_of(rotation);
+  const double angle = carom_space_size(rotation);
   if (!(angle > 0.0))
     return;
   double sine, cosine, p[4];
@@ -53,7 +43,7 @@ static void turn(double q[4], const double rotation[3]) {
   p[1] = cosine * q[1] + x * q[0] + y * q[3] - z * q[2];
   p[2] = cosine * q[2] + y * q[0] + z * q[1] - x * q[3];
   p[3] = cosine * q[3] + z * q[0] + x * q[2] - y * q[1];
-  const double size = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
+  const double size = sqrt(carom_space_dot(p, p) + p[3] * p[3]);
   for (int k = 0; k < 4; k++)
     q[k] = p[k] / size;
 }
@@ -65,13 +55,13 @@ static void turn_part(double q[4], const double a[3], const double b[3], double 
     A[k] = h * a[k];
     B[k] = h * h * b[k];
   }
-  cross(A, B, C);
-  cross(A, C, D);
+  carom_cross(A, B, C);
+  carom_cross(A, C, D);
   for (int k = 0; k < 3; k++) {
     left[k] = C[k] - 20.0 * A[k];
     right[k] = B[k] - D[k] / 60.0;
   }
-  cross(left, right, both);
+  carom_cross(left, right, both);
   for (int k = 0; k < 3; k++)
     omega[k] = A[k] + both[k] / 240.0;
   turn(q, omega);
@@ -94,7 +84,7 @@ static void begin_interval(carom_turning *turning, const carom_path *path,
     turning->bend[k] = 0.0;
   }
   turning->part = turning->parts = 0.0;
-  turning->fastest = size_of(a.w);
+  turning->fastest = carom_space_size(a.w);
   /* nothing changes on a path without an end */
   const double T = turning->end - start;
   if (!(T < INFINITY && T > 0.0))
@@ -104,12 +94,13 @@ static void begin_interval(carom_turning *turning, const carom_path *path,
   carom_path_at(path, rates, turning->end, &b);
   for (int k = 0; k < 3; k++)
     turning->bend[k] = (b.w[k] - a.w[k]) / T;
-  cross(a.w, b.w, bent);
-  const double fastest = turning->fastest = carom_greater(size_of(a.w), size_of(b.w));
+  carom_cross(a.w, b.w, bent);
+  const double fastest = turning->fastest =
+      carom_greater(carom_space_size(a.w), carom_space_size(b.w));
   /* one turn about one axis, or parts */
-  const bool one_axis = size_of(bent) <= 1e-12 * fastest * fastest;
+  const bool one_axis = carom_space_size(bent) <= 1e-12 * fastest * fastest;
   const double length =
-      carom_greater(fastest * T / most_turn, T * sqrt(size_of(turning->bend) / most_bend));
+      carom_greater(fastest * T / most_turn, T * sqrt(carom_space_size(turning->bend) / most_bend));
   turning->parts = one_axis ? 1.0 : ceil(length);
   turning->part = T / turning->parts;
 }

@@ -80,12 +80,8 @@ typedef struct curve {
   double A, k, c[2];
 } curve;
 
-static double dot_product(const double a[2], const double b[2]) {
-  return a[0] * b[0] + a[1] * b[1];
-}
-
 static void turn_down(const curve *f, const double u[2], double rate[2]) {
-  const double q = sqrt(dot_product(u, u)), slowing = (f->A + f->k * q * q) / q;
+  const double q = carom_plane_size(u), slowing = (f->A + f->k * q * q) / q;
   for (int k = 0; k < 2; k++)
     rate[k] = f->c[k] - slowing * u[k];
 }
@@ -101,7 +97,7 @@ static double run_out(const curve *f, const double u[2], double q, double way[2]
     power *= -y;
   }
 
-  const double c2 = dot_product(f->c, f->c), along = dot_product(f->c, u) / q;
+  const double c2 = carom_plane_dot(f->c, f->c), along = carom_plane_dot(f->c, u) / q;
   const double D = A * A - c2, B = 4.0 * A * A - c2, part = (2.0 * A + along) / B;
   for (int k = 0; k < 2; k++)
     way[k] = farther * q * (u[k] * part + q * f->c[k] * (1.0 + 3.0 * along * part) / (4.0 * D));
@@ -133,7 +129,7 @@ static void run_on(const curve *f, double T, double u[2], double way[2]) {
 __attribute__((noinline, cold)) static void
 begin_on_slope(carom_path *path, const carom_ball_rates *rates, double x, double y) {
   static const double most = 8e-6; /* m, as both bounds below err by a fifth on steep slopes */
-  const double u0[2] = {x, y}, q = sqrt(dot_product(u0, u0));
+  const double u0[2] = {x, y}, q = carom_plane_size(u0);
   const bool slides = path->from.label == CAROM_BALL_SLIDING;
   const double share = slides ? 2.0 / 7.0 : (double)1.0; /* of u' in v' */
   curve f = {rates->roll, rates->drag, {0.0, 0.0}};
@@ -143,7 +139,7 @@ begin_on_slope(carom_path *path, const carom_ball_rates *rates, double x, double
   }
   for (int k = 0; k < 2; k++)
     f.c[k] = (slides ? 1.0 : 5.0 / 7.0) * rates->downhill[k];
-  const double c2 = dot_product(f.c, f.c), A = f.A, slows = A + f.k * q * q;
+  const double c2 = carom_plane_dot(f.c, f.c), A = f.A, slows = A + f.k * q * q;
   /* less slope has the pieces of 1e-3, so that derivatives by it are as good */
   const double least = carom_lesser(1e-3 * rates->gravity, 0.5 * A),
                c = c2 > least * least ? sqrt(c2) : least;

@@ -63,6 +63,7 @@
 #include "platform/arithmetic.h"
 #include "platform/dependence.h"
 #include "platform/ranges.h"
+#include "platform/vectors.h"
 
 #include <stdbool.h>
 

@@ -89,8 +89,7 @@ static inline bool overlaps(const double r[3], double R, const carom_ball_state 
                             double R_other, double z) {
   const double along[3] = {r[0] - neighbor->r[0], r[1] - neighbor->r[1], r[2] - z};
   const double reach = R + R_other - CAROM_MOST_BALL_OVERLAP;
-  return !carom_is_out(neighbor->label) &&
-         along[0] * along[0] + along[1] * along[1] + along[2] * along[2] < reach * reach;
+  return !carom_is_out(neighbor->label) && carom_space_dot(along, along) < reach * reach;
 }
 
 carom_status carom_check_strike(const carom_prepared *p, const carom_cue *cue) {

@@ -322,7 +322,7 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone) {
   if (!sim->rules->clusters || cue->tip_time < 0.0 || !carom_lasts(sim->opt))
     return false;
   const double *v = alone->v, *r = sim->path[i].from.r;
-  const double most = carom_tip_time(cue) * sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  const double most = carom_tip_time(cue) * carom_space_size(v);
   for (int k = 0; k < sim->count; k++) {
     const double *q = sim->path[k].from.r;
     const double x = q[0] - r[0], y = q[1] - r[1];

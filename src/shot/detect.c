@@ -53,8 +53,8 @@ static double place(const double line[3], const motion *m, double t) {
 /* When the ball touches rail k, at `reach` from its line, up to T; or infinity. */
 static double meet_rail(const carom_sim *sim, int k, double reach, const motion *m, double T) {
   const double *n = sim->features->line[k], *along = sim->features->along[k];
-  const double g[3] = {n[0] * m->r[0] + n[1] * m->r[1] + n[2] - reach,
-                       n[0] * m->v[0] + n[1] * m->v[1], n[0] * m->a[0] + n[1] * m->a[1]};
+  const double g[3] = {carom_plane_dot(n, m->r) + n[2] - reach, carom_plane_dot(n, m->v),
+                       carom_plane_dot(n, m->a)};
   double times[2];
   const int count = sim->rules->touch_rail(g, T, times);
   CAROM_PROMISE(count >= 0 && count <= 2);

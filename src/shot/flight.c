@@ -151,7 +151,7 @@ static int cross_circle(const flight *f, const double centre[2], double radius, 
     t[1] = s + carom_first_crossing(&inside, radius, carom_greater(T - s, 0.0));
     return 2;
   }
-  const double a = f->v[0] * f->v[0] + f->v[1] * f->v[1], b = x * f->v[0] + y * f->v[1];
+  const double a = carom_plane_dot(f->v, f->v), b = x * f->v[0] + y * f->v[1];
   t[0] = -INFINITY;
   t[1] = INFINITY;
   if (a == 0.0)
@@ -180,9 +180,9 @@ static bool is_between_ends(const double along[3], const flight *f, double t) {
 /* The part of [0, T] in which the ball is between the ends of a rail: place is linear in t. False
  * where there is none. On a slope the part in which its chord is, or it could be by its bulge. */
 static bool while_beside(const double along[3], const flight *f, double T, double window[2]) {
-  const double bent = T * (along[0] * f->a[0] + along[1] * f->a[1]);
+  const double bent = T * carom_plane_dot(along, f->a);
   const double bulge = 0.25 * T * fabs(bent), place = across(along, f, 0.0),
-               speed = along[0] * f->v[0] + along[1] * f->v[1] + bent;
+               speed = carom_plane_dot(along, f->v) + bent;
   window[0] = 0.0;
   window[1] = T;
   if (speed == 0.0)
@@ -203,7 +203,7 @@ static double meet_rail(const carom_features *features, int k, double height, do
   const carom_separation d = {{across(line, f, start) - shift, z, 0.0},
                               {line[0] * speed_at(f, 0, start) + line[1] * speed_at(f, 1, start),
                                f->v[2] - f->g * start, 0.0},
-                              {line[0] * f->a[0] + line[1] * f->a[1], -0.5 * f->g, 0.0}};
+                              {carom_plane_dot(line, f->a), -0.5 * f->g, 0.0}};
   const double reach = f->radius - CAROM_BEHIND;
   if (d.d0[0] * d.d0[0] + z * z < reach * reach)
     return INFINITY;

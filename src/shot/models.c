@@ -110,7 +110,7 @@ void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state
   n[0] = b->r[0] - a->r[0];
   n[1] = b->r[1] - a->r[1];
   n[2] = (carom_flies(b) ? b->r[2] : kind_b->radius) - (carom_flies(a) ? a->r[2] : kind_a->radius);
-  const double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  const double size = carom_space_size(n);
   for (int k = 0; k < 3; k++)
     n[k] /= size;
 }
@@ -180,7 +180,7 @@ static void balls_in_space(const carom_sim *sim, const carom_due *pending_event,
 static void turn_plane(const double source[2][3], const double target[2][3], double x[3]) {
   double along[2];
   for (int axis = 0; axis < 2; axis++)
-    along[axis] = x[0] * source[axis][0] + x[1] * source[axis][1] + x[2] * source[axis][2];
+    along[axis] = carom_space_dot(x, source[axis]);
   for (int k = 0; k < 3; k++)
     x[k] += along[0] * (target[0][k] - source[0][k]) + along[1] * (target[1][k] - source[1][k]);
 }
@@ -191,7 +191,7 @@ static void turn_plane(const double source[2][3], const double target[2][3], dou
 static carom_status balls_on_tilted_cloth(const carom_sim *sim, const carom_due *pending_event,
                                           const double n[3], carom_ball_state *a,
                                           carom_ball_state *b) {
-  const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
+  const double size = carom_plane_size(n);
   const double level[3] = {n[0] / size, n[1] / size, 0.0};
   const double tilted[2][3] = {{n[0], n[1], n[2]}, {-level[0] * n[2], -level[1] * n[2], size}};
   const double upright[2][3] = {{level[0], level[1], 0.0}, {0.0, 0.0, 1.0}};
@@ -375,7 +375,7 @@ carom_status carom_model_cushion(const carom_sim *sim, const carom_due *pending_
 
   /* the flat model, along the horizontal part of n; a ball that does not move into the cushion
    * stays as it is */
-  const double size = sqrt(n[0] * n[0] + n[1] * n[1]), level[2] = {n[0] / size, n[1] / size};
+  const double size = carom_plane_size(n), level[2] = {n[0] / size, n[1] / size};
   const double v_z = carom_lesser(flat.v[2], 0.0);
   const carom_status status = impact_on_cloth(sim, kind, level, &nose, &flat);
   flat.v[2] = v_z;

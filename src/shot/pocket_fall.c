@@ -191,7 +191,7 @@ static void find_end(fall *f) {
   if (apart > 0.0)
     f->inward = (x * e[0] + y * e[1]) / apart;
   f->aside = y * e[0] - x * e[1];
-  f->most = carom_greater(f->wall, sqrt(p[0] * p[0] + p[1] * p[1]));
+  f->most = carom_greater(f->wall, carom_plane_size(p));
   f->touched = neighbor;
   f->end = last_free(f, f->touch);
 }

@@ -313,7 +313,7 @@ static void instant_at(const push_state *p, const push_phase *f, const swing *q,
     rate[i] = p->spring[i].stiff * values->v[i];
   }
   for (int i = 0; i < 2; i++)
-    values->a[i] = -(f->A[i][0] * y[0] + f->A[i][1] * y[1]);
+    values->a[i] = -carom_plane_dot(f->A[i], y);
 
   /* the foot */
   values->slip = p->slip + f->of_tip * (values->v[TIP] - p->spring[TIP].v) +

@@ -90,7 +90,7 @@ static void count_slow(carom_sim *sim) {
 }
 
 static double spin_energy(const carom_ball_kind *kind, const carom_ball_state *s) {
-  const double w2 = s->w[0] * s->w[0] + s->w[1] * s->w[1] + s->w[2] * s->w[2];
+  const double w2 = carom_space_dot(s->w, s->w);
   return 0.2 * kind->mass * kind->radius * kind->radius * w2;
 }
 
@@ -128,7 +128,7 @@ static double mobility(const contact *c, int axis) {
 
 /* The reduced mass along n. */
 static double reduced_mass(const contact *c) {
-  const double level = c->n[0] * c->n[0] + c->n[1] * c->n[1], m_a = c->kind_a->mass;
+  const double level = carom_plane_dot(c->n, c->n), m_a = c->kind_a->mass;
   if (c->b == NULL)
     return m_a;
   return c->held_a || c->held_b
@@ -177,7 +177,7 @@ static double part_slowly(const contact *c, double s, double m, double closing) 
 
 /* A contact that closes slowly, or that its model has left closing. */
 static void resolve_slowly(const contact *c, double slow, double closing) {
-  const double m = reduced_mass(c), q2 = c->n[0] * c->n[0] + c->n[1] * c->n[1];
+  const double m = reduced_mass(c), q2 = carom_plane_dot(c->n, c->n);
   double parting = closing < slow ? part_slowly(c, slow, m, closing) : slow;
   if ((c->held_a || c->held_b) && q2 < on_top * on_top)
     parting = carom_greater(parting, balanced);
@@ -192,7 +192,7 @@ static void resolve_slowly(const contact *c, double slow, double closing) {
 /* ON TOP: the least part of the motion that goes aside. Returns whether it was less. Apart, for the
  * stack of derivatives. */
 __attribute__((noinline, cold)) static bool part_aside(const contact *c, double slow) {
-  const double q2 = c->n[0] * c->n[0] + c->n[1] * c->n[1], q = q2 > 0.0 ? sqrt(q2) : 0.0;
+  const double q2 = carom_plane_dot(c->n, c->n), q = q2 > 0.0 ? sqrt(q2) : 0.0;
   if (!(q < on_top))
     return false;
 
@@ -234,7 +234,7 @@ void carom_into_nose(const carom_table *table, const double line[3], double refe
   if (pending_event->type == CAROM_EVENT_RAIL) {
     out[0] = line[0];
     out[1] = line[1];
-    across = line[0] * r[0] + line[1] * r[1] + line[2];
+    across = carom_plane_dot(line, r) + line[2];
     height = table->rail[pending_event->b].height;
   } else {
     const carom_jaw *jaw = &table->jaw[pending_event->b];
@@ -292,7 +292,7 @@ static void find_contact(const carom_sim *sim, const carom_due *pending_event, c
   *c = (contact){.kind_a = sim->layout->kind[pending_event->a], .a = a, .b = b};
   c->in_space = carom_flies(a);
   carom_contact_normal(sim, pending_event, a, b, c->n);
-  CAROM_PROMISE(!(fabs(c->n[0] * c->n[0] + c->n[1] * c->n[1] + c->n[2] * c->n[2] - 1.0) > 1e-9));
+  CAROM_PROMISE(!(fabs(carom_space_dot(c->n, c->n) - 1.0) > 1e-9));
   if (b == NULL) {
     c->freedom = c->in_space
                      ? carom_lesser(carom_freedom_of_height(a->r[2] - c->kind_a->radius), 1.0)

@@ -93,7 +93,7 @@ static int touch_rail(const double g[3], double T, double times[2]) {
 /* A ball in a pocket's circle is there by rounding, at an event on the circle: a layout has none
  * in there. */
 static double enter_pocket(const carom_separation *d, double radius, double T) {
-  if (d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] <= radius * radius)
+  if (carom_plane_dot(d->d0, d->d0) <= radius * radius)
     return 0.0;
   return carom_first_crossing(d, radius, T);
 }

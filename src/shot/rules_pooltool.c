@@ -33,8 +33,7 @@ static double energy_of(const carom_sim *sim, int i) {
   const carom_ball_kind *k = sim->layout->kind[i];
   carom_ball_state s;
   carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &s);
-  const double v2 = s.v[0] * s.v[0] + s.v[1] * s.v[1] + s.v[2] * s.v[2],
-               w2 = s.w[0] * s.w[0] + s.w[1] * s.w[1] + s.w[2] * s.w[2];
+  const double v2 = carom_space_dot(s.v, s.v), w2 = carom_space_dot(s.w, s.w);
   return 0.5 * k->mass * v2 + 0.5 * 0.4 * k->mass * k->radius * k->radius * w2 +
          k->mass * k->gravity * (s.r[2] - k->radius);
 }
@@ -108,7 +107,7 @@ static int touch_rail(const double g[3], double T, double times[2]) {
 }
 
 static double touch_ball(const carom_separation *d, double reach, double T) {
-  if (d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] < reach * reach)
+  if (carom_plane_dot(d->d0, d->d0) < reach * reach)
     return 0.0;
   return carom_first_crossing(d, reach, T);
 }
@@ -156,7 +155,7 @@ static bool kiss_balls(double R, double n[2], carom_ball_state *a, carom_ball_st
   }
   n[0] = b->r[0] - a->r[0];
   n[1] = b->r[1] - a->r[1];
-  const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
+  const double size = carom_plane_size(n);
   n[0] /= size;
   n[1] /= size;
   return true;
@@ -164,13 +163,11 @@ static bool kiss_balls(double R, double n[2], carom_ball_state *a, carom_ball_st
 
 /* See above. n from a to b. */
 static void keep_touching(const double n[2], carom_ball_state *a, carom_ball_state *b) {
-  const double speed_a = sqrt(a->v[0] * a->v[0] + a->v[1] * a->v[1]),
-               speed_b = sqrt(b->v[0] * b->v[0] + b->v[1] * b->v[1]);
+  const double speed_a = carom_plane_size(a->v), speed_b = carom_plane_size(b->v);
   if (!(speed_a > 0.0 && speed_b > 0.0))
     return;
-  const double p = a->v[0] * n[0] + a->v[1] * n[1], q = b->v[0] * n[0] + b->v[1] * n[1];
-  if (!(fabs(q - p) < 0.01) ||
-      !((a->v[0] * b->v[0] + a->v[1] * b->v[1]) / (speed_a * speed_b) > 0.9))
+  const double p = carom_plane_dot(a->v, n), q = carom_plane_dot(b->v, n);
+  if (!(fabs(q - p) < 0.01) || !(carom_plane_dot(a->v, b->v) / (speed_a * speed_b) > 0.9))
     return;
   double passed = -0.1 * q;
   if (p > q)
@@ -186,17 +183,17 @@ static void kiss_rail(const carom_rail *rail, const double line[3], double R, do
                       carom_ball_state *s) {
   const double reach = R + spacer;
   double turn = -1.0;
-  if (line[0] * s->v[0] + line[1] * s->v[1] > 0.0)
+  if (carom_plane_dot(line, s->v) > 0.0)
     turn = 1.0;
   n[0] = turn * line[0];
   n[1] = turn * line[1];
   const double d = (s->r[0] - rail->p[0]) * n[0] + (s->r[1] - rail->p[1]) * n[1],
-               v = s->v[0] * n[0] + s->v[1] * n[1];
+               v = carom_plane_dot(s->v, n);
   const double t1 = (reach - d) / v;
   double t = (-reach - d) / v;
   if (fabs(t1) < fabs(t))
     t = t1;
-  const double speed = sqrt(s->v[0] * s->v[0] + s->v[1] * s->v[1]);
+  const double speed = carom_plane_size(s->v);
   if (fabs(t) * speed <= longest) {
     s->r[0] += t * s->v[0];
     s->r[1] += t * s->v[1];
@@ -212,7 +209,7 @@ static void kiss_rail(const carom_rail *rail, const double line[3], double R, do
 static bool kiss_jaw(const carom_jaw *jaw, double R, double n[2], carom_ball_state *s) {
   const double reach = R + jaw->radius + spacer;
   const double x = s->r[0] - jaw->centre[0], y = s->r[1] - jaw->centre[1],
-               v2 = s->v[0] * s->v[0] + s->v[1] * s->v[1];
+               v2 = carom_plane_dot(s->v, s->v);
   const double t =
       nearest_zero(v2, 2.0 * (x * s->v[0] + y * s->v[1]), x * x + y * y - reach * reach);
   if (isnan(t))

@@ -100,9 +100,9 @@ static void stay_before_noses(const carom_sim *sim, int i, const carom_ball_stat
   for (int k = 0; k < f->rails; k++) {
     const double *n = f->line[k], *along = f->along[k];
     const double reach = carom_reach_on_cloth(kind, sim->table->rail[k].height, f->reference);
-    const double gap = n[0] * s->r[0] + n[1] * s->r[1] + n[2] - reach;
-    const double was = n[0] * before->r[0] + n[1] * before->r[1] + n[2] - reach;
-    const double place = along[0] * s->r[0] + along[1] * s->r[1] + along[2];
+    const double gap = carom_plane_dot(n, s->r) + n[2] - reach;
+    const double was = carom_plane_dot(n, before->r) + n[2] - reach;
+    const double place = carom_plane_dot(along, s->r) + along[2];
     if (gap < 0.0 && was >= -CAROM_BEHIND && place >= 0.0 && place <= 1.0) {
       s->r[0] -= gap * n[0];
       s->r[1] -= gap * n[1];
@@ -386,7 +386,7 @@ static carom_status strike(carom_play *play, carom_due *contact) {
 
   /* together with the balls that the struck ball meets while the cue pushes */
   carom_status together;
-  const double *v = motion.v, most = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  const double *v = motion.v, most = carom_space_size(v);
   const bool down = v[2] != 0.0;
   if (carom_may_push(sim, &motion) &&
       push(play, cue, most, down, PUSH_OF_SEVERAL, contact, &together))

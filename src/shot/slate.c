@@ -35,23 +35,24 @@
 static const double hop_loss = 0.02, least_hop = 1e-9; /* m/s: s, and the least speed of a hop */
 
 carom_touch carom_touch_of(const double N[3], double R, const carom_ball_state *s) {
-  const double *v = s->v, *w = s->w, closing = v[0] * N[0] + v[1] * N[1] + v[2] * N[2];
-  const double u[3] = {v[0] - closing * N[0] + R * (w[1] * N[2] - w[2] * N[1]),
-                       v[1] - closing * N[1] + R * (w[2] * N[0] - w[0] * N[2]),
-                       v[2] - closing * N[2] + R * (w[0] * N[1] - w[1] * N[0])};
-  const double slip = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]),
-               size = slip > 0.0 ? slip : (double)1.0;
+  const double *v = s->v, *w = s->w, closing = carom_space_dot(v, N);
+  double turn[3], u[3];
+  carom_cross(w, N, turn);
+  for (int k = 0; k < 3; k++)
+    u[k] = v[k] - closing * N[k] + R * turn[k];
+  const double slip = carom_space_size(u), size = slip > 0.0 ? slip : (double)1.0;
   return (carom_touch){{N[0], N[1], N[2]}, closing, slip, {u[0] / size, u[1] / size, u[2] / size}};
 }
 
 void carom_take_impulse(const carom_touch *touch, double R, double J, double J_t,
                         carom_ball_state *s) {
   const double *N = touch->N, *t = touch->t, turn = 2.5 * J_t / R;
-  for (int k = 0; k < 3; k++)
+  double across[3];
+  carom_cross(N, t, across);
+  for (int k = 0; k < 3; k++) {
     s->v[k] -= J * N[k] + J_t * t[k];
-  s->w[0] -= turn * (N[1] * t[2] - N[2] * t[1]);
-  s->w[1] -= turn * (N[2] * t[0] - N[0] * t[2]);
-  s->w[2] -= turn * (N[0] * t[1] - N[1] * t[0]);
+    s->w[k] -= turn * across[k];
+  }
 }
 
 double carom_rebound(double v_n, double e) {

@@ -25,15 +25,6 @@
 #include <math.h>
 #include <stdbool.h>
 
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-static void cross(const double a[3], const double b[3], double out[3]) {
-  out[0] = a[1] * b[2] - a[2] * b[1];
-  out[1] = a[2] * b[0] - a[0] * b[2];
-  out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 /* Closing speed and slip. */
 static double relative_motion(const carom_impact *in, const double n[3], double u[3]) {
   double v[3], turn[3], W[3];
@@ -41,8 +32,8 @@ static double relative_motion(const carom_impact *in, const double n[3], double 
     v[k] = in->a.v[k] - in->b.v[k];
     W[k] = in->a.radius * in->a.w[k] + in->b.radius * in->b.w[k];
   }
-  const double v_n = dot(v, n);
-  cross(W, n, turn);
+  const double v_n = carom_space_dot(v, n);
+  carom_cross(W, n, turn);
   for (int k = 0; k < 3; k++)
     u[k] = v[k] - v_n * n[k] + turn[k];
   return v_n;
@@ -50,14 +41,14 @@ static double relative_motion(const carom_impact *in, const double n[3], double 
 
 /* |u|, by the largest component first where a square would overflow or vanish. */
 static double size_of(const double u[3]) {
-  const double square = dot(u, u);
+  const double square = carom_space_dot(u, u);
   if (square > 1e-280 && square < 1e300)
     return sqrt(square);
   const double most = fmax(fmax(fabs(u[0]), fabs(u[1])), fabs(u[2]));
   if (!(most > 0.0 && most < INFINITY))
     return sqrt(square);
   const double unit[3] = {u[0] / most, u[1] / most, u[2] / most};
-  return most * sqrt(dot(unit, unit));
+  return most * carom_space_size(unit);
 }
 
 double carom_spheres_slip(const carom_impact *in, const double n[3]) {
@@ -81,7 +72,7 @@ void carom_spheres_collide(const carom_impact *in, const double n[3], carom_resu
   } else if (most > 0.0) {
     J_t = 1.0 / (3.5 * B);
   }
-  cross(n, u, turn);
+  carom_cross(n, u, turn);
   for (int k = 0; k < 3; k++) {
     const double impulse = J * n[k] + J_t * u[k];
     out->a.v[k] = a->v[k] - impulse / a->mass;
@@ -119,7 +110,7 @@ static carom_status direction(const carom_impact *in, double n[3]) {
   /* by the largest first, so that no square overflows or vanishes */
   for (int k = 0; k < 3; k++)
     n[k] /= size;
-  size = sqrt(dot(n, n));
+  size = carom_space_size(n);
   for (int k = 0; k < 3; k++)
     n[k] /= size;
   return CAROM_OK;

@@ -129,7 +129,7 @@ carom_status carom_check_parts(const carom_table *table, double radius, double u
 }
 
 static double off_line(const double line[3], const double r[2]) {
-  return fabs(line[0] * r[0] + line[1] * r[1] + line[2]);
+  return fabs(carom_plane_dot(line, r) + line[2]);
 }
 
 carom_status carom_table_check(const carom_table *table, double radius, carom_table_fault *fault) {

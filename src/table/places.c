@@ -9,11 +9,11 @@
 #include <math.h>
 
 static double distance_to(const carom_features *f, int rail, const double r[2]) {
-  return f->line[rail][0] * r[0] + f->line[rail][1] * r[1] + f->line[rail][2];
+  return carom_plane_dot(f->line[rail], r) + f->line[rail][2];
 }
 /* Along a rail, 0 at one of its ends and 1 at the other. */
 static double place_along(const carom_features *f, int rail, const double r[2]) {
-  return f->along[rail][0] * r[0] + f->along[rail][1] * r[1] + f->along[rail][2];
+  return carom_plane_dot(f->along[rail], r) + f->along[rail][2];
 }
 static bool is_beside(const carom_features *f, int rail, const double r[2]) {
   const double place = place_along(f, rail, r);
@@ -54,8 +54,8 @@ static bool crosses_circle(const carom_features *f, const double centre[2], doub
                            const double r[2]) {
   const double way[2] = {r[0] - f->eye[0], r[1] - f->eye[1]},
                c[2] = {centre[0] - f->eye[0], centre[1] - f->eye[1]};
-  const double size2 = way[0] * way[0] + way[1] * way[1],
-               along = carom_lesser(carom_greater(way[0] * c[0] + way[1] * c[1], 0.0), size2),
+  const double size2 = carom_plane_dot(way, way),
+               along = carom_lesser(carom_greater(carom_plane_dot(way, c), 0.0), size2),
                share = size2 > 0.0 ? along / size2 : 0.0;
   const double place[2] = {f->eye[0] + share * way[0], f->eye[1] + share * way[1]};
   return in_circle(centre, radius, place);
@@ -148,7 +148,7 @@ static void off_noses(const carom_ground *ground, const double r[3], double plac
   for (int k = 0; k < f->jaws; k++) {
     const carom_jaw *jaw = &ground->table->jaw[k];
     const double d[2] = {place[0] - jaw->centre[0], place[1] - jaw->centre[1]};
-    const double distance = sqrt(d[0] * d[0] + d[1] * d[1]);
+    const double distance = carom_plane_size(d);
     const double more = jaw->radius + ground->jaw[k] - distance;
     if (more < 0.0 || more > R)
       continue;

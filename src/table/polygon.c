@@ -50,7 +50,7 @@ static void add_pocket(carom_table *t, const joint *j, double nose, double r, do
 
   /* the bisector: into the table, also where the corner points into it */
   double b[2] = {j->next[0] + j->previous[0], j->next[1] + j->previous[1]};
-  double size = sqrt(b[0] * b[0] + b[1] * b[1]);
+  double size = carom_plane_size(b);
   if (size < 1e-9) { /* a straight corner */
     b[0] = -j->next[1];
     b[1] = j->next[0];
@@ -140,7 +140,7 @@ static carom_status joints_of(const carom_corner *corner, int count, double r, d
 
     /* beta by its half: the turn is sin(beta), above 0 where the corner is convex */
     j[k].turn = j[k].next[0] * j[k].previous[1] - j[k].next[1] * j[k].previous[0];
-    const double cosine = j[k].next[0] * j[k].previous[0] + j[k].next[1] * j[k].previous[1];
+    const double cosine = carom_plane_dot(j[k].next, j[k].previous);
     const double s = sqrt(carom_greater(0.5 - 0.5 * cosine, 0.0)),
                  c = copysign(sqrt(carom_greater(0.5 + 0.5 * cosine, 0.0)), j[k].turn);
     j[k].mouth = a->mouth;

@@ -71,7 +71,7 @@ static void shapes_of(const carom_ground *ground, double overlap, bool round, ri
 
 /* The place of a segment that is nearest to r, and how far it is. */
 static double nearest(const shape *s, const double r[2], double place[2]) {
-  const double e[2] = {s->q[0] - s->p[0], s->q[1] - s->p[1]}, size2 = e[0] * e[0] + e[1] * e[1];
+  const double e[2] = {s->q[0] - s->p[0], s->q[1] - s->p[1]}, size2 = carom_plane_dot(e, e);
   double along = 0.0;
   if (size2 > 0.0)
     along = ((r[0] - s->p[0]) * e[0] + (r[1] - s->p[1]) * e[1]) / size2;

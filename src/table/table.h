@@ -6,6 +6,7 @@
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 #include "platform/ranges.h"
+#include "platform/vectors.h"
 
 #include <stdbool.h>
 

@@ -148,13 +148,13 @@ static double distance_at(const miss *m, double t, double *opens) {
 
   /* the level part of the way, or that across the line of a rail */
   const bool rail = m->type == CAROM_EVENT_RAIL;
-  const double q = sqrt(d[0] * d[0] + d[1] * d[1]);
+  const double q = carom_plane_size(d);
   double away = q, rate;
   if (rail) {
-    away = -(m->line[0] * d[0] + m->line[1] * d[1]);
-    rate = -(m->line[0] * v[0] + m->line[1] * v[1]);
+    away = -carom_plane_dot(m->line, d);
+    rate = -carom_plane_dot(m->line, v);
   } else {
-    rate = (d[0] * v[0] + d[1] * v[1]) / q;
+    rate = carom_plane_dot(d, v) / q;
   }
   const double level = away - m->ring;
   *opens = level * rate + d[2] * v[2];
@@ -333,14 +333,14 @@ static void take_rails(carom_reach *reach, const carom_event *event, carom_tange
   for (int64_t k = 0; k < w->table->rails; k++) {
     const carom_rail *rail = &w->table->rail[k];
     const double e[2] = {rail->q[0] - rail->p[0], rail->q[1] - rail->p[1]},
-                 length = sqrt(e[0] * e[0] + e[1] * e[1]);
+                 length = carom_plane_size(e);
     const double x = s->r[0] - rail->p[0], y = s->r[1] - rail->p[1],
                  place = (e[0] * x + e[1] * y) / length;
     const double beyond = carom_greater(-place, place - length);
     double line[3];
     carom_rail_line(rail, line);
     const double reaches = carom_reach_on_cloth(w->ball[event->a].kind, rail->height, w->reference);
-    const double gap = line[0] * s->r[0] + line[1] * s->r[1] + line[2] - reaches;
+    const double gap = carom_plane_dot(line, s->r) + line[2] - reaches;
     const bool meets = event->type == CAROM_EVENT_RAIL && event->b == k;
     const bool at_end =
         meets || (jaw != NULL && beyond > 0.0 && rounds(jaw, place < 0.0 ? rail->p : rail->q));
@@ -392,7 +392,7 @@ static void take_turn(carom_reach *reach, int i) {
   const int row = i * CAROM_STATE_NUMBERS;
   const double *d_x = carom_tangent_columns(&w->pass, w->tangent->final, row + S_V_X),
                *d_y = carom_tangent_columns(&w->pass, w->tangent->final, row + S_V_Y);
-  const double speed = sqrt(v[0] * v[0] + v[1] * v[1]);
+  const double speed = carom_plane_size(v);
   for (int j = 0; j < w->pass.columns && speed > 0.0; j++)
     take(reach, j, speed, sqrt(d_x[j] * d_x[j] + d_y[j] * d_y[j]));
 }

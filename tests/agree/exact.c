@@ -40,7 +40,7 @@ static void expect_details(const carom_impact *in, const carom_result *out, cons
   /* what is subtracted on the way: speeds of both balls */
   const double speed = fabs(in->a.v[0]) + fabs(in->a.v[1]) + fabs(in->b.v[0]) + fabs(in->b.v[1]);
   const double scale = fabs(d->normal) + in->a.mass * speed;
-  const double length = hypot(in->b.r[0] - in->a.r[0], in->b.r[1] - in->a.r[1]);
+  const double length = distance(in->b.r, in->a.r);
   for (int c = 0; c < 2; c++) { /* in the plane of the table */
     const double y = (in->b.r[c] - in->a.r[c]) / length;
     const double on_a = -d->normal * y + d->friction[c] + d->cloth_a[c];

@@ -448,7 +448,7 @@ static layout towards_a_jaw(const carom_table *table, random_source *random) {
   double out[2], way[2];
   for (int k = 0; k < 2; k++)
     out[k] = (1.0 - share) * seam[0].end[k] + share * seam[1].end[k] - jaw->centre[k];
-  const double size = hypot(out[0], out[1]);
+  const double size = planar_size(out);
   way[0] = -(cos(swing) * out[0] - sin(swing) * out[1]) / size;
   way[1] = -(sin(swing) * out[0] + cos(swing) * out[1]) / size;
 

@@ -83,7 +83,7 @@ TEST(random_hops) {
       const double was[2] = {a->v[0] - R * a->w[1], a->v[1] + R * a->w[0]},
                    is[2] = {b->v[0] - R * b->w[1], b->v[1] + R * b->w[0]};
       /* by no more than rounding of speeds of some m/s */
-      ck_assert(was[0] * is[0] + was[1] * is[1] >= -2e-14 * hypot(was[0], was[1]));
+      ck_assert(was[0] * is[0] + was[1] * is[1] >= -2e-14 * planar_size(was));
       worst_rise = fmax(worst_rise, (state_energy(&ball.kind, b) - state_energy(&ball.kind, a)) /
                                         state_energy(&ball.kind, a));
     }

@@ -356,7 +356,7 @@ TEST(balances) {
         along += contacts[q].friction[k] * contacts[q].normal[k];
       ck_assert_double_le(fabs(along), 1e-12 * contacts[q].impulse);
     }
-    momentum = fmax(momentum, hypot(P[0], P[1]) / l.ball[0].kind.mass);
+    momentum = fmax(momentum, planar_size(P) / l.ball[0].kind.mass);
   }
   printf("momentum %.1e m/s, energy rises by %.1e at most\n", momentum, rise);
   ck_assert_double_lt(momentum, 1e-12);

@@ -56,7 +56,7 @@ static int check_pile(const carom_event *event, const carom_ball_state *drawn) {
 static void check_fall(const carom_event *event) {
   const carom_pocket *pocket = &table.pocket[event->b];
   const carom_ball_state *from = &event->before[0];
-  const double g = balls[event->a].kind.gravity, fastest = hypot(from->v[0], from->v[1]);
+  const double g = balls[event->a].kind.gravity, fastest = planar_size(from->v);
   const double end =
       (from->v[2] + sqrt(from->v[2] * from->v[2] + 2.0 * g * (from->r[2] + pocket->depth))) / g;
   const double step = end / SAMPLES;
@@ -65,7 +65,7 @@ static void check_fall(const carom_event *event) {
   /* it ends where it falls */
   const double lies = end_of_fall(event, 1.01 * end);
   check_no_jump(event->a, event->time + lies, drawn);
-  ck_assert_double_eq(hypot(drawn[event->a].v[0], drawn[event->a].v[1]), 0.0);
+  ck_assert_double_eq(planar_size(drawn[event->a].v), 0.0);
   ck_assert_double_le(between(drawn[event->a].r, pocket->centre, 2), pocket->radius + 1e-9);
   if (check_pile(event, drawn) > 0)
     return;
@@ -80,7 +80,7 @@ static void check_fall(const carom_event *event) {
     const double height = from->r[2] + from->v[2] * t - 0.5 * g * t * t;
     ck_assert_double_le(fabs(ball->r[2] - height), 1e-12);
     ck_assert_double_le(between(ball->r, pocket->centre, 2), pocket->radius + 1e-9);
-    ck_assert_double_le(hypot(ball->v[0], ball->v[1]), fastest + 1e-9);
+    ck_assert_double_le(planar_size(ball->v), fastest + 1e-9);
     ck_assert_int_eq(ball->label, CAROM_BALL_POCKETED);
     /* no jump, and the velocity is that of the way: but for where the wall takes a part of it */
     const double *last = k == 0 ? from->r : before[event->a].r;
@@ -147,7 +147,7 @@ TEST(out_of_the_air) {
     const double lands = sqrt(2.0 * (height - balls[0].kind.radius) / g);
     /* from the middle of the table, so far that it lands in the circle */
     const double to[2] = {centre[0] - 0.5 * table.width, centre[1] - 0.5 * table.length},
-                 far = hypot(to[0], to[1]), way[2] = {to[0] / far, to[1] / far};
+                 far = planar_size(to), way[2] = {to[0] / far, to[1] / far};
     balls[0].state =
         (carom_ball_state){.r = {centre[0] - lands * speed * way[0] - aside * way[1],
                                  centre[1] - lands * speed * way[1] + aside * way[0], height},

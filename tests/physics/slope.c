@@ -31,7 +31,7 @@ static void rates_at(const carom_ball_kind *k, const carom_table *t, int64_t lab
                      const double y[6], double rate[6]) {
   const double g = k->gravity, down[2] = {-g * t->slope_x, -g * t->slope_y};
   const double u[2] = {y[2] - y[5], y[3] + y[4]};
-  const double slip = hypot(u[0], u[1]), speed = hypot(y[2], y[3]);
+  const double slip = planar_size(u), speed = hypot(y[2], y[3]);
   for (int n = 0; n < 2; n++) {
     rate[n] = y[2 + n];
     rate[2 + n] = down[n];

@@ -79,8 +79,7 @@ static int draw(random_source *r, bool raised, carom_cue *cue) {
       first = k == 1 ? degrees : first;
       clear = true;
       for (int j = 0; j < k; j++)
-        clear &= j == of || hypot(balls[k].state.r[0] - balls[j].state.r[0],
-                                  balls[k].state.r[1] - balls[j].state.r[1]) > 2.0 * R + 1e-6;
+        clear &= j == of || distance(balls[k].state.r, balls[j].state.r) > 2.0 * R + 1e-6;
     }
   *cue = cue_at(random_between(r, 0.5, 8.0), first + random_between(r, -70.0, 70.0));
   cue->theta = raised ? random_between(r, 3.0, 50.0) : 0.0;
@@ -215,7 +214,7 @@ TEST(momentum_and_energy) {
       for (int axis = 0; axis < 2; axis++)
         P[axis] += m * final[k].v[axis];
     }
-    NEAR(hypot(P[0], P[1]), J, 1e-12 * J);
+    NEAR(planar_size(P), J, 1e-12 * J);
     ck_assert_double_le(energy, 0.5 * cue.mass * cue.speed * cue.speed);
     ck_assert(shot.count >= 1 && facts.touches >= 1 && (facts.pushed & 1) == 0);
     for (int k = 1; k < count; k++) {

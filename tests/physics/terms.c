@@ -61,7 +61,7 @@ TEST(drag_of_a_ball_alone) {
       carom_ball_state at;
       expect_ok(carom_shot_at(&ball, 1, &shot, t, &at));
       ck_assert_int_eq(at.label, CAROM_BALL_ROLLING);
-      const double now = hypot(at.v[0], at.v[1]);
+      const double now = planar_size(at.v);
       worst = fmax(worst, fabs(hypot(at.r[0] - 2e4, at.r[1] - 2e4) - (double)(way - left)));
       worst_speed = fmax(worst_speed, fabs(now / (double)exact_v - 1.0));
       ck_assert_msg(now < before, "%g m/s and later %g", before, now);
@@ -450,7 +450,7 @@ static double width_of_corner(const carom_table *table, double angle, double spe
     for (int64_t e = 0; e < shot.count; e++) {
       if (events[e].type == CAROM_EVENT_POCKET && events[e].b == 0)
         direct = true;
-      if (hypot(events[e].before[0].r[0], events[e].before[0].r[1]) > 0.6)
+      if (planar_size(events[e].before[0].r) > 0.6)
         break;
     }
     fall += direct;

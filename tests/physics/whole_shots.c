@@ -144,8 +144,7 @@ static void make_about_origin(int kind, int n, random_source *random, random_sho
 static bool hits_from_above(const carom_shot *shot) {
   for (int64_t k = 0; k < shot->count; k++) {
     const double *a = shot->events[k].before[0].r, *b = shot->events[k].before[1].r;
-    if (shot->events[k].type == CAROM_EVENT_BALL_BALL &&
-        hypot(a[0] - b[0], a[1] - b[1]) < 0.11 * fabs(a[2] - b[2]))
+    if (shot->events[k].type == CAROM_EVENT_BALL_BALL && distance(a, b) < 0.11 * fabs(a[2] - b[2]))
       return true;
   }
   return false;
@@ -246,8 +245,7 @@ static bool first_cluster(const carom_shot *shot, double *time, double *speed) {
   if (k == shot->count || e->type != CAROM_EVENT_BALL_BALL || e->cluster == 0)
     return false;
   *time = e->time;
-  *speed = hypot(hypot(e->before[0].v[0], e->before[0].v[1]),
-                 hypot(e->before[1].v[0], e->before[1].v[1]));
+  *speed = hypot(planar_size(e->before[0].v), planar_size(e->before[1].v));
   return *speed > 0.3;
 }
 
@@ -476,7 +474,7 @@ TEST(tips) {
     expect_ok(carom_strike(&cue, &kind, &out));
 
     /* the point that is struck recedes at V (1 + 5/2 (a^2 + b^2)), the cue goes on at U */
-    const double arm = 2.5 * (cue.a * cue.a + cue.b * cue.b), V = hypot(out.v[0], out.v[1]),
+    const double arm = 2.5 * (cue.a * cue.a + cue.b * cue.b), V = planar_size(out.v),
                  U = V0 - m / M * V;
     ck_assert_double_eq_tol(V * (1.0 + arm) - U, part * V0, 1e-14);
     const double w2 = out.w[0] * out.w[0] + out.w[1] * out.w[1] + out.w[2] * out.w[2],
@@ -509,11 +507,11 @@ TEST(alone) {
     random_vector(&r, 2, -3.0, 3.0, b.state.v);
     random_vector(&r, 3, -150.0, 150.0, b.state.w);
     const double R = b.kind.radius, g = b.kind.gravity, *v = b.state.v, *w = b.state.w;
-    const double u[2] = {v[0] - R * w[1], v[1] + R * w[0]}, size = hypot(u[0], u[1]);
+    const double u[2] = {v[0] - R * w[1], v[1] + R * w[0]}, size = planar_size(u);
     const double slide = 2.0 * size / (7.0 * b.kind.mu_slide * g);
     double rolling[3];
     carom_rolling_velocity(v, w, R, rolling);
-    const double speed = hypot(rolling[0], rolling[1]);
+    const double speed = planar_size(rolling);
     const carom_shot shot = play(&t, &b, 1, NULL, NULL, CAROM_OK);
     ck_assert_double_eq_tol(events[0].time, slide, 1e-13);
     for (int k = 0; k < 2; k++) {

@@ -323,8 +323,7 @@ static void measure(const carom_measures *m, double tolerance) {
     ck_assert_double_eq_tol(2.0 * half, corner ? m->corner_mouth : m->side_mouth, 2e-5);
     ck_assert_double_eq_tol(jaw->radius, corner ? m->corner_jaw : m->side_jaw, 1e-12);
     ck_assert_double_eq_tol(jaw->height, m->nose_height, 1e-12);
-    const double angle =
-        acos(-fabs(a[0] * b[0] + a[1] * b[1]) / (hypot(a[0], a[1]) * hypot(b[0], b[1])));
+    const double angle = acos(-fabs(a[0] * b[0] + a[1] * b[1]) / (planar_size(a) * planar_size(b)));
     ck_assert_double_eq_tol(angle * 180.0 / 3.14159265358979323846,
                             corner ? m->corner_cut : m->side_cut, corner ? 1e-9 : tolerance);
     /* the facing goes back to the depth of the cushion */

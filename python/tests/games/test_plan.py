@@ -268,6 +268,32 @@ def test_the_opponent_counts():
     assert values[1] > values[0] + 0.05
 
 
+def test_goals_and_safeties():
+    goal = carom.Goal("near", place=(0.9, 1.2), distance=0.3)
+    asked = {"rules": "nineball", "shots": 2000}
+    near = carom.plan(TABLE, LAYOUT, goal=goal, best=1, **asked)[0]
+    far = carom.plan(TABLE, LAYOUT, goal=goal._replace(distance=0.05), best=1, **asked)[0]
+    assert near["value"] > far["value"] + 0.2
+    safe = carom.plan(TABLE, LAYOUT, safeties=True, **asked)
+    assert {*safe["kind"]} == {Kind.SAFETY}
+    with pytest.raises(ValueError, match="goal: must be one of"):
+        carom.plan(TABLE, LAYOUT, goal=carom.Goal("close"), **asked)
+    with pytest.raises(carom.CaromError):
+        carom.plan(TABLE, LAYOUT, goal=goal._replace(distance=0.0), **asked)
+
+
+def test_sequence():
+    asked = {"rules": "nineball", "shots": 300}
+    run = carom.sequence(TABLE, LAYOUT, plays=40, **asked)
+    steps = run.strokes
+    assert steps["ruling"]["turn"]["outcome"][-1] == numbered("carom_turn_outcome")["win"]
+    assert run.plays == 40 and abs(run.chance - steps["choice"]["value"][0]) < 0.35
+    rest = steps["ruling"]["balls"]["state"]["r"][:-1, 0, :2]
+    assert (np.ptp(steps["zone"][:-1], axis=1) > 0.02).all()
+    assert (np.abs(steps["zone"][:-1].mean(axis=1) - rest) < 0.6).all()
+    assert np.isnan(carom.sequence(TABLE, LAYOUT, plays=0, **asked).chance)
+
+
 def test_run_out():
     """A turn that ends before the game is won is worth nothing to a plan to run out."""
     wins, runs = (

@@ -55,6 +55,8 @@ import type {
   Measures,
   Motion,
   PlanOptions,
+  Sequence,
+  SequenceOptions,
   Player,
   RackName,
   Odds,
@@ -1237,8 +1239,8 @@ export class Carom {
    * A player by his errors of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees of direction and of elevation
    * and 0.003 radii each way, times `errors`; they grow with the speed. Or by a Fargo rating, 200
    * to 850, such as 500: its plans then play as rated where `shots` is not given; `onlyPots: 0`
-   * makes plans that advise such a player. A rating is one of a game, `rules`: by it, players of
-   * other ratings than 500 differ more or less.
+   * makes plans that advise such a player. With `rules`, a player of matches of this game, in which
+   * 100 points are odds of 2 to 1.
    */
   player(skill: Skill = {}): Player {
     refuseUnknown(skill, KEYS.player);
@@ -1353,6 +1355,14 @@ export class Carom {
     options: PlanOptions = {},
   ): PlanStroke[] {
     return this.#plans.plan(table, balls, cues, options);
+  }
+
+  /**
+   * A run-out as a whole: each stroke from what the one before leaves without errors, with the
+   * landing zone of the cue ball, and the chance of the whole by run-outs that are played.
+   */
+  sequence(table: Table, balls: readonly ShotBall[], options: SequenceOptions = {}): Sequence {
+    return this.#plans.sequence(table, balls, options);
   }
 
   /** The balls that may be met first, and potted. */

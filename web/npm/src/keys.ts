@@ -5,6 +5,7 @@ import type { PlanOptions as PlanRows } from "./generated/structs.js";
 import type {
   AimOf,
   GameState,
+  Goal,
   Impact,
   Line,
   MatchOptions,
@@ -37,6 +38,20 @@ const GAME: Record<keyof GameState, 1> = {
 const optionKeys = (struct: keyof typeof options): string[] =>
   options[struct].map(({ key }) => key);
 
+/** The keys of plans and of run-outs. */
+const PLAN = [
+  ...optionKeys("carom_plan_options"),
+  ...keysOf<Omit<PlanOptions, keyof PlanRows | "goal" | "best">>({
+    player: 1,
+    opponent: 1,
+    inHand: 1,
+    runOut: 1,
+    cue: 1,
+    shot: 1,
+    ...GAME,
+  }),
+];
+
 /** The keys of the objects that are no struct of C. */
 export const KEYS = {
   impact: keysOf<Impact>({ a: 1, b: 1, muBall: 1, restitution: 1 }),
@@ -62,19 +77,9 @@ export const KEYS = {
     shot: 1,
   }),
   aim: keysOf<AimOf>({ ball: 1, pocket: 1, via: 1 }),
-  plan: [
-    ...optionKeys("carom_plan_options"),
-    ...keysOf<Omit<PlanOptions, keyof PlanRows>>({
-      player: 1,
-      opponent: 1,
-      inHand: 1,
-      runOut: 1,
-      best: 1,
-      cue: 1,
-      shot: 1,
-      ...GAME,
-    }),
-  ],
+  goal: keysOf<Goal>({ kind: 1, ball: 1, balls: 1, place: 1, distance: 1 }),
+  plan: [...PLAN, "goal", "best"],
+  sequence: PLAN.filter((key) => key !== "safeties"),
   series: ["ratings", "games", "sets", "order", "side", "breakPoints"],
   player: ["errors", "fargo", "rules"],
   rack: ["gap", "seed"],

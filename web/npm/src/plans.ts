@@ -35,11 +35,15 @@ import type {
   Review,
   Ruling,
   Score,
+  Sequence,
+  SequenceOptions,
+  SequenceStroke,
   Series,
   ShotBall,
   ShotOptions,
   Skill,
   Table,
+  Vec2,
 } from "./types.js";
 
 const PLAYER = layout.carom_player;
@@ -47,6 +51,9 @@ const RULES = layout.carom_plan_rules;
 const OPTIONS = layout.carom_plan_options;
 const JOB = layout.carom_plan_job;
 const CHOICE = layout.carom_plan_stroke;
+const GOAL = layout.carom_plan_goal;
+const STEP = layout.carom_sequence_stroke;
+const COUNTS = layout.carom_sequence_counts;
 const RULING = layout.carom_ruling.offset;
 const POT = layout.carom_pot;
 const PART = layout.carom_part;
@@ -119,6 +126,10 @@ function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: str
     );
 }
 
+function refuseShots({ shots }: PlanOptions): never {
+  throw new RangeError(`shots: it must be a whole number from 100 to 1000000, not ${shots}`);
+}
+
 /** A call as carom_call has it. */
 function numbersOf(call: Call | undefined): { ball: number; pocket: number } {
   if (call === undefined) return { ball: -1, pocket: -1 };
@@ -141,6 +152,8 @@ export class Plans {
     | "call"
     | "corners"
     | "found"
+    | "goal"
+    | "counts"
     | "pot",
     Pointer
   >;
@@ -160,6 +173,8 @@ export class Plans {
       call: room(8),
       corners: room(layout.carom_bounds.size),
       found: room(8),
+      goal: room(GOAL.size),
+      counts: room(COUNTS.size),
       pot: room(POT.size),
     };
   }
@@ -179,7 +194,7 @@ export class Plans {
     return struck;
   }
 
-  player({ errors: scale, fargo, rules = "eightball" }: Skill): Player {
+  player({ errors: scale, fargo, rules }: Skill): Player {
     if (scale !== undefined && fargo !== undefined)
       throw new TypeError("errors, fargo: a player has errors or a rating, not both");
     const errors = scale ?? 1;
@@ -188,10 +203,13 @@ export class Plans {
     if (fargo !== undefined && !(fargo >= 200 && fargo <= 850))
       throw new RangeError(`fargo: it must be 200 to 850, not ${fargo}`);
     const { exports } = this.#memory;
-    const kind = value("carom_rules_kind", rules, "rules");
-    if (fargo === undefined) exports.carom_player_of(this.#addresses.player, errors);
-    else exports.carom_player_rated(this.#addresses.player, fargo, kind);
-    return readStruct<Player>(this.#memory, this.#addresses.player, "carom_player");
+    const { player } = this.#addresses;
+    if (fargo === undefined && rules !== undefined)
+      throw new TypeError("rules: a game needs a rating in it, fargo");
+    if (fargo === undefined) exports.carom_player_of(player, errors);
+    else if (rules === undefined) exports.carom_player_fargo(player, fargo);
+    else exports.carom_player_rated(player, fargo, value("carom_rules_kind", rules, "rules"));
+    return readStruct<Player>(this.#memory, player, "carom_player");
   }
 
   rating(scores: readonly Score[]): Rating {
@@ -328,10 +346,7 @@ export class Plans {
       throw new RangeError(`${cues ? "cues: there" : "best: it"} must be 1 to 1000, not ${most}`);
     this.#writeJob(table, balls, options);
     const size = memory.exports.carom_plan_memory(this.#addresses.options);
-    if (size === 0)
-      throw new RangeError(
-        `shots: it must be a whole number from 100 to 1000000, not ${options.shots}`,
-      );
+    if (size === 0) refuseShots(options);
     const room = memory.allocate(size);
     const choices = memory.allocate(most * CHOICE.size);
     const strokes = memory.allocate(most * layout.carom_cue.size);
@@ -374,6 +389,57 @@ export class Plans {
     } finally {
       for (const pointer of [room, choices, strokes]) memory.free(pointer);
     }
+  }
+
+  /** A run-out as a whole, and the share of those that are played. */
+  sequence(
+    table: Table,
+    balls: readonly ShotBall[],
+    { within = 0.03, plays = 100, ...options }: SequenceOptions,
+  ): Sequence {
+    refuseUnknown(options, KEYS.sequence);
+    const { inHand = "no" } = options;
+    const memory = this.#memory;
+    const job = this.#writeJob(table, balls, options);
+    const size = memory.exports.carom_sequence_memory(this.#addresses.options);
+    if (size === 0) refuseShots(options);
+    const most = values.CAROM_SEQUENCE_MOST;
+    const room = memory.allocate(size);
+    const steps = memory.allocate(most * STEP.size);
+    try {
+      const { counts, found } = this.#addresses;
+      const more = { memory: room, memorySize: size, leave: leaveOf(inHand) };
+      setStruct(memory, job, "carom_plan_job", more, false);
+      const hand = Number(inHand !== "no");
+      this.#refuse(
+        memory.exports.carom_sequence(job, hand, within, steps, most, found),
+        "sequence",
+      );
+      const strokes = Array.from({ length: memory.i32[found / 4]! }, (_, k) =>
+        this.#readStep(steps + k * STEP.size, options, balls),
+      );
+      setStruct(memory, counts, "carom_sequence_counts", {});
+      const many = BigInt(whole(plays, "plays"));
+      this.#refuse(memory.exports.carom_sequence_play(job, hand, 0n, many, counts), "sequence");
+      const { runs } = readStruct<C.SequenceCounts>(memory, counts, "carom_sequence_counts");
+      return { strokes, chance: runs / plays, plays };
+    } finally {
+      for (const pointer of [room, steps]) memory.free(pointer);
+    }
+  }
+
+  #readStep(pointer: Pointer, game: Rules, balls: readonly ShotBall[]): SequenceStroke {
+    const memory = this.#memory;
+    const corners = (pointer + STEP.offset.zone) / 8;
+    return {
+      ...readStruct<C.SequenceStroke>(memory, pointer, "carom_sequence_stroke"),
+      choice: this.#readChoice(pointer + STEP.offset.choice),
+      ruling: this.readRuling(pointer + STEP.offset.ruling, game, balls),
+      zone: Array.from(
+        { length: values.CAROM_ZONE_CORNERS },
+        (_, k): Vec2 => [memory.f64[corners + 2 * k]!, memory.f64[corners + 2 * k + 1]!],
+      ),
+    };
   }
 
   /**
@@ -713,6 +779,22 @@ export class Plans {
       );
   }
 
+  /** A goal in the module's memory; 0: none. */
+  #writeGoal(goal: PlanOptions["goal"]): Pointer {
+    if (!goal) return 0;
+    refuseUnknown(goal, KEYS.goal, "goal");
+    const { kind, ball = 0, balls = [], place = [0, 0], distance = 0 } = goal;
+    const { goal: pointer } = this.#addresses;
+    setStruct(this.#memory, pointer, "carom_plan_goal", {
+      kind: value("carom_goal_kind", kind, "goal.kind"),
+      ball,
+      balls: balls.reduce((set, k) => set | (1 << k), 0),
+      distance,
+    });
+    this.#memory.f64.set(place, (pointer + GOAL.offset.place) / 8);
+    return pointer;
+  }
+
   #writeJob(table: Table, balls: readonly ShotBall[], options: PlanOptions): Pointer {
     const memory = this.#memory;
     const { addresses } = this.#host;
@@ -745,6 +827,7 @@ export class Plans {
       shot,
       options: optionsAt,
       count: balls.length,
+      goal: this.#writeGoal(options.goal),
     });
   }
 

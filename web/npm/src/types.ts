@@ -424,6 +424,8 @@ export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   inHand?: Ruling["hand"] | readonly [Vec2, Vec2];
   /** Plan to run out: a turn that ends before the game is won is worth nothing. */
   runOut?: boolean;
+  /** What the stroke is to leave; `value` is then the chance that it does, without a foul. */
+  goal?: Goal;
   /** How many choices at most; default 5. */
   best?: number;
   /**
@@ -433,6 +435,44 @@ export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   cue?: Partial<Cue>;
   /** Models; when to stop is not read. */
   shot?: ShotOptions;
+}
+
+/** What a stroke is to leave; `carom_goal_kind` of the C header explains the kinds. */
+export interface Goal {
+  kind: C.GoalKind;
+  /** Of "snooker": the ball. */
+  ball?: number;
+  /** Of "apart": the balls. */
+  balls?: readonly number[];
+  /** Of "near": the place, m. */
+  place?: Vec2;
+  /** Of "near" and "apart": the largest distance, or the smallest gap, m. */
+  distance?: number;
+}
+
+/** Options of run-outs: those of plans, and how far and how often. */
+export interface SequenceOptions extends Omit<PlanOptions, "goal" | "safeties" | "best"> {
+  /** How much chance to run out the cue ball may lose within a landing zone; default 0.03. */
+  within?: number;
+  /** How many run-outs to play for the chance of the whole; default 100. */
+  plays?: number;
+}
+
+/** A stroke of a run-out, with its landing zone and its tolerance. */
+export interface SequenceStroke extends Omit<C.SequenceStroke, "choice" | "ruling" | "zone"> {
+  choice: PlanStroke;
+  /** What the stroke leaves without errors. */
+  ruling: Ruling;
+  /** The corners of the landing zone of the cue ball, m. */
+  zone: Vec2[];
+}
+
+/** A run-out as one answer. */
+export interface Sequence {
+  strokes: SequenceStroke[];
+  /** The share of the played run-outs that succeeded. */
+  chance: number;
+  plays: number;
 }
 
 /** A stroke, and what is known of it. */

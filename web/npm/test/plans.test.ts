@@ -566,18 +566,8 @@ test("odds are those of Python, and a stroke beside its aim is reviewed, by both
     expect(odds.fair).toEqual([2, 1]);
     expect(() => carom.odds({ ratings: [600, 5000] })).toThrow("ratings must be 0 to 1000");
 
-    const table = carom.table("9ft");
-    const places = new Map([
-      [0, [0.5, 1.2]],
-      [8, [0.35, 1.9]],
-      [9, [0.9, 1.3]],
-    ]);
-    const balls = carom.rack("nineball", table).map((ball, k): ShotBall => {
-      const [x = 0, y = 0] = places.get(k) ?? [];
-      const label = places.has(k) ? "stationary" : "pocketed";
-      const r = [x, y, places.has(k) ? ball.kind.radius : -0.1] as const;
-      return { ...ball, state: { ...ball.state, r, label } };
-    });
+    const places: Record<number, Vec2> = { 0: [0.5, 1.2], 8: [0.35, 1.9], 9: [0.9, 1.3] };
+    const { table, balls } = lay(carom, "nineball", places);
     const { cue } = carom.aim(table, balls, { speed: 2 }, { ball: 8, pocket: "foot-left" });
     const options = { rules: "nineball", player: carom.player({ errors: 2 }) } as const;
     const review = carom.review(table, balls, { ...cue, phi: cue.phi + 3 }, options);

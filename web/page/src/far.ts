@@ -10,6 +10,7 @@ import { texts } from "./texts/texts.js";
 const callsOf = (carom: Carom) => ({
   plan: carom.plan.bind(carom),
   chances: carom.chances.bind(carom),
+  sequence: carom.sequence.bind(carom),
   drill: (...args: Rest<typeof drillStroke>) => drillStroke(carom, ...args),
 });
 type Rest<F> = F extends (first: Carom, ...rest: infer R) => unknown ? R : never;

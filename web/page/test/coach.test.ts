@@ -33,8 +33,17 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await comesToSay(
       page,
       "said",
-      /^Hint: ball [19] into the .*\. An unrated player \(\d+\) keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/,
+      /^Hint: ball [19] into the .*\. An unrated player \(\d+\) keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\./,
     );
+    // The run-out behind it, whose landing zone is drawn.
+    const cloth = async () => (await page.locator("#table-scene").screenshot()).toString("base64");
+    const hinted = await cloth();
+    await comesToSay(
+      page,
+      "said",
+      /To run out: ball 1 into the .*, ball 9 into the .*\. It succeeds in \d+ % of tries\.$/,
+    );
+    expect(await cloth()).not.toBe(hinted);
     // A stroke that meets nothing: a foul, which the chances and the review tell.
     await turnTo(page, 200);
     await act(page, "#power=0.6");

@@ -95,7 +95,7 @@ class Goal(NamedTuple):
 
 
 def player(
-    errors: float | None = None, *, fargo: float | None = None, rules: Game = "eightball"
+    errors: float | None = None, *, fargo: float | None = None, rules: Game | None = None
 ) -> Records:
     """A player whose strokes err, as an array of `carom.dtypes.player`, shape ().
 
@@ -111,9 +111,9 @@ def player(
         `only_pots`, the share of strokes in which the player thinks of nothing but potting. Such
         players beat those who are 100 points weaker in about 2 of 3 games, if `shots` of `plan` is
         not given (docs/understanding/plan.md). Set `only_pots` to 0 for a plan that advises one.
-    rules : str
-        The game in which the player has this rating: by it, players of other ratings than 500 differ
-        more or less.
+    rules : str, optional
+        A game in whose matches the player plays: there, players of other ratings than 500 differ so
+        much that 100 points are odds of 2 to 1. Not given: the person, whom a plan advises.
     """
     if errors is not None and fargo is not None:
         raise ValueError("errors, fargo: a player has errors or a rating, not both")
@@ -126,11 +126,15 @@ def player(
         <= 850.0
     ):
         raise ValueError(f"fargo: it must be 200 to 850, not {fargo}")
-    game = choice(GAMES, rules, "rules")
     record: Array = np.zeros((), dtypes.player)
-    pointer("carom_player[]", record)[0] = (
-        lib.carom_player_of(errors) if fargo is None else lib.carom_player_rated(fargo, game)
-    )
+    made = lib.carom_player_of(errors)
+    if fargo is not None:
+        made = lib.carom_player_fargo(fargo)
+    if rules is not None:
+        if fargo is None:
+            raise ValueError("rules: a game needs a rating in it, fargo")
+        made = lib.carom_player_rated(fargo, choice(GAMES, rules, "rules"))
+    pointer("carom_player[]", record)[0] = made
     return record
 
 

@@ -6,6 +6,7 @@ import {
   circle,
   drawLabels,
   drawStick,
+  drawZones,
   labelsOf,
   path,
   type Pen,
@@ -125,6 +126,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   const cue = aimed(s);
   g.setLineDash([]);
   drawMarks(s, pen);
+  if (s.hinted) drawZones(pen, s.sequence);
   if (cue && onTable(cueBall.state)) {
     if (s.first) {
       stroke(pen, cueBall.state.r, s.first.place, 1.4, "#ffffffd0");

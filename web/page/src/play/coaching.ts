@@ -27,6 +27,8 @@ import { texts } from "../texts/texts.js";
 /** Shots of a plan, and of the chances of one stroke. */
 const PLAN = 1000;
 const TRY = 200;
+/** Shots of the plans of a run-out, and how often it is played. */
+const RUN_OUT = { shots: 300, plays: 40 };
 /** How long the aim rests before its chances are asked for, ms. */
 const PAUSE = 120;
 /** Beyond this off the aim, degrees, another ball or pocket was meant. */
@@ -131,6 +133,7 @@ function setHint(s: Session, choice: PlanStroke): void {
     phi: choice.cue.phi,
   };
   s.special = choice.kind === "push" ? "push" : undefined;
+  s.sequence = [];
   s.hinted = true; // the words of the turn make room for the hint
   s.showing.rest();
 }
@@ -151,6 +154,27 @@ async function adviseDrill(s: Session, name: string, isWanted: () => boolean): P
   says(s, texts.hintTheStrokeThat(wordsOfCue(found.cue), wordsOfLevel(s), share));
 }
 
+/** Draws the run-out behind a hint on the table, and tells it. */
+async function tellRunOut(
+  s: Session,
+  { ball }: PlanStroke,
+  hint: string,
+  isWanted: () => boolean,
+): Promise<void> {
+  const { table, balls, options } = requestOf(s.play, levelOf(s));
+  const generation = s.chancesGeneration;
+  drop("sequence"); // a search for another stroke
+  const more = { ...options, ...RUN_OUT, inHand: "no" as const };
+  const { strokes, chance } = await far("sequence", table, balls, more);
+  // One that begins with another ball than the hint would contradict it.
+  if (!isWanted() || !s.hinted || strokes.length < 2 || strokes[0]!.choice.ball !== ball) return;
+  s.sequence = strokes;
+  s.showing.rest();
+  if (generation !== s.chancesGeneration) return;
+  const list = strokes.map(({ choice }) => wordsOfPlan(s.play, choice)).join(", ");
+  says(s, `${hint} ${texts.toRunOut(list, percent(chance))}`);
+}
+
 async function advise(s: Session): Promise<void> {
   if (!free(s)) return says(s, why(s));
   const generation = ++s.searchGeneration;
@@ -164,7 +188,9 @@ async function advise(s: Session): Promise<void> {
     const choice = await best(requestOf(s.play, levelOf(s)));
     if (!isWanted()) return;
     setHint(s, choice);
-    says(s, wordsOfHint(s, choice));
+    const hint = wordsOfHint(s, choice);
+    says(s, hint);
+    if (s.play.hasPockets && !s.play.breaks) await tellRunOut(s, choice, hint, isWanted);
   } catch (error) {
     if (isWanted()) says(s, wrong(error));
   }

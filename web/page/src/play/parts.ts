@@ -1,6 +1,6 @@
 // What a game at the page is played by, and how it stands: the types of the session, which the
 // files of its parts share.
-import type { Call, Carom, Cue, Choice } from "carom";
+import type { Call, Carom, Cue, Choice, SequenceStroke } from "carom";
 import type { player as filmPlayer } from "../../../player/player.js";
 import type { filmOf, Quaternion } from "../table/filmed.js";
 import type { Stroke as StrokeValues } from "../table/stroke.js";
@@ -149,6 +149,8 @@ export interface Progress {
   verdict: string;
   /** Whether a hint was asked for at this stroke. */
   hinted: boolean;
+  /** The run-out behind the hint, which is drawn while there is one. */
+  sequence: readonly SequenceStroke[];
   /** What the aim meets first. */
   first: Look | undefined;
   turned: Quaternion[];

@@ -22,6 +22,7 @@ export const progressOf = (play: Play): Progress => ({
   special: undefined,
   verdict: "",
   hinted: false,
+  sequence: [],
   first: undefined,
   turned: [],
   turnedBefore: [],

@@ -1,6 +1,6 @@
 // What is drawn over the table while one aims: the stick, the ghost ball, lines, and rings around
 // balls.
-import type { Contact, Cue, ShotBall } from "carom";
+import type { Contact, Cue, SequenceStroke, ShotBall } from "carom";
 import { line } from "../../../player/table.js";
 import { onTable } from "./filmed.js";
 
@@ -93,6 +93,23 @@ export function drawContact(
   );
   ring(pen, ghost, radius, 0);
   pen.g.setLineDash([]);
+}
+
+/** Where the cue ball may land after each stroke of a run-out, with the number of the stroke. */
+export function drawZones({ g, place }: Pen, strokes: readonly SequenceStroke[]): void {
+  g.save();
+  g.font = "bold 13px sans-serif";
+  for (const [k, { zone, ruling }] of strokes.entries()) {
+    if (ruling.turn !== "keep") continue;
+    g.beginPath();
+    for (const [x, y] of zone) g.lineTo(...place(x, y));
+    g.fillStyle = `hsl(${47 + 70 * k} 90% 65% / 0.28)`;
+    g.fill();
+    const [x, y] = ruling.balls[0]!.state.r;
+    g.fillStyle = "#fff";
+    g.fillText(String(k + 1), ...place(x, y));
+  }
+  g.restore();
 }
 
 /** The stick behind the cue ball, drawn back by its speed. */
