@@ -172,10 +172,10 @@ static const double rating_steps[][2] = {
     [CAROM_RULES_TENBALL] = {108.0, 88.0},     /* a rack */
     [CAROM_RULES_ROTATION] = {110.0, 78.0},    /* a rack */
     [CAROM_RULES_ONEPOCKET] = {60.0, 53.0},    /* a rack */
-    [CAROM_RULES_BANK] = {72.0, 45.0},         /* a rack */
+    [CAROM_RULES_BANK] = {34.0, 34.0},         /* a rack */
     [CAROM_RULES_STRAIGHT] = {52.0, 52.0},     /* 15 points, about a rack */
     [CAROM_RULES_SNOOKER] = {47.0, 47.0},      /* a frame */
-    [CAROM_RULES_THREECUSHION] = {39.0, 48.0}, /* 15 points */
+    [CAROM_RULES_THREECUSHION] = {36.0, 36.0}, /* 15 points */
 };
 
 #endif
