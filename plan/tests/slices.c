@@ -163,8 +163,8 @@ TEST(places_in_slices) {
   edge_free(&memory);
 }
 
-/* Further touches of the tip before the last two shots of a slice, which may be played together, and
- * of these. */
+/* Further touches of the tip before the last two shots of a slice, which may be played together,
+ * and of these. */
 static int64_t touches, last_touches[2];
 static carom_turn count_touches(carom_rules_state *state, uint32_t in_play, int cue_ball,
                                 const carom_facts *facts, carom_call call) {
@@ -175,7 +175,7 @@ static carom_turn count_touches(carom_rules_state *state, uint32_t in_play, int 
 }
 
 /* A touch of the tip behind the first takes as long as many events, so a slice has few of them: in
- * straight rail, with the cue ball close to a cushion, for a player whose fast strokes are exact. */
+ * straight rail, with the cue ball close to a cushion, for a player whose errors do not grow. */
 TEST(touches_in_slices) {
   enum { TOUCH = 50 }; /* events of a slice, at least */
   carom_plan_stroke best;
