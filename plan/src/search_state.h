@@ -65,7 +65,7 @@ typedef struct carom_outcome {
   int8_t first;        /* the ball that was met first, or -1 */
   uint16_t events;     /* of the shot */
   float near;          /* 1 on the place that is the goal, 0 from 1 m on */
-  carom_miss miss; /* where the stage measures misses */
+  carom_miss miss;     /* where the stage measures misses */
 } carom_outcome;
 
 /* The miss of a shot of a candidate without errors, which had so many events. */

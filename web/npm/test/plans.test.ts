@@ -263,7 +263,9 @@ test("goals, safeties, and run-outs as a whole", () => {
   expect(Math.abs(chance - strokes[0]!.choice.value)).toBeLessThan(0.4);
   const { zone, ruling } = strokes[0]!;
   const [x, y] = ruling.balls[0]!.state.r;
-  expect(Math.max(...zone.map((corner) => Math.hypot(corner[0] - x, corner[1] - y)))).toBeGreaterThan(0.02);
+  expect(
+    Math.max(...zone.map((corner) => Math.hypot(corner[0] - x, corner[1] - y))),
+  ).toBeGreaterThan(0.02);
   const wrong = { ...asked, goal: { kind: "close" as "near" } };
   expect(() => carom.plan(table, balls, wrong)).toThrow("goal.kind");
 });
