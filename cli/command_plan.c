@@ -130,11 +130,11 @@ static void tell(FILE *out, const plan_job *job, const carom_plan_job *request,
     plan_describe(line, c, text);
     fprintf(out, "%d. %s\n", k + 1, text);
     plan_tell_stroke(out, c, job->hand);
-    fprintf(out,
-            "   chances      %s %.1f %% (error %.1f), plays on %.0f %%, foul %.0f %%; played %lld "
-            "times\n",
-            value_words(job), 100.0 * c->value, 100.0 * c->error, 100.0 * c->keep, 100.0 * c->foul,
-            (long long)c->seen);
+    fprintf(out, "   chances      %s %.1f %% (error %.1f), plays on %.0f %%, foul %.0f %%",
+            value_words(job), 100.0 * c->value, 100.0 * c->error, 100.0 * c->keep, 100.0 * c->foul);
+    if (c->lose >= 0.005) /* as by an early eight */
+      fprintf(out, ", loses %.0f %%", 100.0 * c->lose);
+    fprintf(out, "; played %lld times\n", (long long)c->seen);
     if (job->why)
       plan_tell_why(out, request, line, c);
   }

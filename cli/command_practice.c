@@ -78,7 +78,7 @@ static bool review_stroke(games *g, const carom_match *before) {
   const double rating = match.seating.seat[before->seat].rating;
   const given_player *given = &g->job->shared.player;
   if (!given->rated && !given->errs && rating >= 200.0)
-    g->player = carom_player_fargo(rating);
+    g->player = carom_player_rated(rating, (carom_rules_kind)match.record.rules);
   memcpy(s->balls, match.before, sizeof s->balls);
   s->rules = before->rules;
   s->review.aim = match.stroke;

@@ -167,15 +167,15 @@ static const learned learned_of[] = {
  * the comment, as `carom-lab plan --rules GAME --players A,B` shows; with twice as many points
  * they would be odds of about 4 to 1. Games without a row have those of eight-ball. */
 static const double rating_steps[][2] = {
-    [CAROM_RULES_EIGHTBALL] = {75.0, 100.0},   /* a rack */
+    [CAROM_RULES_EIGHTBALL] = {70.0, 95.0},    /* a rack */
     [CAROM_RULES_NINEBALL] = {180.0, 110.0},   /* a rack */
-    [CAROM_RULES_THREECUSHION] = {38.0, 38.0}, /* 15 points */
-    [CAROM_RULES_STRAIGHT] = {47.0, 47.0},     /* 15 points, about a rack */
-    [CAROM_RULES_SNOOKER] = {43.0, 43.0},      /* a frame */
-    [CAROM_RULES_ONEPOCKET] = {57.0, 53.0},    /* a rack */
-    [CAROM_RULES_BANK] = {66.0, 38.0},         /* a rack */
-    [CAROM_RULES_TENBALL] = {105.0, 85.0},     /* a rack */
-    [CAROM_RULES_ROTATION] = {110.0, 100.0},   /* a rack */
+    [CAROM_RULES_TENBALL] = {108.0, 88.0},     /* a rack */
+    [CAROM_RULES_ROTATION] = {110.0, 78.0},    /* a rack */
+    [CAROM_RULES_ONEPOCKET] = {60.0, 53.0},    /* a rack */
+    [CAROM_RULES_BANK] = {72.0, 45.0},         /* a rack */
+    [CAROM_RULES_STRAIGHT] = {52.0, 52.0},     /* 15 points, about a rack */
+    [CAROM_RULES_SNOOKER] = {47.0, 47.0},      /* a frame */
+    [CAROM_RULES_THREECUSHION] = {39.0, 48.0}, /* 15 points */
 };
 
 #endif

@@ -1,7 +1,8 @@
 /* The ways of carom_coach.h: strokes in all directions. Those that pot or score are counted by the
  * rails and balls that they meet, and a way's best direction is the middle of the widest run of
  * neighbouring ones, whose ends are bisected. For one ball, and where no way was found, there are
- * at least FINE directions, since the window of a frozen ball is often narrower than 0.2 degrees. */
+ * at least FINE directions, because the window of a frozen ball is often narrower than 0.2
+ * degrees. */
 #include "carom_coach.h"
 #include "coach.h"
 #include "platform/ranges.h"

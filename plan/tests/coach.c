@@ -68,6 +68,30 @@ TEST(a_pot_is_explained) {
   edge_free(&memory);
 }
 
+/* A list names a stroke that is meant to pass the turn, beside those that pot by luck. */
+TEST(lists_have_safeties) {
+  enum { LAYOUTS = 15, LEAST = 13 };
+  int lists = 0, lucky = 0;
+  for (uint64_t seed = 1; seed <= LAYOUTS; seed++) {
+    make_layout(seed, 5 + (int)(seed % 5));
+    rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+    job.count = 10;
+    options.shots = 1000;
+    make_memory();
+    expect_ok(carom_plan(&job, best, 5, &found));
+    bool is_safe = false;
+    for (int k = 0; k < found; k++) {
+      const bool names_none = best[k].kind == CAROM_PLAN_SAFETY;
+      is_safe |= names_none && best[k].keep < 0.1 && best[k].foul <= 0.25;
+      lucky += names_none && best[k].keep >= 0.1;
+    }
+    lists += is_safe;
+    edge_free(&memory);
+  }
+  printf("%d of %d lists have a safety, and %d strokes pot by luck\n", lists, LAYOUTS, lucky);
+  ck_assert_int_ge(lists, LEAST);
+}
+
 /* The value of a choice to a player without some errors, by strokes that are played anew. */
 static double value_with(const carom_plan_stroke *choice, const carom_player *some) {
   carom_plan_stroke again = *choice;
@@ -109,10 +133,10 @@ TEST(costs_of_errors) {
       ck_assert_double_eq_tol(why.flawless_value - why.value, sum, 1e-12);
 
       /* of speed, between aim and tip: the mean of what it costs with aim, and with tip and eye */
-      const carom_player none = {.eye = -1.0};
-      carom_player aims = none, tips = {0}, others = player, timed = player;
+      const carom_player none = {.growth = player.growth, .eye = -1.0};
+      carom_player aims = none, tips = none, others = player, timed = player;
       aims.phi = player.phi, aims.theta = player.theta;
-      tips.a = player.a, tips.b = player.b;
+      tips.a = player.a, tips.b = player.b, tips.eye = player.eye;
       timed.a = timed.b = 0.0;
       timed.eye = -1.0;
       others.phi = others.theta = 0.0;

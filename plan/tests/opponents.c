@@ -103,7 +103,8 @@ TEST(other_opponents) {
   }
 
   begin(CAROM_RULES_NINEBALL, 1, 0, 0);
-  const carom_player asks = carom_player_of(1.0), rated = carom_player_fargo(300.0);
+  const carom_player asks = carom_player_of(1.0);
+  const carom_player rated = carom_player_rated(300.0, CAROM_RULES_NINEBALL);
   carom_player opponent;
   match.log_likelihood[1][16] = 50.0;
   match.weighed[1] = 50;

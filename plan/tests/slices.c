@@ -163,6 +163,40 @@ TEST(places_in_slices) {
   edge_free(&memory);
 }
 
+/* Further touches of the tip before the last two shots of a slice, which may be played together, and
+ * of these. */
+static int64_t touches, last_touches[2];
+static carom_turn count_touches(carom_rules_state *state, uint32_t in_play, int cue_ball,
+                                const carom_facts *facts, carom_call call) {
+  touches += last_touches[0];
+  last_touches[0] = last_touches[1];
+  last_touches[1] = facts->touches > 1 ? facts->touches - 1 : 0;
+  return stopped_rules.judge(state, in_play, cue_ball, facts, call);
+}
+
+/* A touch of the tip behind the first takes as long as many events, so a slice has few of them: in
+ * straight rail, with the cue ball close to a cushion, for a player whose fast strokes are exact. */
+TEST(touches_in_slices) {
+  enum { TOUCH = 50 }; /* events of a slice, at least */
+  carom_plan_stroke best;
+  int64_t total = 0;
+  lay_out_game(CAROM_RULES_STRAIGHTRAIL, 1);
+  balls[0].state.r[0] = balls[0].kind.radius + 0.003;
+  player = (carom_player){.speed = 0.1, .phi = 0.1};
+  stopped_rules = rules;
+  rules.judge = count_touches;
+  options.slice = 500;
+  make_memory();
+  touches = last_touches[0] = last_touches[1] = 0;
+  for (int found = start_plan(false, &best, 1); found == 0; found = continue_plan(&best, 1)) {
+    ck_assert_int_le(TOUCH * touches, options.slice);
+    total += touches + last_touches[0] + last_touches[1];
+    touches = last_touches[0] = last_touches[1] = 0;
+  }
+  ck_assert_int_gt(total, 20);
+  edge_free(&memory);
+}
+
 /* A plan of many shots that is stopped is about as good as a whole one of half of those that it has
  * played, by fresh strokes; and one whose seconds are over is stopped. */
 TEST(stopped_plans_are_worth_their_shots) {

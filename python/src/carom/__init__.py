@@ -121,75 +121,15 @@ if _TYPE_CHECKING:
 
 # What the package gives, as dir(carom) shows it. It has no __all__, since help(carom) would print the
 # whole of every name there.
-_OFFERED = [
-    "ALL_THREADS",
-    "Calibration",
-    "CaromError",
-    "Drill",
-    "EventType",
-    "Facts",
-    "Features",
-    "Flag",
-    "Foul",
-    "Goal",
-    "Hessian",
-    "Label",
-    "Match",
-    "Odds",
-    "Options",
-    "Outcome",
-    "Pot",
-    "Rating",
-    "Review",
-    "Rules",
-    "Ruling",
-    "RunOut",
-    "Shot",
-    "Shots",
-    "Status",
-    "Table",
-    "Tangents",
-    "Turn",
-    "aim",
-    "aim_slope",
-    "alciatore",
-    "balls",
-    "by_number",
-    "calibrate",
-    "chances",
-    "cite",
-    "collide",
-    "cue",
-    "cushion",
-    "cushion_impacts",
-    "cushion_trace",
-    "dtypes",
-    "hessian",
-    "impacts",
-    "isa_in_force",
-    "jacobian",
-    "mu_ball",
-    "odds",
-    "physics_revision",
-    "place_ball",
-    "plan",
-    "player",
-    "racks",
-    "rating",
-    "referee",
-    "resume",
-    "review",
-    "sequence",
-    "simulate",
-    "simulate_arrow",
-    "simulate_batch",
-    "struck",
-    "tables",
-    "tangents",
-    "trace",
-    "value",
-    "with_errors",
-]
+_OFFERED = (
+    "ALL_THREADS Calibration CaromError Drill EventType Facts Features Flag Foul Goal Hessian "
+    "Label Match Odds Options Outcome Pot Rating Review Rules Ruling RunOut Shot Shots Status "
+    "Table Tangents Turn aim aim_slope alciatore balls by_number calibrate chances cite collide "
+    "cue cushion cushion_impacts cushion_trace dtypes hessian impacts isa_in_force jacobian "
+    "mu_ball odds physics_revision place_ball plan player racks rating referee resume review "
+    "sequence simulate simulate_arrow simulate_batch struck tables tangents trace value "
+    "with_errors"
+).split()
 
 # Names of the folder games, and modules of folders, which are loaded when they are asked for.
 _OF_GAMES = frozenset(

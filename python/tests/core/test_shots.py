@@ -493,7 +493,7 @@ def test_games_and_terms():
     named = carom.simulate(table, measured, cushion_model="smooth")
     assert carom.simulate(table, measured).final.tobytes() == named.final.tobytes()
     for game in ("pool", "snooker", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"):
-        terms = ("drag", "roll_loss", "law_a", "law_b", "law_c", "nose_height", "omega_ratio")
+        terms = "drag roll_loss law_a law_b law_c nose_height omega_ratio".split()
         constants = [name for name in terms if carom.balls(r, game=game)["kind"][name].any()]
         own = {
             "pool": ["roll_loss", "nose_height"],
