@@ -166,7 +166,8 @@ export function writeOptions(
   const fields: Record<string, number | bigint> = {};
   for (const { key, form, enumeration, stop } of OPTIONS[struct]) {
     if (stops && !stop) continue;
-    const supplied = (options as Record<string, unknown>)[key] ?? 0;
+    const given = (options as Record<string, unknown>)[key] ?? 0;
+    const supplied = form === "flag" && typeof given === "boolean" ? Number(given) : given;
     const bit = (item: unknown): bigint =>
       1n <<
       BigInt(

@@ -245,6 +245,31 @@ test("ball in hand, chances and errors", () => {
   expect([...errors].sort((a, b) => b - a)).toEqual(errors);
 });
 
+test("goals, safeties, and run-outs as a whole", () => {
+  const { table, balls } = lay(carom, "nineball", {
+    0: [0.4, 0.9],
+    1: [0.3, 1.9],
+    2: [0.9, 1.7],
+    9: [0.7, 0.5],
+  });
+  const asked = { rules: "nineball", shots: 1000 } as const;
+  const near = (distance: number) =>
+    carom.plan(table, balls, { ...asked, goal: { kind: "near", place: [0.9, 1.2], distance } })[0]!;
+  expect(near(0.3).value).toBeGreaterThan(near(0.05).value + 0.2);
+  for (const { kind } of carom.plan(table, balls, { ...asked, safeties: true }))
+    expect(kind).toBe("safety");
+  const { strokes, chance } = carom.sequence(table, balls, { ...asked, shots: 300, plays: 30 });
+  expect(strokes.at(-1)!.ruling.turn).toBe("win");
+  expect(Math.abs(chance - strokes[0]!.choice.value)).toBeLessThan(0.4);
+  const { zone, ruling } = strokes[0]!;
+  const [x, y] = ruling.balls[0]!.state.r;
+  expect(
+    Math.max(...zone.map((corner) => Math.hypot(corner[0] - x, corner[1] - y))),
+  ).toBeGreaterThan(0.02);
+  const wrong = { ...asked, goal: { kind: "close" as "near" } };
+  expect(() => carom.plan(table, balls, wrong)).toThrow("goal.kind");
+});
+
 test("rulings of shots", () => {
   for (const { carom } of builds) {
     const game: GameState = { rules: "eightball", group: "open", opening: false };
