@@ -304,48 +304,57 @@ static uint16_t work_of(const carom_shot *shot) {
   return (uint16_t)carom_min(shot->count + TOUCH * further, UINT16_MAX);
 }
 
-static size_t play_rows(const void *context, size_t first, size_t end) {
-  const search *plan = context;
+/* Plays a row, and returns the number of events of its shot. Apart, so that the shots that measure
+ * its miss have the stack. */
+__attribute__((noinline)) static int64_t play_row(const search *plan, int64_t row) {
   const carom_stage *s = &plan->stage;
   shot_result result;
   carom_shot shot = {.final = result.final, .facts = &result.facts};
+  if (s->measure != NULL) {
+    shot.events = plan->path[row].event;
+    shot.room = PATH_EVENTS;
+  }
+  const candidate *c = &plan->found[s->first + row / s->each];
+  carom_cue cue = carom_search_stroke(plan, c, s->draws, row % s->each);
+  cue.ball = plan->cue_ball;
+  const carom_prepared layout =
+      carom_search_layout(plan, c, s->draws, row % s->each, result.drawn);
+  const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
+  if (plan->plays < plan->view.count)
+    spread(plan, &result);
+  result.facts.barred =
+      carom_barred_from(plan->job.rules, (carom_leave)plan->job.leave, &result.facts,
+                        plan->job.table, plan->job.balls, plan->view.count);
+  int first_hit = -1;
+  if (status >= 0)
+    first_hit = result.facts.first[0];
+
+  /* a stroke of the scan that begins with a foul is dropped: its layout is not judged */
+  outcome *o = &plan->outcome[row];
+  if (s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(plan, first_hit))
+    *o = (outcome){.worth = plan->foul_value,
+                   .turn = CAROM_TURN_PASS,
+                   .foul = 1,
+                   .ball = -1,
+                   .pocket = -1,
+                   .first = (int8_t)first_hit};
+  else
+    *o = judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
+  o->events = work_of(&shot);
+  return shot.count;
+}
+
+static size_t play_rows(const void *context, size_t first, size_t end) {
+  const search *plan = context;
+  const carom_stage *s = &plan->stage;
   for (size_t k = first; k < end; k++) {
     const int64_t row = s->done + (int64_t)k;
     if (row > 0 && (carom_is_stopped(plan) || carom_is_late(plan)))
       return k;
+    const int64_t events = play_row(plan, row);
     const candidate *c = &plan->found[s->first + row / s->each];
-    carom_cue cue = carom_search_stroke(plan, c, s->draws, row % s->each);
-    cue.ball = plan->cue_ball;
-    const carom_prepared layout =
-        carom_search_layout(plan, c, s->draws, row % s->each, result.drawn);
-    if (s->measure != NULL) {
-      shot.events = plan->path[row].event;
-      shot.room = PATH_EVENTS;
-    }
-    const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
-    if (plan->plays < plan->view.count)
-      spread(plan, &result);
-    result.facts.barred =
-        carom_barred_from(plan->job.rules, (carom_leave)plan->job.leave, &result.facts,
-                          plan->job.table, plan->job.balls, plan->view.count);
-    int first_hit = -1;
-    if (status >= 0)
-      first_hit = result.facts.first[0];
-
-    /* a stroke of the scan that begins with a foul is dropped: its layout is not judged */
-    outcome *o = &plan->outcome[row];
-    if (s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(plan, first_hit))
-      *o = (outcome){.worth = plan->foul_value,
-                     .turn = CAROM_TURN_PASS,
-                     .foul = 1,
-                     .ball = -1,
-                     .pocket = -1,
-                     .first = (int8_t)first_hit};
-    else
-      *o = judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
-    o->events = work_of(&shot);
     if (s->measure != NULL)
-      o->miss = s->measure(plan, c, &plan->path[row], shot.count);
+      plan->outcome[row].miss = s->measure(plan, c, &plan->path[row], events);
   }
   return end;
 }
