@@ -741,8 +741,9 @@ typedef struct carom_plan_job {
 CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
 
 /* Finds the best shots of a layout. Writes up to `room` of them to choices[], best first, one for
- * each ball, pocket and kind. A choice behind the best is within 0.1 of its value; but the best
- * safety that was found is always among them. *found becomes their number, at least 1.
+ * each ball, pocket and kind. A choice behind the best is within 0.1 of its value. But the best
+ * safety that was found is always among them: it names no ball, and plays on in less than a tenth
+ * of the shots. *found becomes their number, at least 1.
  *
  * Returns CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is too little memory;
  * CAROM_ERROR_OPTIONS for bad options, a bad player, a goal that the layout or the rules do not

@@ -14,8 +14,6 @@ typedef carom_search search;
 static const double points_most = 0.1;
 /* And no safety that fouls so often, nor such a soft opening. */
 static const double foul_most = 0.25, opening_foul_most = 0.1;
-/* A stroke that plays on more often is no safety. */
-static const double luck = 0.1;
 enum { SAFETIES = 6 }; /* that are played anew, of which the best is listed */
 /* A chance of fewer shots is none. */
 enum { TOLD_LEAST = 20 };
@@ -168,7 +166,7 @@ static bool is_listed(const search *plan, const candidate *c) {
     return true;
   if (c->round == 0 || (alone && pot_of(c).ball < 0))
     return false;
-  if (plan->only_safeties && luck * c->chose.seen < c->chose.keep)
+  if (plan->only_safeties && carom_luck * c->chose.seen < c->chose.keep)
     return false;
   const double mean = mean_of(&c->chose), best_mean = mean_of(&best->chose);
   return mean >= best_mean - points_most && !(mean > best_mean && c->round < best->round);
@@ -202,7 +200,7 @@ static void list_safeties(search *plan) {
 }
 
 bool carom_search_list(search *plan) {
-  carom_plan_stroke listed[LISTED_MOST];
+  carom_plan_stroke *listed = plan->listing; /* the stack is for shots */
   for (int k = 0; k < plan->listed; k++)
     listed[k] = with_kind(plan, &plan->found[k]);
   for (; plan->examined < plan->count && plan->listed < plan->choices_most; plan->examined++) {
