@@ -1,10 +1,10 @@
 // The cushions of one's own table by three banks, and named conditions: from the dialog to a game
 // that keeps them.
-import { describe, expect, test } from "vitest";
+import { expect, test } from "vitest";
 import {
   act,
-  browserPath,
   counts,
+  describePages,
   keptGame,
   keptSetup,
   linesOf,
@@ -15,7 +15,7 @@ import {
   violations,
 } from "./page.js";
 
-describe.runIf(browserPath !== undefined)("conditions of a table", () => {
+describePages("conditions of a table", () => {
   const { open, set } = pages();
   type Page = Awaited<ReturnType<typeof open>>;
   async function shoot(page: Page): Promise<{ cloth?: string; cushion?: string }> {

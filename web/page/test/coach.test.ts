@@ -1,11 +1,11 @@
 // The coach and the view in three dimensions, in a browser.
-import { describe, expect, test } from "vitest";
+import { expect, test } from "vitest";
 import {
   act,
   boxOf,
-  browserPath,
   comesToSay,
   counts,
+  describePages,
   dragMouse,
   fingersOn,
   gameOf,
@@ -19,7 +19,7 @@ import {
   violations,
 } from "./page.js";
 
-describe.runIf(browserPath !== undefined)("beside the game", () => {
+describePages("beside the game", () => {
   const { open, frames, text, turnTo } = pages();
 
   test("the coach tells chances before a stroke, what it cost after it, and keeps a log to print", async () => {

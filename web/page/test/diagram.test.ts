@@ -2,14 +2,14 @@
 import { readFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { deflateRawSync, inflateRawSync } from "node:zlib";
-import { describe, expect, test } from "vitest";
+import { expect, test } from "vitest";
 import type { Page } from "playwright-core";
 import {
   act,
   boxOf,
-  browserPath,
   comesToSay,
   comesToShow,
+  describePages,
   gameOf,
   keptGame,
   keptLines,
@@ -21,7 +21,7 @@ import {
   violations,
 } from "./page.js";
 
-describe.runIf(browserPath !== undefined)("a diagram", () => {
+describePages("a diagram", () => {
   const { open, text, turnTo } = pages();
   const picture = (page: Page) =>
     page.locator("#diagram-scene").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());

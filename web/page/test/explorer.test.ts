@@ -1,13 +1,13 @@
 // The laboratory and the view of collisions, in a browser. Numbers are compared with the command
 // `carom`.
 import { readFileSync } from "node:fs";
-import { describe, expect, test } from "vitest";
+import { expect, test } from "vitest";
 import { toLine } from "carom";
 import {
   act,
   boxOf,
-  browserPath,
   comesToSay,
+  describePages,
   dragMouse,
   numberIn,
   pages,
@@ -20,7 +20,7 @@ import {
 import { carom } from "../../test/builds.js";
 import { root, run, thereIsACommand } from "../../test/support.js";
 
-describe.runIf(browserPath !== undefined)("the laboratory", () => {
+describePages("the laboratory", () => {
   const { open, pixelOf, drag, click, lies, colour, text, set, frames } = pages();
 
   test.runIf(thereIsACommand)(

@@ -1,14 +1,14 @@
 // Games that the browser keeps: several at once, each of them through damaged links, new games,
 // drills and second tabs; and what happens where something that was kept is damaged.
-import { describe, expect, test } from "vitest";
+import { expect, test } from "vitest";
 import { run, thereIsACommand } from "../../npm/test/support.js";
 import {
   act,
-  browserPath,
   comesToCount,
   comesToSay,
   comesToShow,
   counts,
+  describePages,
   keptGames,
   keptLines,
   linesOf,
@@ -19,7 +19,7 @@ import {
   shows,
 } from "./page.js";
 
-describe.runIf(browserPath !== undefined)("kept games", () => {
+describePages("kept games", () => {
   const { browser, open, text } = pages();
   type Page = Awaited<ReturnType<typeof open>>;
 

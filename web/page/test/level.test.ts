@@ -1,12 +1,12 @@
 // What a level is: one's own rating by games and drills, the lines of the table, the part of a ball
 // that is met, and the price of a hint.
-import { describe, expect, test } from "vitest";
+import { expect, test } from "vitest";
 import type { Page } from "playwright-core";
 import {
   act,
   boxOf,
-  browserPath,
   comesToSay,
+  describePages,
   dragMouse,
   gameOf,
   keptSetup,
@@ -20,7 +20,7 @@ import {
   violations,
 } from "./page.js";
 
-describe.runIf(browserPath !== undefined)("by level", () => {
+describePages("by level", () => {
   const { open, bright, frames, struck, text, turnTo } = pages();
   test.each(sizes)(
     "lines and the part of the ball that is met, by setting and by rating; the wheel turns by its step: %s",

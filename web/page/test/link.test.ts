@@ -4,13 +4,13 @@ import { readFileSync } from "node:fs";
 import { createServer, type Server } from "node:http";
 import type { AddressInfo } from "node:net";
 import { deflateRawSync, inflateRawSync } from "node:zlib";
-import { afterAll, beforeAll, describe, expect, test } from "vitest";
+import { afterAll, beforeAll, expect, test } from "vitest";
 import type { BrowserContext, Page } from "playwright-core";
 import {
   act,
-  browserPath,
   comesToSay,
   comesToShow,
+  describePages,
   gameOf,
   keptGame,
   linesOf,
@@ -27,7 +27,7 @@ const unpacked = (url: string) =>
     Buffer.from(new URLSearchParams(new URL(url).hash.slice(1)).get("g")!, "base64url"),
   ).toString();
 
-describe.runIf(browserPath !== undefined)("a game by link", () => {
+describePages("a game by link", () => {
   const { browser, text, messages } = pages();
   const turn = (page: Page) => text(page, "turn");
   let server: Server;

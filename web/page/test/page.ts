@@ -2,7 +2,7 @@
 // a file; places of the table, drags and taps on it.
 import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { afterAll, afterEach, beforeAll, expect } from "vitest";
+import { afterAll, afterEach, beforeAll, describe, expect } from "vitest";
 import { type Browser, chromium, type Page } from "playwright-core";
 import { root } from "../../test/support.js";
 
@@ -14,6 +14,8 @@ if (browserPath === undefined)
   console.log(
     "without the tests of the page: there is no Chromium (Debian: chromium); CHROMIUM may name one",
   );
+/** A group of tests that need a browser. */
+export const describePages = describe.runIf(browserPath !== undefined);
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 /** What axe finds wrong with a page. */
 export async function violations(page: Page): Promise<string[]> {

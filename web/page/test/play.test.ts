@@ -1,13 +1,13 @@
 // The view Play in a browser, at both sizes: strokes, whole games, what is kept, and what is heard.
-import { describe, expect, test } from "vitest";
+import { expect, test } from "vitest";
 import { words } from "carom";
 import type { Page } from "playwright-core";
 import {
   act,
   boxOf,
-  browserPath,
   comesToSay,
   comesToShow,
+  describePages,
   dragMouse,
   fingersOn,
   gameOf,
@@ -25,7 +25,7 @@ import {
   violations,
 } from "./page.js";
 
-describe.runIf(browserPath !== undefined)("a game", () => {
+describePages("a game", () => {
   const { open, pixelOf, drag, click, pixel, bright, text, struck, frames, turnTo } = pages();
   const turn = (page: Page) => text(page, "turn");
   const phi = async (page: Page) => await numberIn(page, "phi");

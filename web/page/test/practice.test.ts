@@ -1,13 +1,13 @@
 // Practice in a browser: drills with their counts, and a table from a photo whose camera is known.
-import { describe, expect, test } from "vitest";
+import { expect, test } from "vitest";
 import { pinhole } from "./camera.js";
 import { Draws } from "../../test/support.js";
 import {
   act,
   boxOf,
-  browserPath,
   comesToSay,
   counts,
+  describePages,
   fingersOn,
   keptSetup,
   pages,
@@ -24,7 +24,7 @@ const L = 2.54;
 const NOSE = 0.0366;
 const R = 0.028575;
 
-describe.runIf(browserPath !== undefined)("practice", () => {
+describePages("practice", () => {
   const { open, turnTo } = pages();
 
   test("a drill counts what is made and missed, begins again, and hides the way of the balls", async () => {

@@ -3,13 +3,14 @@
 // web/ by CAROM_PAGE=whole npm test.
 import { readFileSync } from "node:fs";
 import { chromium } from "playwright-core";
-import { describe, expect, test } from "vitest";
+import { expect, test } from "vitest";
 import { root } from "../../test/support.js";
 import { scene } from "../tools/picture.mjs";
 import {
   act,
   browserPath,
   comesToCount,
+  describePages,
   keptGame,
   linesOf,
   numberIn,
@@ -19,7 +20,7 @@ import {
   violations,
 } from "./page.js";
 
-describe.runIf(browserPath !== undefined)("smoke", () => {
+describePages("smoke", () => {
   const { open, text } = pages();
 
   test.each(sizes)("a game: a stroke is played, ruled and kept: %s", async (_, how) => {

@@ -5,12 +5,12 @@ import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { gzipSync } from "node:zlib";
-import { describe, expect, test } from "vitest";
+import { expect, test } from "vitest";
 import type { Page } from "playwright-core";
 import {
   act,
   boxOf,
-  browserPath,
+  describePages,
   pageFile,
   pages,
   PHONE,
@@ -60,7 +60,7 @@ const iconOf = (page: Page, name: string) =>
     return { sizes, differs, beyond };
   }, name);
 
-describe.runIf(browserPath !== undefined)("the page", () => {
+describePages("the page", () => {
   const { open, colour, text, set, messages, browser } = pages();
 
   test("its first view, without the view in three dimensions, is below 480 kB compressed", () => {
