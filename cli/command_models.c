@@ -80,7 +80,7 @@ static bool print_named(FILE *out, const char *name) {
   bool found = false;
   for (int k = 0; k < KINDS; k++)
     for (int value = 0; (word = carom_word(kinds[k].list, value)) != NULL; value++) {
-      if (strcmp(word, name) != 0)
+      if (!same_text(word, name))
         continue;
       found = true;
       fprintf(out, "%s: %s (%s): %s\n", word, kinds[k].what, kinds[k].option,
@@ -94,7 +94,7 @@ static bool print_named(FILE *out, const char *name) {
     }
   for (int list = 0; list < LISTS; list++)
     for (int k = 0; (n = carom_number_of(lists[list].part, k)) != NULL; k++)
-      if (strcmp(n->name, name) == 0 || strcmp(n->key, name) == 0) {
+      if (same_text(n->name, name) || same_text(n->key, name)) {
         found = true;
         print_number(out, n);
       }

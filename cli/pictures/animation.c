@@ -13,13 +13,13 @@ static const double step = 1.0 / 40.0; /* s */
 
 bool is_moving_picture(const char *path) {
   const size_t size = strlen(path);
-  return size > 4 && strcmp(path + size - 4, ".svg") == 0;
+  return size > 4 && same_text(path + size - 4, ".svg");
 }
 
 OPTION_SET(set_animation) {
   const size_t size = strlen(text);
   *(const char **)field = text;
-  if (size > 5 && strcmp(text + size - 5, ".html") == 0)
+  if (size > 5 && same_text(text + size - 5, ".html"))
     return true;
   if (is_moving_picture(text))
     return true;

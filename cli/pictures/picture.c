@@ -24,7 +24,7 @@ static const char *ending_of(const char *path) {
 OPTION_SET(set_picture) {
   const char *ending = ending_of(text);
   *(const char **)field = text;
-  if (strcmp(ending, ".svg") == 0 || strcmp(ending, ".png") == 0 || strcmp(ending, ".pdf") == 0)
+  if (same_text(ending, ".svg") || same_text(ending, ".png") || same_text(ending, ".pdf"))
     return true;
   complain("--%s draws a picture whose name ends in .svg, .png or .pdf, not '%s'", row->name, text);
   return false;
@@ -124,7 +124,7 @@ static bool is_installed(const char *executable) {
 }
 
 bool svg_possible(const char *path) {
-  if (path == NULL || strcmp(ending_of(path), ".svg") == 0 || is_installed(converter))
+  if (path == NULL || same_text(ending_of(path), ".svg") || is_installed(converter))
     return output_possible(path);
   complain_missing(path, converter, converter_package);
   return false;
@@ -135,9 +135,9 @@ bool svg_draw(const char *path, void (*write)(FILE *out, const void *data), cons
   snprintf(format, sizeof format, "%s", ending_of(path) + 1);
   /* a page keeps its size; dots are twice as many */
   char zoom[] = "--zoom=1";
-  zoom[sizeof zoom - 2] = strcmp(format, "png") == 0 ? '2' : '1';
+  zoom[sizeof zoom - 2] = same_text(format, "png") ? '2' : '1';
   char *const words[] = {converter, (char[]){"--format"}, format, zoom, NULL};
-  const bool is_svg = strcmp(format, "svg") == 0;
+  const bool is_svg = same_text(format, "svg");
   return make(path, is_svg ? NULL : words, converter_package, in_memory("data"), write, data);
 }
 

@@ -19,8 +19,8 @@ bool shot_has_id(const shot_line *line, const char *id) {
   const size_t size = strlen(id);
   if (line->id == NULL)
     return false;
-  return strcmp(line->id, id) == 0 || (strlen(line->id) == size + 2 && line->id[0] == '"' &&
-                                       strncmp(line->id + 1, id, size) == 0);
+  return same_text(line->id, id) || (strlen(line->id) == size + 2 && line->id[0] == '"' &&
+                                     strncmp(line->id + 1, id, size) == 0);
 }
 
 static const double side_margin = 30.0, least_arrow = 40.0; /* pixels */
@@ -196,7 +196,7 @@ void draw_disc(const view *v, const shot_line *line, int ball, double x, double 
   if (strlen(name) <= 2)
     svg_text(v->out, x, y + 0.36 * v->labels->size, name, 2,
              "font-size=\"%.1f\" letter-spacing=\"-2\" fill=\"%s\" text-anchor=\"middle\"",
-             v->labels->size, strcmp(colour, "#111111") == 0 ? "#fff" : "#111");
+             v->labels->size, same_text(colour, "#111111") ? "#fff" : "#111");
 }
 
 /* A name of more than two letters stands beside the ball, unless the ball's colour says it: of the

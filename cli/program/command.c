@@ -18,7 +18,7 @@
 static void print_help(FILE *out, const program *p) {
   fprintf(out, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n", p->name, p->about);
   for (size_t k = 0; k < p->count; k++) {
-    if (k == 0 || strcmp(p->commands[k].group, p->commands[k - 1].group) != 0)
+    if (k == 0 || !same_text(p->commands[k].group, p->commands[k - 1].group))
       fprintf(out, "\n%s:\n", p->commands[k].group);
     fprintf(out, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
   }
@@ -75,7 +75,7 @@ static bool isa_is_known(void) {
   if (request == NULL || request[0] == '\0')
     return true;
   for (int isa = 0; (name = carom_isa_name((carom_isa)isa)) != NULL; isa++) {
-    if (strcmp(request, name) == 0)
+    if (same_text(request, name))
       return true;
     append(names, sizeof names, ", ", "%s", name);
   }
@@ -96,14 +96,14 @@ static void hold_standard_places(void) {
 /* An option of the program itself, which stands alone: --help, --version and the like. Returns
  * whether `name` is one, which then is done. */
 static bool run_option(const program *p, const char *name) {
-  if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0)
+  if (same_text(name, "--help") || same_text(name, "-h") || same_text(name, "help"))
     print_help(stdout, p);
-  else if (strcmp(name, "--complete") == 0) /* for the shells: completion.* */
+  else if (same_text(name, "--complete")) /* for the shells: completion.* */
     for (size_t k = 0; k < p->count; k++)
       puts(p->commands[k].name);
-  else if (strcmp(name, "--manual") == 0) /* for manual.cmake */
+  else if (same_text(name, "--manual")) /* for manual.cmake */
     print_manual(stdout, p);
-  else if (strcmp(name, "--version") == 0)
+  else if (same_text(name, "--version"))
     printf("%s %s\n", p->name, carom_version());
   else
     return false;
@@ -112,7 +112,7 @@ static bool run_option(const program *p, const char *name) {
 
 static const command *find_command(const program *p, const char *name) {
   for (size_t k = 0; k < p->count; k++)
-    if (strcmp(name, p->commands[k].name) == 0)
+    if (same_text(name, p->commands[k].name))
       return &p->commands[k];
   return NULL;
 }
@@ -140,21 +140,21 @@ int program_run(const program *p, int argc, char **argv) {
   const char *name = argv[1];
   static char help[] = "--help";
   char *for_help[] = {argv[0], argc > 2 ? argv[2] : NULL, help, NULL};
-  if (strcmp(name, "help") == 0 && argc > 2) {
+  if (same_text(name, "help") && argc > 2) {
     name = argv[2];
     argc = 3;
     argv = for_help;
   }
 
   /* options of the program; --cite is also one of the command that cites, as what follows */
-  const bool cite = p->cites != NULL && strcmp(name, "--cite") == 0;
-  if (name[0] == '-' && strcmp(name, "--cite") != 0 && argc > 2) {
+  const bool cite = p->cites != NULL && same_text(name, "--cite");
+  if (name[0] == '-' && !same_text(name, "--cite") && argc > 2) {
     complain("%s stands alone, without '%s'", name, argv[2]);
     return EXIT_USAGE;
   }
   if (run_option(p, name))
     return finish(EXIT_GOOD);
-  if (p->cites != NULL && strcmp(name, "--report") == 0)
+  if (p->cites != NULL && same_text(name, "--report"))
     return finish(print_report(p->name));
   if (cite)
     name = p->cites;

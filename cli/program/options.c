@@ -63,7 +63,7 @@ static const struct {
 
 static bool has_option(const command_form *form, const char *name) {
   for (size_t k = 0; form->options[k] != NULL; k++)
-    if (strcmp(form->options[k]->name, name) == 0)
+    if (same_text(form->options[k]->name, name))
       return true;
   return false;
 }
@@ -73,7 +73,7 @@ static bool has_option(const command_form *form, const char *name) {
 /* The default of a row in a form. */
 static option_usual usual_of(const command_form *form, const option_row *row) {
   for (const option_usual *usual = form->usual; usual != NULL && usual->name != NULL; usual++)
-    if (strcmp(usual->name, row->name) == 0)
+    if (same_text(usual->name, row->name))
       return *usual;
   return (option_usual){row->name, row->usual, row->else_usual};
 }
@@ -211,9 +211,8 @@ static const command_form *with_all_rows(const command_form *form) {
     const int more = rows_of(form->options[k], next);
     for (int j = 0; j < more; j++) {
       int match = 0;
-      while (form->options[match] != NULL &&
-             (form->options[match]->name == NULL ||
-              strcmp(form->options[match]->name, next[j].name) != 0))
+      while (form->options[match] != NULL && (form->options[match]->name == NULL ||
+                                              !same_text(form->options[match]->name, next[j].name)))
         match++;
       if (form->options[match] == NULL)
         rows[count++] = &next[j];
@@ -252,7 +251,7 @@ static void list_options(const command_form *form, struct option longs[MOST_LONG
   const char *last = "";
   for (size_t n = 0; n < COUNT_OF(also); n++)
     for (k = 0; k < options; k++)
-      if (strcmp(longs[k].name, also[n].name) == 0 && strcmp(last, also[n].alias) != 0 &&
+      if (same_text(longs[k].name, also[n].name) && !same_text(last, also[n].alias) &&
           !has_option(form, also[n].alias)) {
         longs[count] = longs[k];
         longs[count++].name = last = also[n].alias;
@@ -265,7 +264,7 @@ static void hint_at_option(const command_form *form, char *text) {
   char words[32 * MOST_ROWS] = "--help", hint[HINT_TEXT];
   text[strcspn(text, "=")] = '\0';
   for (size_t k = 0; k < COUNT_OF(advices); k++)
-    if (strcmp(text + 2, advices[k].alias) == 0 && has_option(form, advices[k].name)) {
+    if (same_text(text + 2, advices[k].alias) && has_option(form, advices[k].name)) {
       fprintf(stderr, "%s %s: %s\n", program_name, form->name, advices[k].advice);
       return;
     }
@@ -299,7 +298,7 @@ static void complete(const command_form *form, const char *previous, const char 
   for (int k = 0; form->options[k] != NULL; k++) {
     const char *value = argument_of(form->options[k]);
     if (value == NULL || strncmp(previous, "--", 2) != 0 ||
-        strcmp(previous + 2, form->options[k]->name) != 0)
+        !same_text(previous + 2, form->options[k]->name))
       continue;
     for (size_t size; *value != '\0'; value += size + (value[size] == '|')) {
       size = strcspn(value, "|");
@@ -321,11 +320,11 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
   /* getopt complains in the name of the subcommand. */
   snprintf(name, sizeof name, "%s %s", program_name, form->name);
   argv[0] = name;
-  if (argc == 4 && strcmp(argv[1], "--complete") == 0) {
+  if (argc == 4 && same_text(argv[1], "--complete")) {
     complete(form, argv[2], argv[3]);
     return EXIT_GOOD;
   }
-  if (argc == 2 && strcmp(argv[1], "--manual") == 0) { /* for manual.cmake */
+  if (argc == 2 && same_text(argv[1], "--manual")) { /* for manual.cmake */
     print_manual(stdout, form);
     return EXIT_GOOD;
   }

@@ -72,7 +72,7 @@ static bool same_letters(const char *a, size_t size, const char *b, size_t lengt
   const size_t n = plain(a, size, letters_a);
   if (n == 0 || n != plain(b, length, letters_b) || size > LONGEST_WORD || length > LONGEST_WORD)
     return false;
-  if (strcmp(letters_a, letters_b) == 0)
+  if (same_text(letters_a, letters_b))
     return true;
   const char *hyphen = memchr(b, '-', length);
   if (hyphen == NULL)
@@ -80,7 +80,7 @@ static bool same_letters(const char *a, size_t size, const char *b, size_t lengt
   const size_t first = (size_t)(hyphen - b);
   const size_t second = plain(hyphen, length - first, turned);
   plain(b, first, turned + second);
-  return strcmp(letters_a, turned) == 0;
+  return same_text(letters_a, turned);
 }
 
 bool same_word(const char *text, size_t size, const char *word, size_t length) {
@@ -121,6 +121,10 @@ void append(char *text, size_t room, const char *separator, const char *format, 
   va_start(arguments, format);
   vsnprintf(text + used + more, room - used - more, format, arguments);
   va_end(arguments);
+}
+
+bool same_text(const char *a, const char *b) {
+  return strcmp(a, b) == 0;
 }
 
 const char *left_or_right(double to_left) {

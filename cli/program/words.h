@@ -19,6 +19,9 @@ const char *text_or(const char *text, const char *fallback);
 __attribute__((format(printf, 4, 5))) void append(char *text, size_t room, const char *separator,
                                                   const char *format, ...);
 
+/* Whether two texts are the same to the letter. */
+bool same_text(const char *a, const char *b);
+
 /* "left" of a number above 0, else "right"; "below" of a number below 0, else "above". */
 const char *left_or_right(double to_left);
 const char *above_or_below(double above);

@@ -45,11 +45,11 @@ OPTION_SET(set_count) {
 
 static OPTION_SET(set_threads) {
   int *threads = field;
-  if (strcmp(text, "all") == 0) {
+  if (same_text(text, "all")) {
     *threads = CAROM_ALL_THREADS;
     return true;
   }
-  if (strcmp(text, "0") != 0)
+  if (!same_text(text, "0"))
     return set_count(row, text, threads);
   complain("--threads 0 is no number of threads: all is one for each processor, 1 is one alone");
   return false;
@@ -97,7 +97,7 @@ const char *words_of(int list, bool with_default, char text[MOST_WORDS]) {
   const char *word;
   text[0] = '\0';
   for (int k = 0; (word = carom_word((carom_words)list, k)) != NULL; k++)
-    if (with_default || strcmp(word, "default") != 0)
+    if (with_default || !same_text(word, "default"))
       append(text, MOST_WORDS, "|", "%s", word);
   return text;
 }
@@ -230,8 +230,7 @@ static named_number number_named(const option_row *row, const char *name) {
   int of_other = 0;
   for (int owner = 0; owner < OWNERS; owner++)
     for (int k = 0; (n = carom_number_of(owners[owner].part, k)) != NULL; k++) {
-      const bool named =
-          strcmp(n->name, name) == 0 || (name[0] != '\0' && strcmp(n->key, name) == 0);
+      const bool named = same_text(n->name, name) || (name[0] != '\0' && same_text(n->key, name));
       const bool taken = refusal(row, owners[owner].part, n) == NULL;
       if (taken && named)
         return (named_number){n, owners[owner].part, k};
@@ -272,7 +271,7 @@ static void give_no_smooth_law(given_numbers *numbers) {
   const carom_number *n;
   bool dropped = false;
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
-    if (strcmp(n->name, "smooth_q") == 0)
+    if (same_text(n->name, "smooth_q"))
       dropped = (numbers->of_balls >> k & 1) != 0 && numbers->kind.smooth_q == 0.0;
     if (!dropped || n->reader != CAROM_READ_BY_CUSHION || (numbers->of_balls >> k & 1) != 0 ||
         !carom_number_is_read(n, &numbers->kind, &smooth))
@@ -336,7 +335,7 @@ static bool give_fit(const char *path, given_numbers *numbers) {
   else if (!good)
     complain("--with %.200s: no fit, whose `constants` are numbers of balls", path);
   for (int k = 0; model != NULL && carom_word(CAROM_WORDS_CUSHION_MODEL, k) != NULL; k++)
-    if (strcmp(carom_word(CAROM_WORDS_CUSHION_MODEL, k), model) == 0)
+    if (same_text(carom_word(CAROM_WORDS_CUSHION_MODEL, k), model))
       numbers->fitted = (carom_shot_cushion)(k + 1);
   give_no_smooth_law(numbers);
   numbers->of_fit = numbers->of_balls;
@@ -660,7 +659,7 @@ static OPTION_SET(set_player) {
   given_player *player = field;
   const char *end = strrchr(text, '.');
   player->rated = true;
-  if (end != NULL && strcmp(end, ".json") == 0)
+  if (end != NULL && same_text(end, ".json"))
     return take_filmed(row, text, player);
   if (!set_number(row, text, &player->rating))
     return false;

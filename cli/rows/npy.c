@@ -10,7 +10,7 @@ enum { HEADER = 128, LONGEST_HEADER = 1 << 20 };
 
 bool npy_is_name(const char *path) {
   const size_t size = strlen(path);
-  return size > 4 && strcmp(path + size - 4, ".npy") == 0;
+  return size > 4 && same_text(path + size - 4, ".npy");
 }
 
 /* The text after 'key': in the header's dictionary, or NULL. */

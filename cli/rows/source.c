@@ -24,7 +24,7 @@ struct row_source {
 static bool find_once(const record *header, const char *file, const char *name, size_t *place) {
   *place = SIZE_MAX;
   for (size_t k = 0; k < header->count && name != NULL; k++) {
-    if (strcmp(header->field[k], name) != 0)
+    if (!same_text(header->field[k], name))
       continue;
     if (*place != SIZE_MAX) {
       complain("%s:%lld: column '%s' appears twice; which one is meant?", file, header->line, name);
@@ -68,10 +68,10 @@ static bool find_column(row_source *s, const record *header, int number) {
 /* Whether the number must have a column but has none. */
 static bool is_missing(const row_source *s, int number) {
   const column *c = &s->kind->columns[number];
-  const bool named = c->both != NULL && c->partner < number &&
-                     strcmp(s->column[number], s->column[c->partner]) == 0;
+  const bool named =
+      c->both != NULL && c->partner < number && same_text(s->column[number], s->column[c->partner]);
   const bool half = c->optional && c->partner != NO_NUMBER && s->place[c->partner] != SIZE_MAX;
-  const bool by_option = s->shared->friction.is_set && strcmp(c->name, "u_b") == 0;
+  const bool by_option = s->shared->friction.is_set && same_text(c->name, "u_b");
   return s->place[number] == SIZE_MAX && (half || !c->optional) && !named && !by_option;
 }
 

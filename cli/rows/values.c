@@ -116,11 +116,11 @@ enum { UNITS = COUNT_OF(units), WORDS = COUNT_OF(words), NO_UNIT = -1 };
 
 /* The unit of that name, "" for that of a bare number; NO_UNIT if there is none. */
 static int find_unit(int measure, const char *name) {
-  if (strcmp(name, "tips") == 0)
+  if (same_text(name, "tips"))
     name = "tip";
   for (int k = 0; k < UNITS; k++)
     if ((units[k].measures & OF(measure)) != 0 &&
-        ((name[0] == '\0' && measure < MEASURE_SPIN) || strcmp(name, units[k].name) == 0))
+        ((name[0] == '\0' && measure < MEASURE_SPIN) || same_text(name, units[k].name)))
       return k;
   return NO_UNIT;
 }
@@ -382,7 +382,7 @@ int measure_of_unit(const char *unit) {
               {"m/s", MEASURE_SPEED},
               {"degrees", MEASURE_ANGLE}};
   for (size_t k = 0; k < COUNT_OF(rows); k++)
-    if (strcmp(rows[k].unit, unit) == 0)
+    if (same_text(rows[k].unit, unit))
       return rows[k].measure;
   return MEASURE_NUMBER;
 }

@@ -119,7 +119,7 @@ int pocket_named(const carom_table *t, char *const id[], const char *name, char 
     const char *pocket = carom_pocket_name(t, p) != NULL ? carom_pocket_name(t, p) : id[p];
     snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s%s", text_if(p > 0, "|"),
              pocket);
-    if (same_word(name, strlen(name), pocket, strlen(pocket)) || strcmp(id[p], name) == 0)
+    if (same_word(name, strlen(name), pocket, strlen(pocket)) || same_text(id[p], name))
       found = p;
   }
   return found;

@@ -266,7 +266,7 @@ static bool lay(layout *l, int k, const given_place *request, int laid) {
                      off_nose(place_along(&request->y, 0.125 * length), length, R)};
   if (!place_at_rail(l, request, R, place) && request->touches[0] != '\0') {
     int neighbor = laid - 1;
-    while (neighbor >= 0 && strcmp(l->name[neighbor], request->touches) != 0)
+    while (neighbor >= 0 && !same_text(l->name[neighbor], request->touches))
       neighbor--;
     if (neighbor < 0 || neighbor == k) {
       char names[NAMES_TEXT] = "";

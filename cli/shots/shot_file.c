@@ -27,7 +27,7 @@ struct shot_file {
 
 static named_table *find_table(const shot_file *file, const char *id) {
   for (size_t k = file->tables; k-- > 0;)
-    if (strcmp(file->table[k]->id, id) == 0)
+    if (same_text(file->table[k]->id, id))
       return file->table[k];
   return NULL;
 }
@@ -74,7 +74,7 @@ static bool read_game(shot_file *file, const json_t *params, const char *where,
     return true;
   const char *name;
   for (int k = 0; (name = carom_word(CAROM_WORDS_GAME, k)) != NULL; k++)
-    if (json_is_string(game) && strcmp(name, json_string_value(game)) == 0) {
+    if (json_is_string(game) && same_text(name, json_string_value(game))) {
       kind_of_game((carom_game)k, file->cushion, kind);
       return true;
     }
@@ -90,7 +90,7 @@ static bool read_ball(shot_file *file, json_t *v, int k, const json_t *final, sh
   if (!json_get_id(v, where, &line->name[k], f))
     return false;
   for (int earlier = 0; earlier < k; earlier++)
-    if (strcmp(line->name[earlier], line->name[k]) == 0)
+    if (same_text(line->name[earlier], line->name[k]))
       return json_wrong(f, "%sid '%s' is that of another ball", where, line->name[k]);
   carom_ball_kind *kind = &line->ball[k].kind;
   const json_t *params = json_object_get(v, "params");
@@ -143,7 +143,7 @@ static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
   if (!json_is_string(ball))
     return json_wrong(f, "cue.ball must be the id of a ball");
   for (cue->ball = 0; cue->ball < line->count; cue->ball++)
-    if (strcmp(line->name[cue->ball], json_string_value(ball)) == 0)
+    if (same_text(line->name[cue->ball], json_string_value(ball)))
       return true;
   return json_wrong(f, "cue.ball '%s' is no ball of the shot", json_string_value(ball));
 }
@@ -281,9 +281,9 @@ static shot_read take_line(shot_file *file, json_t *json, shot_line *line) {
   const char *kind = json_string_value(json_object_get(json, "kind"));
   if (kind == NULL)
     return bad_line(line, "kind must be a text");
-  if (strcmp(kind, "table") == 0)
+  if (same_text(kind, "table"))
     return take_table(file, line);
-  if (strcmp(kind, "shot") == 0) {
+  if (same_text(kind, "shot")) {
     if (read_shot(file, json, line, &f))
       return SHOT_SHOT;
     line->table = NULL;

@@ -602,7 +602,7 @@ void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const s
   const carom_cue *cue = &line->cue;
   const double *v = shot->events[0].after[0].v;
   const char *struck = line->name[cue->ball], *number = "";
-  if (strcmp(struck, "cue") == 0) {
+  if (same_text(struck, "cue")) {
     struck = "cue ball";
   } else if (isdigit((unsigned char)struck[0])) {
     number = "ball ";

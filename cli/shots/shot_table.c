@@ -100,7 +100,7 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
 carom_table_kind table_of_rack(carom_rack_kind rack) {
   const char *game = carom_word(CAROM_WORDS_RACK, (int)rack), *name;
   for (int kind = 0; (name = carom_table_name((carom_table_kind)kind)) != NULL; kind++)
-    if (strcmp(name, game) == 0)
+    if (same_text(name, game))
       return (carom_table_kind)kind;
   return CAROM_TABLE_POOL_9FT;
 }
@@ -115,7 +115,7 @@ static bool give_measures(char *keys, carom_measures *m, json_fault *f) {
     int k = 0;
     if (*text != '\0')
       *text++ = '\0';
-    while ((n = carom_number_of(CAROM_PART_MEASURES, k)) != NULL && strcmp(n->key, key) != 0)
+    while ((n = carom_number_of(CAROM_PART_MEASURES, k)) != NULL && !same_text(n->key, key))
       k++;
     json_keys_of(CAROM_PART_MEASURES, "", known);
     if (n == NULL)

@@ -140,7 +140,7 @@ static void print_row(const bench_job *job, FILE *out, const char *family, doubl
   size_t n = 0;
   for (size_t k = 0; k < timed.count; k++) {
     const timed_shot *t = &timed.shot[k];
-    if ((family != NULL && strcmp(family, t->family) != 0) || !job->figure[k].unchanged)
+    if ((family != NULL && !same_text(family, t->family)) || !job->figure[k].unchanged)
       continue;
     us[n] = job->figure[k].ns.median / 1e3;
     balls += t->line.count;
@@ -174,7 +174,7 @@ static void print(const bench_job *job, FILE *out) {
   for (size_t k = 0; k < timed.count; k++) {
     bool seen = false;
     for (size_t earlier = 0; earlier < k; earlier++)
-      seen |= strcmp(timed.shot[earlier].family, timed.shot[k].family) == 0;
+      seen |= same_text(timed.shot[earlier].family, timed.shot[k].family);
     if (!seen)
       print_row(job, rows, timed.shot[k].family, scratch);
   }

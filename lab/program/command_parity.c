@@ -29,14 +29,14 @@ OPTION(parity_job, option_verbose, "verbose", every_difference, 'v', NULL, set_f
 
 static int type_of(const char *name) {
   for (int type = CAROM_EVENT_STRIKE; type <= CAROM_EVENT_LEFT_TABLE; type++)
-    if (name != NULL && strcmp(name, shot_event_name(type)) == 0)
+    if (name != NULL && same_text(name, shot_event_name(type)))
       return type;
   return 0;
 }
 
 static int ball_of(const shot_line *line, const json_t *id) {
   for (int i = 0; i < line->count; i++)
-    if (json_is_string(id) && strcmp(json_string_value(id), line->name[i]) == 0)
+    if (json_is_string(id) && same_text(json_string_value(id), line->name[i]))
       return i;
   return -1;
 }
@@ -79,7 +79,7 @@ static bool read_event(const shot_line *line, const json_t *json, carom_event *e
 
 static row *family_of(parity_job *job, const char *name) {
   for (size_t k = 0; k < job->count; k++)
-    if (strcmp(job->each[k].name, name) == 0)
+    if (same_text(job->each[k].name, name))
       return &job->each[k];
   job->each = grow(job->each, &job->room, job->count + 1, sizeof *job->each);
   row *f = &job->each[job->count++];
@@ -112,7 +112,7 @@ static bool same_event(const shot_line *line, const carom_event *played, const c
     return true;
   const char *part = shot_part_name(line->table, played),
              *id = json_string_value(json_array_get(json_array_get(json, 2), 1));
-  return part != NULL && id != NULL && strcmp(part, id) == 0;
+  return part != NULL && id != NULL && same_text(part, id);
 }
 
 /* Compares the events of a shot; false where they disagree, told in `why`. The record begins and
@@ -160,9 +160,9 @@ static bool compare(const shot_line *line, const carom_shot *shot, row *f, char 
 static void play_again(parity_job *job, const shot_line *line, const char *engine) {
   const char *name = json_string_value(json_object_get(line->json, "family"));
   carom_shot_options options = {.world = CAROM_WORLD_POOLTOOL};
-  if (engine[0] != 0 && strcmp(engine, "default") != 0)
+  if (engine[0] != 0 && !same_text(engine, "default"))
     options.ball_model = CAROM_BALL_MODEL_EULER;
-  if (strcmp(engine, "mathavan_all") == 0)
+  if (same_text(engine, "mathavan_all"))
     options.cushion_model = CAROM_SHOT_CUSHION_EULER;
   row *f = family_of(job, text_or(name, "-"));
   f->shots++;

@@ -107,7 +107,7 @@ static void count_ruling(const carom_break_job *job, const carom_plan_rules *rul
                                .player = w->valued,
                                .rules = rules,
                                .shot = job->shot,
-                               .options = &(carom_plan_options){.opponent = job->opponent}};
+                               .opponent = job->opponent};
   carom_referee(rules, job->table, w->balls[k], (int)job->count, 0, &w->shot[k],
                 (carom_call){-1, -1}, &w->ruling);
   const carom_turn *turn = &w->ruling.turn;

@@ -58,22 +58,11 @@ double carom_worth_left(const carom_plan_job *job, const carom_ruling *ruling) {
     return 0.5;
   if (turn->outcome > CAROM_TURN_PASS)
     return turn->outcome == CAROM_TURN_WIN;
-  const bool passes = turn->outcome == CAROM_TURN_PASS;
-  carom_plan_options options = {0};
-  if (job->options != NULL)
-    options = *job->options;
   carom_plan_rules rules;
-  carom_plan_job next = carom_job_after(job, ruling, &rules);
-  next.options = &options;
-
-  /* who plays next errs as that player does */
-  if (passes && options.opponent != NULL) {
-    next.player = options.opponent;
-    options.opponent = job->player;
-  }
+  const carom_plan_job next = carom_job_after(job, ruling, &rules);
   double value = 0.0;
   carom_plan_value(&next, ruling->hand, &value);
-  if (passes)
+  if (turn->outcome == CAROM_TURN_PASS)
     return 1.0 - value;
   return value;
 }

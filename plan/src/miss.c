@@ -185,39 +185,36 @@ static const double good = 0.3, fair = 0.8;         /* misses of strokes that ar
 /* The miss of a candidate without errors in another direction, on the way of `same`; NaN where it
  * leaves it. */
 static double miss_at(const search *plan, const candidate *c, const carom_miss *same, double phi,
-                      carom_event *room) {
-  candidate turned = *c;
-  turned.phi = carom_turned(phi);
-  carom_shot shot = {.events = room, .room = PATH_EVENTS};
-  carom_cue cue = carom_search_stroke(plan, &turned, 0, 0);
+                      carom_trail *path) {
+  carom_shot shot = {.events = path->event, .room = PATH_EVENTS};
+  carom_cue cue = carom_search_stroke(plan, c, 0, 0);
+  cue.phi = carom_turned(phi);
   cue.ball = plan->cue_ball;
-  carom_ball_state drawn[CAROM_BALLS_MOST];
-  const carom_prepared layout = carom_search_layout(plan, c, 0, 0, drawn);
+  const carom_prepared layout = carom_search_layout(plan, c, 0, 0, path->drawn);
   if (carom_shoot_prepared(&layout, &cue, &shot) < 0)
     return (double)NAN;
-  const carom_miss m = miss_of(plan, c, room, shot.count, same);
+  const carom_miss m = miss_of(plan, c, path->event, shot.count, same);
   if (m.ball < 0)
     return (double)NAN;
   return (double)m.miss;
 }
 
 /* The slope of a miss, by the stroke beside it; infinite where that leaves the way. */
-static float slope_of(const search *plan, const candidate *c, carom_event *room) {
-  const double slope =
-      (miss_at(plan, c, &c->miss, c->phi + step, room) - (double)c->miss.miss) / step;
+static float slope_of(const search *plan, const candidate *c, const carom_miss *m,
+                      carom_trail *path) {
+  const double slope = (miss_at(plan, c, m, c->phi + step, path) - (double)m->miss) / step;
   if (isnan(slope))
     return INFINITY;
   return (float)slope;
 }
 
-carom_miss carom_search_measure(const search *plan, const candidate *c, carom_event *room,
+carom_miss carom_search_measure(const search *plan, const candidate *c, carom_trail *path,
                                 int64_t count) {
   static const float most = 12.0f;
-  candidate measured = *c;
-  measured.miss = miss_of(plan, c, room, count, NULL);
-  if (fabsf(measured.miss.miss) < most)
-    measured.miss.slope = slope_of(plan, &measured, room);
-  return measured.miss;
+  carom_miss m = miss_of(plan, c, path->event, count, NULL);
+  if (fabsf(m.miss) < most)
+    m.slope = slope_of(plan, c, &m, path);
+  return m;
 }
 
 bool carom_search_is_good(const carom_miss *m) {
@@ -230,13 +227,13 @@ bool carom_search_is_in_reach(const carom_miss *m) {
 }
 
 /* Turns a kick until the cue ball meets the first ball about as it has to: a secant each step. */
-static void turn_to_ball(const search *plan, candidate *c, carom_event *room) {
+static void turn_to_ball(const search *plan, candidate *c, carom_trail *path) {
   enum { STEPS = 3 };
   static const double first = 0.5, enough = 0.1; /* degrees; misses */
   double change = first, off = 0.0;
   for (int n = 0; n <= STEPS; n++) {
     const double phi = n == 0 ? c->phi : c->phi + change;
-    const double next = miss_at(plan, c, &c->lead, phi, room) - (double)c->lead.miss;
+    const double next = miss_at(plan, c, &c->lead, phi, path) - (double)c->lead.miss;
     if (isnan(next))
       return;
     if (n > 0)
@@ -248,14 +245,14 @@ static void turn_to_ball(const search *plan, candidate *c, carom_event *room) {
   }
 }
 
-bool carom_search_turn(const search *plan, candidate *c, carom_event *room) {
+bool carom_search_turn(const search *plan, candidate *c, carom_trail *path) {
   enum { STEPS = 4 };
   if (c->lead.piece > 0 && isnan(c->miss.miss))
-    turn_to_ball(plan, c, room);
+    turn_to_ball(plan, c, path);
   if (isnan(c->miss.miss))
-    c->miss.miss = (float)miss_at(plan, c, &c->miss, c->phi, room);
+    c->miss.miss = (float)miss_at(plan, c, &c->miss, c->phi, path);
   if (c->miss.slope == 0.0f)
-    c->miss.slope = slope_of(plan, c, room);
+    c->miss.slope = slope_of(plan, c, &c->miss, path);
   if (!carom_search_is_in_reach(&c->miss))
     return false;
 
@@ -267,7 +264,7 @@ bool carom_search_turn(const search *plan, candidate *c, carom_event *room) {
       change = step;
     if (!(fabs(turned + change) <= turned_most))
       break;
-    const double next = miss_at(plan, c, &c->miss, c->phi + turned + change, room);
+    const double next = miss_at(plan, c, &c->miss, c->phi + turned + change, path);
     if (isnan(next)) {
       change *= 0.5;
       continue;

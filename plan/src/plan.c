@@ -90,8 +90,7 @@ size_t carom_plan_memory(const carom_plan_options *options) {
   const int64_t shots = shots_of(o);
   const double scan = carom_scan_of(o);
   size_t bytes = sizeof(search) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
-                 (size_t)most_rows(shots, scan) * sizeof(outcome) +
-                 PATH_ROWS * PATH_EVENTS * sizeof(carom_event);
+                 (size_t)most_rows(shots, scan) * sizeof(outcome) + PATH_ROWS * sizeof(carom_trail);
   if (o->unsure > 0.0)
     bytes += TABLES * sizeof(carom_drawn_table);
   return bytes;
@@ -218,7 +217,7 @@ static void share_memory(search *plan) {
   plan->room = most_rows(shots, scan);
   plan->found = (candidate *)(plan + 1);
   plan->outcome = (outcome *)(plan->found + plan->most);
-  plan->path = (carom_event *)(plan->outcome + plan->room);
+  plan->path = (carom_trail *)(plan->outcome + plan->room);
   plan->drawn = NULL;
 }
 
@@ -326,7 +325,7 @@ carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int c
   plan->choices_most = (int)carom_min(choices, LISTED_MOST);
   plan->seconds = plan->options.seconds;
   if (plan->options.unsure > 0.0)
-    carom_search_tables(plan, (carom_drawn_table *)(plan->path + PATH_ROWS * PATH_EVENTS));
+    carom_search_tables(plan, (carom_drawn_table *)(plan->path + PATH_ROWS));
   *prepared = plan;
   return CAROM_OK;
 }

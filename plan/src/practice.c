@@ -22,14 +22,8 @@ static const double FARTHEST = 10.0, THIN = 45.0, STRAIGHT = 15.0, LONG = 1.2;
 /* Plays a stroke and rules it: what it is worth, and whether the player plays on. */
 static double play(const carom_plan_job *job, const carom_cue *cue, carom_call call,
                    carom_ruling *ruling, bool *keeps) {
-  carom_ball_state final[CAROM_BALLS_MOST];
-  carom_facts facts;
-  carom_shot shot = {.final = final, .facts = &facts};
-  const carom_shot *played = &shot;
-  if (carom_shoot(job->table, job->balls, (int)job->count, cue, job->shot, &shot) < 0)
-    played = NULL;
-  carom_referee(job->rules, job->table, job->balls, (int)job->count, (int)cue->ball, played, call,
-                ruling);
+  carom_stroke_room room;
+  carom_play_stroke(job, cue, call, &room, &(carom_shot){.events = NULL}, ruling);
   *keeps = ruling->turn.outcome == CAROM_TURN_KEEP || ruling->turn.outcome == CAROM_TURN_WIN;
   return carom_worth_left(job, ruling);
 }

@@ -319,7 +319,7 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const carom_prepared layout =
         carom_search_layout(plan, c, s->draws, row % s->each, result.drawn);
     if (s->measure != NULL) {
-      shot.events = plan->path + row * PATH_EVENTS;
+      shot.events = plan->path[row].event;
       shot.room = PATH_EVENTS;
     }
     const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
@@ -345,7 +345,7 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
       *o = judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
     o->events = work_of(&shot);
     if (s->measure != NULL)
-      o->miss = s->measure(plan, c, shot.events, shot.count);
+      o->miss = s->measure(plan, c, &plan->path[row], shot.count);
   }
   return end;
 }

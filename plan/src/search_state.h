@@ -68,12 +68,17 @@ typedef struct carom_outcome {
   carom_miss miss;     /* where the stage measures misses */
 } carom_outcome;
 
+/* Rows of a stage that measures misses, and the events of each that are kept. */
+enum { PATH_ROWS = 32, PATH_EVENTS = 40 };
+/* Room for a shot that is measured: a small stack has none. */
+typedef struct carom_trail {
+  carom_event event[PATH_EVENTS];
+  carom_ball_state drawn[CAROM_BALLS_MOST];
+} carom_trail;
 /* The miss of a shot of a candidate without errors, which had so many events. */
 typedef struct carom_search carom_search;
 typedef carom_miss carom_measurer(const carom_search *plan, const carom_candidate *c,
-                                  carom_event *room, int64_t count);
-/* Rows of a stage that measures misses, and the events of each that are kept. */
-enum { PATH_ROWS = 32, PATH_EVENTS = 40 };
+                                  carom_trail *path, int64_t count);
 
 /* A stage plays each of some candidates several times. Row k is the shot of candidate
  * first + k / each, with the errors number k % each of the draws. */
@@ -174,7 +179,7 @@ struct carom_search {
   carom_search_next next;
   int64_t shots;                 /* of all stages, about, */
   double share;                  /* of them that the scan has */
-  carom_event *path;             /* room for the events of a stage that measures misses */
+  carom_trail *path;             /* of the rows of a stage that measures misses */
   uint32_t deciding;             /* balls of the shot whose ways reach a goal */
   int cushions;                  /* of a point; -1: pots are the goals */
   int steered;                   /* stages of strokes that were steered */

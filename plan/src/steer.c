@@ -22,7 +22,7 @@ static size_t steer_rows(const void *context, size_t first, size_t end) {
     if (row > 0 && carom_is_stopped(plan))
       return k;
     candidate *c = &plan->found[plan->stage.first + row];
-    const int turn = carom_search_turn(plan, c, plan->path + row * PATH_EVENTS);
+    const int turn = carom_search_turn(plan, c, &plan->path[row]);
     plan->outcome[row] = (outcome){.turn = (int8_t)turn, .events = COST};
   }
   return end;

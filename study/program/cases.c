@@ -62,7 +62,7 @@ static bool read_references(record_reader *reader, const case_set *cases, refere
     double number[RESULT_NUMBERS + 1];
     if (record_next(reader, &row) != READ_ONE ||
         !numbers_of(&row, RESULT_NUMBERS + steps, number) ||
-        strcmp(row.field[0], cases->id[k]) != 0) {
+        !same_text(row.field[0], cases->id[k])) {
       complain("%s: row %zu should hold the result for '%s'", file, k + 1, cases->id[k]);
       return false;
     }

@@ -247,7 +247,7 @@ static bool verify(workload *w, const char *folder, bool *good) {
 static bool names(const name_list *list, const char *name) {
   bool named = false;
   for (size_t k = 0; k < list->count; k++)
-    named |= strcmp(list->name[k], name) == 0;
+    named |= same_text(list->name[k], name);
   return named;
 }
 
@@ -386,7 +386,7 @@ static bool add_configs(const bench_job *job, const kernel *candidate) {
   const name_list *configs = &job->configs;
   bool good = true;
   for (size_t k = 0; k < configs->count && candidate->is_rung; k++)
-    if (strcmp(configs->name[k], "all") != 0)
+    if (!same_text(configs->name[k], "all"))
       good = good && add_config(job, candidate, configs->name[k]);
     else
       for (size_t m = 0; ladder_module_name(m) != NULL; m++)
@@ -410,7 +410,7 @@ static bool wants_form(const bench_job *job, const kernel *candidate) {
   const char *isa = ladder_isa_name(ladder_rung_find(candidate->name)->isa);
   const char *best = carom_isa_name(carom_isa_in_force());
   return job->isas.count == 0 || names(&job->isas, isa) ||
-         (names(&job->isas, "best") && strcmp(best, isa) == 0);
+         (names(&job->isas, "best") && same_text(best, isa));
 }
 
 /* All that does not come in batches of the library. */
@@ -421,7 +421,7 @@ static bool add_all_calls(const bench_job *job) {
     return kernel_module(kernel_find(ladder_rung_at(0)->name), NULL, &unused);
   for (size_t k = 0; (candidate = kernel_at(k)) != NULL; k++) {
     if (is_wanted(job, candidate) && wants_form(job, candidate) &&
-        wants_precision(job, strcmp(candidate->precision, "single") == 0) &&
+        wants_precision(job, same_text(candidate->precision, "single")) &&
         !add_configs(job, candidate))
       return false;
   }
@@ -828,10 +828,10 @@ static bool is_kernel(const option_row *row, char *word) {
 
 static bool is_isa(const option_row *row, char *word) {
   char known[128] = "scalar, best";
-  bool good = strcmp(word, "scalar") == 0 || strcmp(word, "best") == 0;
+  bool good = same_text(word, "scalar") || same_text(word, "best");
   for (int isa = 0; carom_isa_name((carom_isa)isa) != NULL; isa++)
     if (isa_is_here((carom_isa)isa)) {
-      good |= strcmp(word, carom_isa_name((carom_isa)isa)) == 0;
+      good |= same_text(word, carom_isa_name((carom_isa)isa));
       strcat(strcat(known, ", "), carom_isa_name((carom_isa)isa));
     }
   if (!is_name(row, word) || good)
@@ -854,7 +854,7 @@ static OPTION_SET(set_counts) {
 }
 
 static OPTION_SET(set_threads) {
-  if (strcmp(text, "all") != 0)
+  if (!same_text(text, "all"))
     return set_counts(row, text, field);
   const int cores = (int)sysconf(_SC_NPROCESSORS_ONLN);
   for (int count = 1; count < cores; count *= 2)

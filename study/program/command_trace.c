@@ -141,7 +141,7 @@ int command_trace(int argc, char **argv) {
   if (!cases_load(data_folder(job.shared.folder), "collisions-204.csv", &cases))
     return EXIT_USAGE;
   size_t k = 0;
-  while (k < cases.count && strcmp(cases.id[k], job.id) != 0)
+  while (k < cases.count && !same_text(cases.id[k], job.id))
     k++;
   code = EXIT_USAGE;
   if (k == cases.count)

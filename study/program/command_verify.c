@@ -107,7 +107,7 @@ static void count_in_ladder(verification *v, const kernel *candidate, const comp
                             const accuracy_summary *s) {
   ladder_summary *l = &v->ladder;
   double *worst = &l->worst_double;
-  if (strcmp(candidate->precision, "single") == 0)
+  if (same_text(candidate->precision, "single"))
     worst = &l->worst_single;
   *worst = fmax(*worst, s->max);
   l->comparisons++;

@@ -58,7 +58,7 @@ const char *precision_name(bool single) {
 const kernel *kernel_find(const char *name) {
   const kernel *candidate;
   for (size_t k = 0; (candidate = kernel_at(k)) != NULL; k++)
-    if (strcmp(candidate->name, name) == 0)
+    if (same_text(candidate->name, name))
       return candidate;
   return NULL;
 }

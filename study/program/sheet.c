@@ -26,7 +26,7 @@ static const char *next_cell(const char *place, char cell[CELL_MOST], bool *numb
   cell[size] = '\0';
   char *end;
   const double x = strtod(cell, &end);
-  *number = (*end == '\0' && end > cell) || strcmp(cell, "NA") == 0;
+  *number = (*end == '\0' && end > cell) || same_text(cell, "NA");
   const bool rounds = *number && strpbrk(cell, ".e") != NULL;
   if (rounds && x < 1000.0)
     snprintf(cell, CELL_MOST, "%.4g", x);
