@@ -136,10 +136,11 @@ typedef struct carom_match {
   carom_cue stroke;                  /* the last stroke, whose shot carom_match_replay() gives. */
   carom_player player;               /* of the seat at the table, by its rating. */
   carom_player opponent;             /* of the last plan, by carom_match_opponent(). */
-  int64_t weighed[CAROM_SEATS_MOST]; /* of each seat: strokes in the set that tell how it errs, */
-  double log_likelihood[CAROM_SEATS_MOST][CAROM_MATCH_ERRORS]; /* and how likely they are for a
-                                  player whose error of aim, at 2 m/s, is 0.0125 degrees times
-                                  sqrt(2) to the power of 0, 1, 2 ... */
+  int64_t weighed[CAROM_SEATS_MOST]; /* of each seat: how many strokes in the set tell how it
+                                        errs. */
+  double log_likelihood[CAROM_SEATS_MOST][CAROM_MATCH_ERRORS]; /* of each seat: how likely these
+                                  strokes are for a player whose error of aim, at 2 m/s, is 0.0125
+                                  degrees times sqrt(2) to the power of 0, 1, 2 ... */
   uint32_t on;                 /* balls that may be met first in the next stroke, as a set. */
   uint32_t touching;           /* balls that touch the cue ball, as a set. */
   carom_bounds bounds;         /* of a cue ball in hand, until the stroke. */
