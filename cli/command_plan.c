@@ -1,12 +1,12 @@
 /* `carom plan`: which shot to play from a layout. */
 #include "game/plan_game.h"
 #include "game/plan_goal.h"
-#include "game/plan_sequence.h"
 #include "game/plan_why.h"
 #include "game/plan_words.h"
 #include "game/ways.h"
 #include "pictures/picture.h"
 #include "pictures/plan_picture.h"
+#include "plan_sequence.h"
 #include "program/command.h"
 #include "program/memory.h"
 #include "program/message.h"

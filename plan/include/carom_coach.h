@@ -329,7 +329,7 @@ typedef struct carom_break_choice {
   double speed_cost, aim_cost, tip_cost; /* how much more often the first choice would win without
                                             the player's errors of speed, of direction and
                                             elevation, and of the tip; NaN for the others. */
-  double cost;                           /* the same without any of these errors. */
+  double cost; /* how much more often it would win without all these errors. */
 } carom_break_choice;
 
 /* Finds breaks that win most often for the player: where the cue ball lies behind the head string,
@@ -347,14 +347,14 @@ CAROM_API carom_status carom_break_best(const carom_break_job *job, int64_t brea
 /* Kinds of strokes that are practised together. A pot is straight below a cut of 15 degrees and
  * thin above 45, and long where both ways together have more than 1.2 m. */
 typedef enum carom_practice {
-  CAROM_PRACTICE_STRAIGHT = 0, /* short pots by their cuts */
-  CAROM_PRACTICE_CUT = 1,
-  CAROM_PRACTICE_THIN = 2,
-  CAROM_PRACTICE_LONG_STRAIGHT = 3, /* long ones */
-  CAROM_PRACTICE_LONG_CUT = 4,
-  CAROM_PRACTICE_LONG_THIN = 5,
-  CAROM_PRACTICE_INDIRECT = 6, /* a ball was called, or the turn kept, and no pot is direct */
-  CAROM_PRACTICE_OTHER = 7     /* safeties, and strokes at no pocket */
+  CAROM_PRACTICE_STRAIGHT = 0,      /* short straight pots */
+  CAROM_PRACTICE_CUT = 1,           /* short cuts */
+  CAROM_PRACTICE_THIN = 2,          /* short thin cuts */
+  CAROM_PRACTICE_LONG_STRAIGHT = 3, /* long straight pots */
+  CAROM_PRACTICE_LONG_CUT = 4,      /* long cuts */
+  CAROM_PRACTICE_LONG_THIN = 5,     /* long thin cuts */
+  CAROM_PRACTICE_INDIRECT = 6,      /* a ball was called, or the turn kept, and no pot is direct */
+  CAROM_PRACTICE_OTHER = 7          /* safeties, and strokes at no pocket */
 } carom_practice;
 
 /* The words for a group, such as "long thin cut"; "" for a value not listed. */
@@ -362,13 +362,12 @@ CAROM_API const char *carom_practice_name(carom_practice group);
 
 /* What a stroke of a match meant, and what came of it. */
 typedef struct carom_review {
-  carom_cue aim; /* the stroke that was meant: the one that was played, aimed at the middle of
+  carom_cue aim;      /* the stroke that was meant: the one that was played, aimed at the middle of
                            the pocket. */
-  double off;    /* degrees: how far the stroke was played to the left of that; NaN for
+  double off;         /* degrees: how far the stroke was played to the left of that; NaN for
                            INDIRECT and OTHER, as cut, distance and told. */
-  double cut,
-      distance;       /* degrees, m: the cut as in carom_pot; both ways, of the cue ball to the ball
-                           and of the ball to the pocket. */
+  double cut;         /* degrees: the cut, as in carom_pot. */
+  double distance;    /* m: both ways, of the cue ball to the ball and of the ball to the pocket. */
   double told;        /* chance that the meant stroke keeps the turn. */
   double value, came; /* chance to win of the meant stroke, and after the one that was played. */
   double miss_cost, place_cost; /* value - came: what the miss cost, or the pot won, and what the

@@ -22,6 +22,7 @@ typedef struct workspace {
   const carom_player *valued;               /* who plays on; the breaks may have fewer errors */
   carom_shot_ball placed[CAROM_BALLS_MOST]; /* the job's balls with the cue ball of a candidate */
   carom_break_choice candidate[CANDIDATES];
+  carom_break_counts counts; /* of breaks without some errors */
 } workspace;
 
 /* The rules of a rack's game at a break: the first game that has the rack. False where that game
@@ -242,8 +243,10 @@ static const carom_shot_ball *place_balls(const carom_break_job *job,
 }
 
 /* Candidate k: a place behind the head string, a speed and a height of the tip; every other one
- * cuts the ball in front. The first candidate is the stroke of the job. */
-static void make_candidate(const carom_break_job *job, int k, carom_break_choice *choice) {
+ * cuts the ball in front. The first candidate is the stroke of the job. Apart, so that shots have
+ * its stack. */
+__attribute__((noinline)) static void make_candidate(const carom_break_job *job, int k,
+                                                     carom_break_choice *choice) {
   const carom_ball_state *ball = &job->balls[0].state;
   *choice =
       (carom_break_choice){.cue = *job->cue, .place = {ball->r[0], ball->r[1]}, .aim = job->aim};
@@ -299,6 +302,7 @@ static carom_status find_cost(const carom_break_job *job, carom_break_choice *ch
   carom_player without[4] = {*job->player, *job->player, *job->player, *job->player};
   double *const cost[4] = {&choice->speed_cost, &choice->aim_cost, &choice->tip_cost,
                            &choice->cost};
+  carom_break_counts *counts = &((workspace *)job->memory)->counts;
   carom_status status = CAROM_OK;
   for (int k = 0; k < 4 && status == CAROM_OK; k++) {
     if (k == 0 || k == 3)
@@ -307,11 +311,16 @@ static carom_status find_cost(const carom_break_job *job, carom_break_choice *ch
       without[k].phi = without[k].theta = 0.0;
     if (k == 2 || k == 3)
       without[k].a = without[k].b = 0.0;
-    carom_break_counts counts = {0};
-    status = play_choice(job, &without[k], choice, FRESH, breaks, &counts);
-    *cost[k] = mean_of(&counts) - mean_of(&choice->counts);
+    *counts = (carom_break_counts){0};
+    status = play_choice(job, &without[k], choice, FRESH, breaks, counts);
+    *cost[k] = mean_of(counts) - mean_of(&choice->counts);
   }
   return status;
+}
+
+/* Apart, so that shots have the stack of the counts. */
+__attribute__((noinline)) static carom_status check_job(const carom_break_job *job) {
+  return carom_break_play(job, 0, 0, &(carom_break_counts){0});
 }
 
 carom_status carom_break_best(const carom_break_job *job, int64_t breaks,
@@ -322,7 +331,7 @@ carom_status carom_break_best(const carom_break_job *job, int64_t breaks,
   if (breaks < 16 || room < 1 || room > FINALISTS ||
       !carom_break_has_rules((carom_rack_kind)job->rack))
     return CAROM_ERROR_OPTIONS;
-  carom_status status = carom_break_play(job, 0, 0, &(carom_break_counts){0});
+  carom_status status = check_job(job);
   if (status != CAROM_OK)
     return status;
   carom_break_choice *candidate = ((workspace *)job->memory)->candidate;

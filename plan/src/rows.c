@@ -19,7 +19,7 @@ typedef carom_search search;
 /* Where the balls of a shot lie, and what comes of it. */
 typedef struct shot_result {
   carom_facts facts;
-  carom_ball_state drawn[CAROM_BALLS_MOST], final[CAROM_BALLS_MOST];
+  carom_ball_state final[CAROM_BALLS_MOST]; /* before the shot where its balls are drawn */
 } shot_result;
 
 carom_cue carom_search_stroke(const search *plan, const candidate *c, uint32_t draws, int64_t row) {
@@ -317,8 +317,7 @@ __attribute__((noinline)) static int64_t play_row(const search *plan, int64_t ro
   const candidate *c = &plan->found[s->first + row / s->each];
   carom_cue cue = carom_search_stroke(plan, c, s->draws, row % s->each);
   cue.ball = plan->cue_ball;
-  const carom_prepared layout =
-      carom_search_layout(plan, c, s->draws, row % s->each, result.drawn);
+  const carom_prepared layout = carom_search_layout(plan, c, s->draws, row % s->each, result.final);
   const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
   if (plan->plays < plan->view.count)
     spread(plan, &result);

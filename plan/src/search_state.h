@@ -191,10 +191,10 @@ struct carom_search {
   int place, raced;              /* from which candidates are made; how many places are tried */
   int choices_most, listed;      /* choices that the caller has room for; that stand first */
   carom_plan_stroke listing[LISTED_MOST]; /* the choices of the list while it is made */
-  int64_t examined;              /* candidates that have been asked whether they are listed */
-  uint64_t drawn_places;         /* places of a cue ball in hand that have been drawn */
-  int tried_places;              /* and those of them that could be tried */
-  carom_candidate best;          /* of the rounds of doubling before */
+  int64_t examined;      /* candidates that have been asked whether they are listed */
+  uint64_t drawn_places; /* places of a cue ball in hand that have been drawn */
+  int tried_places;      /* and those of them that could be tried */
+  carom_candidate best;  /* of the rounds of doubling before */
 };
 
 /* plan.c: prepares a job once for all that is played of it: its plan, in the job's memory, from

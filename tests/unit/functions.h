@@ -470,6 +470,8 @@ static const carom_plan_stroke safety = {.ball = -1};
 static OWN carom_shot_way ways[4];
 static OWN carom_ways_result ways_result;
 static OWN carom_break_counts break_counts;
+static OWN carom_sequence_stroke sequence_strokes[1];
+static OWN carom_sequence_counts sequence_counts;
 static OWN carom_break_choice break_choices[CAROM_BREAK_CHOICES];
 static OWN carom_review review;
 static OWN carom_drill drill;
@@ -623,6 +625,11 @@ static carom_match *moving(void) {
   F(plan_continue, carom_plan_continue(PTR(sliced_plan()), PTR(choices), LENGTH(4), PTR(&found)))  \
   F(plan_hand,                                                                                     \
     carom_plan_hand(PTR(&plan), MAYBE(zeros), NULL, PTR(choices), LENGTH(4), PTR(&found)))         \
+  F(sequence, carom_sequence(PTR(&plan), ANYINT(0), NUM(0.1), PTR(sequence_strokes), LENGTH(1),    \
+                             PTR(&found)))                                                         \
+  F(sequence_memory, GIVES(carom_sequence_memory(MAYBE(&plan_options))))                           \
+  F(sequence_play,                                                                                 \
+    carom_sequence_play(PTR(&plan), ANYINT(0), ANYINT(0), LENGTH(1), PTR(&sequence_counts)))       \
   F(break_best, carom_break_best(PTR(break_job()), LENGTH(16), PTR(break_choices), INT(1)))        \
   F(break_has_rules, GIVES(carom_break_has_rules(ANYENUM(carom_rack_kind, 0))))                    \
   F(break_memory, GIVES(carom_break_memory()))                                                     \

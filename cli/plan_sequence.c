@@ -1,6 +1,6 @@
 /* --sequence of `carom plan`: the run-out as one answer, in words or as lines, with a picture of
  * its strokes and landing zones. */
-#include "game/plan_sequence.h"
+#include "plan_sequence.h"
 
 #include "game/plan_words.h"
 #include "pictures/plan_picture.h"
