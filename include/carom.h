@@ -50,7 +50,7 @@
  *     (carom_detail.evaluations). Each point of a trace may take as many again.
  * Euler's method takes about 20 ns a step.
  *
- * Stack. In an optimised build every call fits a thread with 72 KiB of stack, part of which the
+ * Stack. In an optimised build every call fits a thread with 76 KiB of stack, part of which the
  * C library uses. On x86-64 a single call takes at most 8 KiB, a trace 10, a batch 47, and a
  * batch with threads 55 in the calling thread (tests/unit/stack.c measures them).
  *
