@@ -156,7 +156,7 @@ def names_of_python(source):
     """What `carom` offers, without its modules."""
     package = source / "python/src/carom"
     offered = next(
-        ast.literal_eval(node.value)
+        ast.literal_eval(node.value.func.value).split()
         for node in ast.parse((package / "__init__.py").read_text(encoding="utf-8")).body
         if isinstance(node, ast.Assign) and node.targets[0].id == "_OFFERED"
     )

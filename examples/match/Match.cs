@@ -14,6 +14,7 @@ static class Match {
       for (int k = int.Parse(arguments[1]); k > 0 && !game.Over; k--) {
         int me = game.Player;
         var position = game.Position(cue, me == 0 ? 550 : 650);
+        position.Opponent = game.Position(cue, me == 0 ? 650 : 550).Player;
         position.Options.shots = 300;
         var best = position.Plan()[0];
         game.Take(best, Billiards.Strike(position.Player, 9, (ulong)game.Shots, best.cue));

@@ -38,9 +38,10 @@ static void read_file(void) {
 int main(int count, char **arguments) {
   if (count != 3)
     return EXIT_FAILURE;
-  const carom_player players[] = {carom_player_fargo(550.0), carom_player_fargo(650.0)};
+  const carom_player players[] = {carom_player_rated(550.0, CAROM_RULES_EIGHTBALL),
+                                  carom_player_rated(650.0, CAROM_RULES_EIGHTBALL)};
   const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
-  const carom_plan_options options = {.shots = 300};
+  carom_plan_options options = {.shots = 300};
   carom_plan_job job = {.cue = &cue, .options = &options};
   job.memory_size = carom_plan_memory(&options);
   job.memory = malloc(job.memory_size);
@@ -59,6 +60,7 @@ int main(int count, char **arguments) {
     carom_plan_stroke best;
     int found;
     job.player = &players[me];
+    options.opponent = &players[1 - me];
     keep(carom_match_plan(&match, &job, &best, 1, &found));
     keep(carom_match_prepare(&match, me, &best));
     carom_player_strike(&players[me], 9, (uint64_t)match.record.shots, &best.cue);

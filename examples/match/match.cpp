@@ -8,7 +8,8 @@
 
 int main(int count, char **arguments) try {
   const char *file = count == 3 ? arguments[1] : throw std::invalid_argument("match FILE STROKES");
-  const carom_player players[] = {carom_player_fargo(550.0), carom_player_fargo(650.0)};
+  const carom_player players[] = {carom_player_rated(550.0, CAROM_RULES_EIGHTBALL),
+                                  carom_player_rated(650.0, CAROM_RULES_EIGHTBALL)};
   carom_plan_options options{};
   options.shots = 300;
   std::ifstream saved(file, std::ios::binary);
@@ -20,6 +21,7 @@ int main(int count, char **arguments) try {
     game.load(lines.substr(0, lines.rfind('\n') + 1)); // half a line is what a crash leaves
   for (int k = std::atoi(arguments[2]); k > 0 && !game.over(); k--) {
     const int me = game.player();
+    options.opponent = &players[1 - me];
     const carom_plan_stroke best = game.plan(players[me], options)[0];
     game.take(best, carom::strike(players[me], 9, game.state().record.shots, best.cue));
     std::printf("%d: %s\n", me + 1, game.words().c_str());

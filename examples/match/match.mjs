@@ -7,11 +7,12 @@ const carom = await load();
 const saved = existsSync(file) ? readFileSync(file, "utf8").split("\n").slice(0, -1) : [];
 const game = saved[0] ? carom.match() : carom.match("eightball", carom.table("9ft"), { seed: 5 });
 for (const line of saved) game.read(line);
+const players = [550, 650].map((fargo) => carom.player({ fargo, rules: "eightball" }));
 let ended;
 for (let k = 0; k < strokes && !ended && game.phase !== "over"; k++) {
   const me = game.player;
-  const player = carom.player({ fargo: [550, 650][me] });
-  const [best] = game.plan({ player, shots: 300 });
+  const [player, opponent] = [players[me], players[1 - me]];
+  const [best] = game.plan({ player, opponent, shots: 300 });
   game.take(best, carom.withErrors(best.cue, player, 9, game.shots));
   console.log(`${me + 1}: ${game.ruling.words}`);
   if (game.phase === "over") ended = game.end();

@@ -20,6 +20,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         let me = game.player();
         let mut position = game.position(&carom::cue(Game::Pool), [550.0, 650.0][me]);
+        position.opponent = Some(
+            game.position(&carom::cue(Game::Pool), [650.0, 550.0][me])
+                .player,
+        );
         position.options.shots = 300;
         let best = position.plan(1, false)?[0];
         let cue = carom::strike(&position.player, 9, game.shots(), &best.cue);

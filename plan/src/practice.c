@@ -83,8 +83,8 @@ static void find_costs(const carom_plan_job *job, carom_call call, carom_ruling 
     sum[keeps] += worth;
     count[keeps]++;
   }
-  review->told = (double)count[1] / STROKES;
-  review->value = (sum[0] + sum[1]) / STROKES;
+  review->told = (double)count[1] / (double)STROKES;
+  review->value = (sum[0] + sum[1]) / (double)STROKES;
   const double total = review->value - review->came;
 
   /* without strokes of both kinds all of the cost is of the one that was played */
@@ -168,7 +168,7 @@ static double share_made(const carom_plan_job *job, const carom_drill *drill,
     if (makes_pot(job, drill, player, n, end))
       made +=
           drill->radius == 0.0 || carom_square(end, drill->place) <= drill->radius * drill->radius;
-  return (double)made / STROKES;
+  return (double)made / (double)STROKES;
 }
 
 /* The radius around the place of a drill within which half of the player's pots leave the cue

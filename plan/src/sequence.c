@@ -149,7 +149,7 @@ static void find_zone(const run_out *r, double within, carom_sequence_stroke *s)
   const double least = s->leave_value - within;
   for (int k = 0; k < CAROM_ZONE_CORNERS; k++) {
     double sine, cosine, reach = 0.0, step = STEP;
-    carom_sincos(2.0 * pi * k / CAROM_ZONE_CORNERS, &sine, &cosine);
+    carom_sincos(2.0 * pi * k / (double)CAROM_ZONE_CORNERS, &sine, &cosine);
 
     /* whole steps to the first place that is too bad, then half ones */
     for (int halvings = 0; halvings < HALVINGS;) {

@@ -44,7 +44,7 @@ STATIC_ASSERT(CAROM_STATE_NUMBERS == 9 && CAROM_CUE_NUMBERS == 8 && CAROM_DIRECT
 #endif
 
 #ifdef CAROM_PLAN_H
-STATIC_ASSERT(sizeof(carom_player) == 12 * sizeof(double), "a player is 12 doubles");
+STATIC_ASSERT(sizeof(carom_player) == 13 * sizeof(double), "a player is 13 doubles");
 STATIC_ASSERT(sizeof(carom_plan_stroke) == 216, "choices have no gaps that a compiler may fill");
 STATIC_ASSERT(CAROM_RULES_EIGHTBALL == 0 && CAROM_TURN_LOSE == 3 && CAROM_PLAN_GIVEN == 3,
               "values are never changed");

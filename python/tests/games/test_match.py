@@ -7,6 +7,7 @@ import pytest
 
 import carom
 from carom.games.rules import GAMES
+from carom.plans import Kind
 
 TABLE = carom.tables.pool_9ft()
 BREAK = carom.cue(speed=9.0, phi=90.2)
@@ -166,7 +167,7 @@ def test_plans_are_those_of_the_match():
     match.place(0.6, 0.3)
     free = carom.plan(TABLE, match.balls, rules="straight", state=match.state, shots=300)[0]
     best = match.plan(shots=300)[0]
-    assert (free["ball"], best["ball"]) == (1, 2)
+    assert (free["ball"], free["kind"]) == (1, Kind.POT) and best["kind"] != Kind.POT
 
     match.concede(0)
     with pytest.raises(carom.CaromError, match="plan: the match is over"):

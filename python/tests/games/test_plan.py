@@ -307,7 +307,7 @@ def test_ratings():
     errors = [float(carom.player(fargo=rating)["phi"]) for rating in (200, 400, 500, 600, 700, 850)]
     assert errors == sorted(errors, reverse=True) and errors[0] > 5 * errors[-1] > 0.0
     rated = [carom.player(fargo=700, rules=game)["phi"] for game in ("eightball", "straight")]
-    assert errors[4] == rated[0] < rated[1] < errors[2]
+    assert errors[4] < rated[0] < rated[1] < errors[2]
 
 
 def test_strokes_with_errors():
@@ -569,8 +569,8 @@ def test_every_method_of_rules():
     carom.plan(TABLE, LAYOUT, rules=valued, **kinds)
     assert "value" in valued.requests and "points" not in valued.requests
 
-    match = carom.Match(valued, TABLE, balls=ORDER)
     for method in every.requests | {"value"}:
+        match = carom.Match(valued, TABLE, balls=ORDER)
         every.raises = valued.raises = method
         raised = 0
         for call in (
@@ -587,7 +587,7 @@ def test_every_method_of_rules():
         assert raised > 0, method
     every.raises = valued.raises = ""
     carom.plan(TABLE, LAYOUT, rules=valued, **kinds)  # what was raised once is over
-    match.stroke(best["cue"])
+    carom.Match(valued, TABLE, balls=ORDER).stroke(best["cue"])
 
 
 @pytest.mark.parametrize("place", [(np.nan, 0.5), (9.0, 0.5), (0.6, 1.6)])

@@ -536,7 +536,7 @@ def test_the_greedy_agent_does_better_than_chance(gymnasium, tmp_path):
     "name", ["PotOne", "RunOutSix", "ThreeCushion", "Break", "NineBall", "EightBall"]
 )
 def test_games_with_fixed_rules(gymnasium, name):
-    """Each id is a game that both makers know, with the errors of `carom.player(2)`; one that is
+    """Each id is a game that both makers know, with the errors of `carom.player(2)` at 2 m/s; one that is
     the vector's first is its own, to its end.
     """
     from gymnasium.utils.env_checker import check_env
@@ -544,9 +544,9 @@ def test_games_with_fixed_rules(gymnasium, name):
     name = f"carom/{name}-v1"
     rules = carom.gymnasium.GAMES[name]
     player = carom.player(2)
-    assert_allclose(
-        rules["noise"], [float(player[field]) for field in ("phi", "speed", "a")], rtol=1e-12
-    )
+    grown = np.hypot(1.0, 2.0 * player["growth"])
+    noise = grown * player["phi"], 2.0 * player["speed_share"], grown * player["a"]
+    assert_allclose(rules["noise"], noise, rtol=1e-12)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         check_env(

@@ -392,7 +392,7 @@ class GameVectorEnv(VectorEnv[Doubles, Doubles, NDArray[Any]]):
         return tuple(self._games.render(game) for game in range(self.num_envs))
 
 
-_ERRORS = (0.2, 0.2, 0.006)  # degrees, m/s and radii: those of carom.player(2)
+_ERRORS = (0.2, 0.2, 0.006)  # degrees, m/s and radii: those of carom.player(2) at 2 m/s
 GAMES: dict[str, dict[str, Any]] = {
     "carom/Potting-v1": {},
     "carom/PotOne-v1": {"balls": 1, "strokes": 1, "noise": _ERRORS},
@@ -404,7 +404,7 @@ GAMES: dict[str, dict[str, Any]] = {
 }
 """The ids, and the arguments of `GameEnv` that they have.
 
-Except in the first, strokes err as those of `carom.player(2)`. The opponent of matches
+Except in the first, strokes err as those of `carom.player(2)` at 2 m/s. The opponent of matches
 has the errors of a Fargo rating of 500 and plays the best of 12 strokes straight at balls, so that a step
 takes some milliseconds; `opponent=` and `opponent_shots=` make him weaker or stronger.
 """

@@ -372,6 +372,7 @@ class Potting:
         """The player with the noise, the speeds and the tip of this game, for `carom.plan`."""
         record = plans.player(0.0)
         record["phi"], record["a"], record["b"] = self.noise[0], self.noise[2], self.noise[2]
+        record["growth"] = 0.0
         # of a cue whose tip loses nothing
         record["speed"] = self.noise[1] * (1.0 + float(layouts.cue()["tip_restitution"])) / 2.0
         record["speed_least"], record["speed_most"], record["tip_most"] = *self.speeds, 0.35
