@@ -66,7 +66,7 @@ def main(data, work):
     assert run(["record", files["SHOTS"], "-o", files["RECORDING"]], work)[0] == 0
     with open(files["RESULTS"], "w") as results:
         results.write("500,3,2\n")
-    played = run(["match", "--shots", "100", "--players", "500,500", "-o", files["GAME"]], work)
+    played = run(["match", "--shots", "100", "--players", "300,300", "-o", files["GAME"]], work)
     assert played[0] == 0
     count, wrong = 0, []
     for command, lines in LINES.items():

@@ -72,6 +72,8 @@ def odds(
     break_points : float
         How many points of rating a player has more in a game that he breaks, -1000 to 1000.
 
+    Examples
+    --------
     >>> carom.odds((600, 500), (9, 7)).match
     0.7968...
     """
