@@ -11,7 +11,8 @@ const players = [550, 650].map((fargo) => carom.player({ fargo, rules: "eightbal
 let ended;
 for (let k = 0; k < strokes && !ended && game.phase !== "over"; k++) {
   const me = game.player;
-  const [player, opponent] = [players[me], players[1 - me]];
+  const player = players[me];
+  const opponent = players[1 - me];
   const [best] = game.plan({ player, opponent, shots: 300 });
   game.take(best, carom.withErrors(best.cue, player, 9, game.shots));
   console.log(`${me + 1}: ${game.ruling.words}`);

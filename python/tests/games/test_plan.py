@@ -570,6 +570,7 @@ def test_every_method_of_rules():
     assert "value" in valued.requests and "points" not in valued.requests
 
     for method in every.requests | {"value"}:
+        every.raises = valued.raises = ""
         match = carom.Match(valued, TABLE, balls=ORDER)
         every.raises = valued.raises = method
         raised = 0
