@@ -469,11 +469,15 @@ static int run(breaker *b, const shot_line *line, const carom_cue *stroke, int s
 /* Whether the results are asked for in one form; complains if not. */
 static bool has_one_form(const break_job *job) {
   const bool has_other = job->csv || job->falls || job->plot != NULL;
-  if (!(job->json || job->best) || (!has_other && job->json != job->best))
-    return true;
-  complain("--%s stands alone: give it without --csv, --falls, --plot and --%s",
-           job->json ? "json" : "best", job->json ? "best" : "json");
-  return false;
+  if (job->json && (job->best || has_other)) {
+    complain("--json stands alone: give it without --csv, --falls, --plot and --best");
+    return false;
+  }
+  if (job->best && has_other) {
+    complain("--best stands alone: give it without --csv, --falls, --plot and --json");
+    return false;
+  }
+  return true;
 }
 
 int command_break(int argc, char **argv) {

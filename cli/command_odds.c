@@ -60,7 +60,9 @@ static void tell_scores(FILE *out, const int32_t needed[2], const carom_odds *od
     for (int k = 0; k < needed[1 - side]; k++) {
       /* the best scores of player 1 stand first, and the best ones of player 2 last */
       const int other = side == 0 ? k : needed[0] - 1 - k;
-      const int won[2] = {side == 0 ? needed[0] : other, side == 0 ? other : needed[1]};
+      int won[2];
+      won[side] = needed[side];
+      won[1 - side] = other;
       const double chance = odds->score[side][other];
       if (csv)
         fprintf(out, "%d,%d,%.9f\n", won[0], won[1], chance);

@@ -69,11 +69,12 @@ typedef struct carom_player {
 } carom_player;
 
 /* A player with all errors proportional to `scale` >= 0. Those of a stroke of 2 m/s are 0.1 m/s,
- * 0.1 degrees of direction and of elevation, and 0.003 radii each way, times scale, as in a public
- * benchmark of eight-ball (AI3603, 2025). They grow with the speed as those of rated players: that
- * of the speed is a share of 5 % times scale, and `growth` is 0.25. One scale for all errors is a
- * convention. The eye is the usual one, but with scale 0 the player also sees places exactly. The
- * scale is not checked here: carom_plan() refuses a player with an error that is not 0 to 1000. */
+ * 0.1 degrees of direction and of elevation, and 0.003 radii each way, times scale. A public
+ * benchmark of eight-ball (AI3603, 2025) has these errors at every speed. Here they grow with the
+ * speed as those of rated players: that of the speed is a share of 5 % times scale, and `growth`
+ * is 0.25. One scale for all errors is a convention. The eye is the usual one, but with scale 0
+ * the player also sees places exactly. The scale is not checked here: carom_plan() refuses a
+ * player with an error that is not 0 to 1000. */
 CAROM_API carom_player carom_player_of(double scale);
 
 /* A player with a Fargo rating, 200 to 850; other numbers count as the nearest of these. The player
@@ -451,11 +452,11 @@ CAROM_API const char *carom_rules_fault(carom_rules_kind kind, const carom_rules
 /* The rules, with the state after the break; those of EIGHTBALL for a value not listed. */
 CAROM_API carom_plan_rules carom_plan_rules_of(carom_rules_kind kind);
 
-/* A player with a rating in a game, as the seats of a match have it: 100 points are odds of 2 to 1
- * in a rack, a frame of snooker, 15 points of three-cushion or 15 of straight pool. A 500 has the
- * errors of carom_player_fargo() in each game. Others differ from a 500 by the errors of another
- * rating, which is nearer to 500 where a game lets the better player win more often. A kind that
- * is none counts as eight-ball. */
+/* A player with a rating in a game, as the seats of a match have it. 100 points are odds of 2 to 1
+ * in a rack, a frame of snooker, or a game to 15 points of three-cushion or straight pool. A 500
+ * has the errors of carom_player_fargo() in each game. Others differ from a 500 by the errors of
+ * another rating, which is nearer to 500 where a game lets the better player win more often. A
+ * kind that is none counts as eight-ball. */
 CAROM_API carom_player carom_player_rated(double rating, carom_rules_kind rules);
 
 /* Puts balls[ball] on the foot spot, or as near to it as there is room on the long string: behind

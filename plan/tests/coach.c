@@ -166,22 +166,27 @@ TEST(costs_of_errors) {
   ck_assert(meant > LAYOUTS && passing > LAYOUTS / 4);
 }
 
+/* A hard break of a rack of so many balls, with the cue ball; without memory. */
+static carom_break_job break_job(carom_rack_kind rack, int count) {
+  carom_rack(rack, &table, 1e-4, 1, balls, BALLS);
+  cue.speed = 9.0;
+  return (carom_break_job){.table = &table,
+                           .balls = balls,
+                           .count = count,
+                           .cue = &cue,
+                           .player = &player,
+                           .rack = rack,
+                           .gap = 1e-4,
+                           .seed = 1,
+                           .memory_size = carom_break_memory()};
+}
+
 /* Breaks: two parts add up to the whole, the counts fit each other, and a wider error makes the cue
  * ball end elsewhere. */
 TEST(breaks_add_up) {
   enum { BREAKS = 40, FIRST = 13, RACK = 16 };
   make_layout(1, 1);
-  carom_rack(CAROM_RACK_EIGHTBALL, &table, 1e-4, 1, balls, BALLS);
-  cue.speed = 9.0;
-  carom_break_job breaks = {.table = &table,
-                            .balls = balls,
-                            .count = RACK,
-                            .cue = &cue,
-                            .player = &player,
-                            .rack = CAROM_RACK_EIGHTBALL,
-                            .gap = 1e-4,
-                            .seed = 1,
-                            .memory_size = carom_break_memory()};
+  carom_break_job breaks = break_job(CAROM_RACK_EIGHTBALL, RACK);
   edge space = edge_make(breaks.memory_size, true);
   carom_break_counts whole = {0}, parts = {0};
   breaks.memory = space.memory;
@@ -232,18 +237,9 @@ TEST(breaks_add_up) {
 TEST(the_best_break_wins_more_often) {
   enum { BREAKS = 128, ROOM = 3, RACK = 10 };
   make_layout(1, 1);
-  carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, balls, BALLS);
-  cue.speed = 9.0;
+  carom_break_job breaks = break_job(CAROM_RACK_NINEBALL, RACK);
+  breaks.seed = 7;
   player = carom_player_fargo(700.0);
-  carom_break_job breaks = {.table = &table,
-                            .balls = balls,
-                            .count = RACK,
-                            .cue = &cue,
-                            .player = &player,
-                            .rack = CAROM_RACK_NINEBALL,
-                            .gap = 1e-4,
-                            .seed = 7,
-                            .memory_size = carom_break_memory()};
   edge space = edge_make(breaks.memory_size, true);
   breaks.memory = space.memory;
   static carom_break_choice choice[CAROM_BREAK_CHOICES];

@@ -7,11 +7,11 @@
 For each model of the cushion, constants are fitted to every second shot and used for the others,
 and the other way round. The first table has the RMSE of the shots that the constants were not
 fitted to, of both halves: of each shot only the strike, six numbers, is fitted. Then follow the
-floor, which is the RMSE of a perfect model; how far single impacts are from each model, output by output; how the error grows with the part of a
-shot that the strike is fitted to; and the laws of single events. With --few N there is only what
-few shots tell of the table, over N draws of them, asked of the other half; with --forecast, how many places after the first
-seconds lie in the regions that `fit.forecast` gives. Markdown on standard output; the pictures are
-SVG.
+floor, which is the RMSE of a perfect model; how far single impacts are from each model, output by
+output; how the error grows with the part of a shot that the strike is fitted to; and the laws of
+single events. With --few N there is only what few shots tell of the table, over N draws of them,
+asked of the other half; with --forecast, how many places after the first seconds lie in the regions
+that `fit.forecast` gives. Markdown on standard output; the pictures are SVG.
 """
 
 import argparse
