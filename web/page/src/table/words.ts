@@ -10,6 +10,7 @@ export const percent = (x: number): string => `${(100 * x).toFixed(0)} %`;
 const BY: Partial<Record<PlanStroke["kind"], string>> = {
   bank: texts.byABank,
   kick: texts.byAKick,
+  railFirst: texts.offACushionFirst,
   combination: texts.byACombination,
   carom: texts.byACarom,
   kiss: texts.byAKiss,
