@@ -737,6 +737,26 @@ def test_odds():
         carom.odds((600, 500), order="luck")
 
 
+def test_breaks():
+    """The breaks come with their results, the best first, as C says; who is wrong is named."""
+    rack = carom.racks.nineball(TABLE, seed=3)
+    weak = carom.player(2.0)
+    best = carom.best_breaks("nineball", TABLE, rack, player=weak, breaks=32, best=4)
+    wins = best["counts"]["wins"] / best["counts"]["breaks"]
+    assert (np.diff(wins) <= 0).all() and (best["counts"]["breaks"] == 32).all()
+    assert (best["place"][:, 1] <= 0.635).all() and (best["cue"]["speed"] <= 9.0).all()
+    assert np.isfinite(best["cost"]).tolist() == [True, False, False, False]
+    slow = carom.best_breaks(
+        "nineball", TABLE, rack, carom.cue(speed=5.0), opponent=weak, breaks=32, best=1
+    )
+    assert slow["cue"]["speed"][0] <= 5.0
+    for wrong, word in (({"breaks": 15}, "breaks"), ({"best": 9}, "best"), ({"gap": -1.0}, "rack")):
+        with pytest.raises(ValueError, match=word):
+            carom.best_breaks("nineball", TABLE, rack, **wrong)
+    with pytest.raises(ValueError, match="rack"):
+        carom.best_breaks("straight", TABLE, rack)
+
+
 def test_reviews():
     """A stroke beside the aim that a plan finds is off by so much, and costs a miss; the drill is
     of its pot.
