@@ -114,8 +114,9 @@ CAROM_API size_t carom_ways_memory(int64_t room);
 CAROM_API carom_status carom_ways(const carom_ways_job *job, carom_shot_way *ways, int64_t room,
                                   carom_ways_result *result);
 
-/* Plays a way's stroke 400 times with the errors of the player, and sets way->chance and
- * way->error. The caller may change way->cue first. Statuses are those of carom_ways(). */
+/* Plays a way's stroke 400 times with the errors of the player, those of his eye too, and sets
+ * way->chance and way->error. The caller may change way->cue first. Statuses are those of
+ * carom_ways(). */
 CAROM_API carom_status carom_way_chance(const carom_ways_job *job, carom_shot_way *way);
 
 /* 1 if a shot reaches the goal: it pots way->ball into way->pocket, scores, or brings the cue ball

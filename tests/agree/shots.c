@@ -657,6 +657,20 @@ TEST(bytes_of_states) {
   }
 }
 
+/* How the cue ball came to a ball at r, after it met a set of rails. */
+static int approach_of(uint32_t rails, const double *r) {
+  if (rails == 0)
+    return CAROM_APPROACH_DIRECT;
+  for (int k = 0; k < table.rails; k++) {
+    const double *p = table.rail[k].p, *q = table.rail[k].q, way = distance(p, q);
+    const double along = ((r[0] - p[0]) * (q[0] - p[0]) + (r[1] - p[1]) * (q[1] - p[1])) / way;
+    const double gap = sqrt(fmax(0.0, pow(distance(r, p), 2.0) - along * along)) - r[2];
+    if (rails == 1U << k && gap < 2.0 * r[2])
+      return CAROM_APPROACH_RAIL_FIRST;
+  }
+  return CAROM_APPROACH_KICK;
+}
+
 /* What the cue ball meets in a contact: the order of its balls, those of the first instant, and
  * where it was then. */
 static void meet(carom_facts *f, const carom_event *e, int cue) {
@@ -665,8 +679,10 @@ static void meet(carom_facts *f, const carom_event *e, int cue) {
   while (f->order[place] >= 0 && f->order[place] != other)
     place++;
   f->order[place] = other;
-  if (f->first[0] == -1)
+  if (f->first[0] == -1) {
     memcpy(f->first_place, e->before[side].r, sizeof f->first_place);
+    f->approach = approach_of(f->rails[cue], e->before[1 - side].r);
+  }
   if (f->first[0] == -1 || e->time <= f->first_time[0] + CAROM_RULES_INSTANT)
     f->first_set |= 1U << other;
 }
@@ -674,7 +690,7 @@ static void meet(carom_facts *f, const carom_event *e, int cue) {
 static void meet_cushion(carom_facts *f, const carom_event *e) {
   f->cushions[e->a]++;
   if (e->type == CAROM_EVENT_RAIL && !carom_is_cut(&table, e->b))
-    f->banked |= 1U << e->a;
+    f->rails[e->a] |= 1U << e->b;
   f->cushions_after += f->first[0] != -1;
 }
 
@@ -702,6 +718,9 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
       f.down |= 1U << e->a;
       f.pocket[e->a] = e->b;
       f.pocket_time[e->a] = e->time;
+      for (int rail = 0; rail < table.rails; rail++)
+        if ((f.rails[e->a] >> rail & 1) && !carom_is_beside(&table, rail, e->b))
+          f.banked |= 1U << e->a;
     } else if (e->type == CAROM_EVENT_LEFT_TABLE) {
       f.off |= 1U << e->a;
     } else if (e->type == CAROM_EVENT_BALL_BALL) {
@@ -794,7 +813,7 @@ TEST(facts_of_shots) {
   static carom_event events[10 * ROOM];
   static carom_shot_state state;
   make_breaks();
-  int down = 0, off = 0, second = 0, pushes = 0, jumps = 0;
+  int down = 0, off = 0, second = 0, pushes = 0, jumps = 0, banks = 0, approaches = 0;
   for (int k = 0; k < 60; k++) {
     carom_cue cue = cues[k == 4 ? 5 : k];
     carom_facts facts;
@@ -840,10 +859,13 @@ TEST(facts_of_shots) {
     down += facts.down != 0;
     off += facts.off != 0;
     second += facts.first[1] >= 0;
+    banks += facts.banked != 0;
+    approaches |= 1 << facts.approach;
   }
   printf("%d shots pot, %d lose a ball over the cushions, in %d the cue ball meets a second ball\n",
          down, off, second);
-  ck_assert(down > 5 && second > 5 && pushes > 5 && jumps > 0);
+  ck_assert(down > 5 && second > 5 && pushes > 5 && jumps > 0 && banks > 0);
+  ck_assert_int_eq(approaches & ~(1 << CAROM_APPROACH_RAIL_FIRST), 5); /* ways.c has that */
   carom_facts facts;
   const carom_facts nothing = facts_of(events, 0, 0);
   ck_assert_int_lt(shoot(&cues[4], NULL, &(carom_shot){.facts = &facts}), 0);

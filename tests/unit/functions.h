@@ -667,7 +667,7 @@ static carom_match *moving(void) {
     (player = carom_player_rated(ANY(500.0), ANYENUM(carom_rules_kind, 0)), ACCEPTED))             \
   F(player_of, (player = carom_player_of(ANY(1.0)), ACCEPTED))                                     \
   F(player_strike, (carom_player_strike(MAYBE(&player), 1, 1, MAYBE(&aimed)), ACCEPTED))           \
-  F(pot_kind, GIVES(carom_pot_kind(MAYBE(&table), MAYBE(&shot), ANYINT(0), ANYINT(1), ANYINT(0)))) \
+  F(pot_kind, GIVES(carom_pot_kind(MAYBE(&shot), ANYINT(0), ANYINT(1), ANYINT(0))))                \
   F(rating_of, carom_rating_of(PTR(&score), LENGTH(1), PTR(&rating)))                              \
   F(referee, carom_referee(PTR(&rules), PTR(&table), PTR(balls), INT(count), INT(0),               \
                            MAYBE(whole()), ((carom_call){ANYINT(1), ANYINT(1)}), PTR(&ruling)))    \
