@@ -1,5 +1,6 @@
 /* `carom-lab published`: lab/published.py, which sets the values of data/measured.csv beside those
- * of carom. It reads carom's headers and calls the shared library. */
+ * of carom, and lab/film.py, which does so with filmed shots.
+ * It reads carom's headers and calls the shared library. */
 #include "program/program.h"
 #include "python.h"
 #include "subcommands.h"
@@ -9,6 +10,7 @@
 typedef struct published_job {
   shared_options shared;
   bool csv, cushions;
+  const char *film;
 } published_job;
 
 OPTION(published_job, published_csv, "csv", csv, 0, NULL, set_flag, 0,
@@ -16,6 +18,10 @@ OPTION(published_job, published_csv, "csv", csv, 0, NULL, set_flag, 0,
 OPTION(
     published_job, published_cushions, "cushions", cushions, 0, NULL, set_flag, 0,
     "instead: tables of the cushions of pool and snooker (lab/cushions.py), which take a minute");
+
+OPTION(published_job, published_film, "film", film, 0, "FILM.csv", set_text, 0,
+       "instead: filmed shots, rows shot,ball,t,x,y (data/README.md), beside those of carom, and "
+       "what they tell of the numbers of snooker (lab/film.py); half a minute for 21 shots");
 
 static const command_form form = {
     .name = "published",
@@ -25,7 +31,7 @@ static const command_form form = {
              "of the source. A share of breaks is counted in 1600 breaks, and its standard error "
              "stands beside it. docs/understanding/published.md explains the table.\n",
     .options = (const option_row *const[]){&option_data, &published_csv, &published_cushions,
-                                           &option_output, NULL},
+                                           &published_film, &option_output, NULL},
     .details = "exit code: 0; 1 if a value that measured.csv calls ok lies outside its bounds; 2 "
                "for bad usage or unreadable data\n",
     .example = "carom-lab published --csv -o published.csv",
@@ -36,11 +42,17 @@ int command_published(int argc, char **argv) {
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;
-  const char *module = "lab.published";
+  const char *module = "lab.published", *needs = "jinja2 pycparser";
   if (job.cushions)
     module = "lab.cushions";
   char measured[PATH_MAX];
   snprintf(measured, sizeof measured, "%s/measured.csv", data_folder(job.shared.folder));
-  const char *const words[] = {LAB_LIBRARY, measured, text_if(job.csv, "csv"), NULL};
-  return python_command("jinja2 pycparser", module, words, job.shared.output);
+  const char *input = measured;
+  if (job.film != NULL) {
+    module = "lab.film";
+    needs = "jinja2 numpy pycparser";
+    input = job.film;
+  }
+  const char *const words[] = {LAB_LIBRARY, input, text_if(job.csv, "csv"), NULL};
+  return python_command(needs, module, words, job.shared.output);
 }

@@ -11,3 +11,12 @@ row "ball mass,0.17,heavy,,kg,pool,nobody,read,ok,ball().mass"
 row "ball mass,0.17"
 try lab published --csv --data bad -o missing/published.csv
 lab published --csv --data bad | head -n 2
+# Filmed shots, which another program plays: what they say of each number, and two numbers of that program.
+python3 "$DATA/../tests/lab/films.py" > film.csv
+lab published --film film.csv > film.md
+sed -n 's/ [0-9.]* mm of/ of/p' film.md
+sed -n '/^| snooker/,/^$/p' film.md | cut -d '|' -f 2,3,5,6
+awk -F '|' '$2 ~ /mu_roll/ && $6 ~ /whole/ && $4 + 0 > 0.0103 && $4 + 0 < 0.0107 || $2 ~ /restitution / && $6 ~ /whole/ && $4 + 0 > 0.89 && $4 + 0 < 0.92 { print $2 "as in the film" }' film.md
+sed -n '/^| impact/,$p' film.md
+head -n 1 film.csv > wide.csv && echo s_1,cue,0,0.5,wide >> wide.csv && try lab published --film wide.csv
+try lab published --film none.csv
