@@ -65,7 +65,7 @@ static void fly_over(carom_facts *facts, const carom_sim *sim) {
 }
 
 /* How the cue ball comes to its first ball. */
-static carom_approach approach_of(const carom_sim *sim, int ball) {
+static int32_t approach_of(const carom_sim *sim, int ball) {
   const uint32_t rails = sim->shot->facts->rails[sim->struck];
   if (rails == 0)
     return CAROM_APPROACH_DIRECT;
