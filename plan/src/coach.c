@@ -1,5 +1,6 @@
 /* The cushions of a table, cuts, strokes that are ruled, and what they are worth. */
 #include "coach.h"
+#include "rows.h"
 #include "rules.h"
 
 #include <math.h>
@@ -53,16 +54,8 @@ carom_plan_job carom_job_after(const carom_plan_job *job, const carom_ruling *ru
 }
 
 double carom_worth_left(const carom_plan_job *job, const carom_ruling *ruling) {
-  const carom_turn *turn = &ruling->turn;
-  if (turn->outcome == CAROM_TURN_DRAW)
-    return 0.5;
-  if (turn->outcome > CAROM_TURN_PASS)
-    return turn->outcome == CAROM_TURN_WIN;
-  carom_plan_rules rules;
-  const carom_plan_job next = carom_job_after(job, ruling, &rules);
-  double value = 0.0;
-  carom_plan_value(&next, ruling->hand, &value);
-  if (turn->outcome == CAROM_TURN_PASS)
-    return 1.0 - value;
-  return value;
+  carom_search plan; /* which plays no shot */
+  if (carom_search_make(&plan, job, false, 1) != CAROM_OK)
+    return 0.0;
+  return carom_search_ruled(&plan, ruling);
 }
