@@ -1,6 +1,5 @@
-/* The cushions of a table, cuts, strokes that are ruled, and what they are worth. */
+/* The cushions of a table, cuts, and strokes that are ruled. */
 #include "coach.h"
-#include "rows.h"
 #include "rules.h"
 
 #include <math.h>
@@ -51,11 +50,4 @@ carom_plan_job carom_job_after(const carom_plan_job *job, const carom_ruling *ru
     next.opponent = job->player;
   }
   return next;
-}
-
-double carom_worth_left(const carom_plan_job *job, const carom_ruling *ruling) {
-  carom_search plan; /* which plays no shot */
-  if (carom_search_make(&plan, job, false, 1) != CAROM_OK)
-    return 0.0;
-  return carom_search_ruled(&plan, ruling);
 }

@@ -21,6 +21,7 @@
 #include "anytime.h"
 #include "candidates.h"
 #include "carom_coach.h"
+#include "coach.h"
 #include "drawn_tables.h"
 #include "goals.h"
 #include "leaves.h"
@@ -520,4 +521,11 @@ carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *va
   if (job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL)
     *value = carom_search_share(&plan, *value);
   return CAROM_OK;
+}
+
+double carom_worth_left(const carom_plan_job *job, const carom_ruling *ruling) {
+  carom_search plan; /* which plays no shot */
+  if (carom_search_make(&plan, job, false, 1) != CAROM_OK)
+    return 0.0;
+  return carom_search_ruled(&plan, ruling);
 }
