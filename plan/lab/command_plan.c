@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BINS = 10, STROKES_MOST = 2000, KINDS = CAROM_PLAN_KISS + 1 };
+enum { BINS = 10, STROKES_MOST = 2000, KINDS = CAROM_PLAN_RAIL_FIRST + 1 };
 
 typedef struct strength_job {
   shared_options shared;
