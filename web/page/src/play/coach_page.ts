@@ -83,8 +83,8 @@ function reviewPart(practise: (row: Reviewed) => void): { parts: HTMLElement[]; 
         const cells = [
           name,
           String(row.strokes),
-          mean(row.kept),
-          row.told > 0 ? mean(row.told) : "–",
+          mean(row.successes),
+          row.expected > 0 ? mean(row.expected) : "–",
           mean(row.missCost),
           mean(row.placeCost),
           button(texts.practiseIt, () => practise(row), "", {
@@ -116,9 +116,9 @@ export function coachPage(s: Session): { root: HTMLDialogElement; open(): void }
   const hidden = asks(texts.askHidden, "ask-hidden", () =>
     question({ goal: { kind: "hidden" } }, texts.leavesItHidden),
   );
-  const on = choice("snooker-on", texts.snookerOn, [], () => undefined);
+  const snookered = choice("snooker-on", texts.snookerOn, [], () => undefined);
   const snooker = asks(texts.askSnooker, "ask-snooker", () => {
-    const ball = Number(on.select.value);
+    const ball = Number(snookered.select.value);
     return question(
       { goal: { kind: "snooker", ball } },
       texts.leavesSnooker(ballOf(s.play.names, ball)),
@@ -140,7 +140,7 @@ export function coachPage(s: Session): { root: HTMLDialogElement; open(): void }
     texts.coach,
     el("h3", texts.askTheCoach),
     el("div.row", safety, hidden, near, best),
-    el("div.row", snooker, on.root),
+    el("div.row", snooker, snookered.root),
     ...review.parts,
     ...odds.parts,
   );
@@ -150,11 +150,11 @@ export function coachPage(s: Session): { root: HTMLDialogElement; open(): void }
     const isAtRest = free(s) && hasPockets && !breaks && s.play.setup.drill === undefined;
     near.hidden = !isAtRest;
     safety.hidden = !isAtRest || practice;
-    for (const control of [hidden, snooker, on.root])
+    for (const control of [hidden, snooker, snookered.root])
       control.hidden = safety.hidden || strikable.length > 1;
     best.hidden = !free(s) || !breaks || practice || s.play.state.opening !== true || !bounds;
     const targets = [...balls.keys()].filter((k) => k > 0 && onTable(balls[k]!.state));
-    on.select.replaceChildren(
+    snookered.select.replaceChildren(
       ...targets.map((ball) => el("option", { value: String(ball) }, ballOf(names, ball))),
     );
   }
