@@ -14,41 +14,32 @@ const SETS = ["1", "2", "3"];
 /** The odds of a match against a rating, by one's own. */
 function oddsPart(s: Session): { parts: HTMLElement[]; tell(): void } {
   const said = el("p#odds-said", { role: "status" });
-  const against = choice(
-    "odds-against",
-    texts.against,
-    RATINGS.map((r) => [r, r] as const),
-    tell,
-  );
-  const games = choice(
-    "odds-games",
-    texts.race,
-    GAMES_OF_SETS.map((n) => [n, texts.to(n)] as const),
-    tell,
-  );
-  const sets = choice(
-    "odds-sets",
-    texts.setsOfMatch,
-    SETS.map((n) => [n, texts.to(n)] as const),
-    tell,
-  );
+  const pick = (
+    id: string,
+    text: string,
+    values: readonly string[],
+    words: (value: string) => string = String,
+  ) =>
+    choice(
+      id,
+      text,
+      values.map((value) => [value, words(value)] as const),
+      tell,
+    );
+  const against = pick("odds-against", texts.against, RATINGS);
+  const games = pick("odds-games", texts.race, GAMES_OF_SETS, texts.to);
+  const sets = pick("odds-sets", texts.setsOfMatch, SETS, texts.to);
   against.select.value = "500";
   games.select.value = "7";
   function tell(): void {
     const { rating, words } = s.training.rating();
-    const odds = s.carom.odds({
-      ratings: [rating, Number(against.select.value)],
-      games: Number(games.select.value),
-      sets: Number(sets.select.value),
-    });
-    said.textContent = texts.oddsAgainst(
-      words,
-      against.select.value,
-      percent(odds.game),
-      percent(odds.match),
-      odds.fair[0]!,
-      odds.fair[1]!,
-    );
+    const [rival, toGames, toSets] = [against, games, sets].map(({ select }) =>
+      Number(select.value),
+    ) as [number, number, number];
+    const odds = s.carom.odds({ ratings: [rating, rival], games: toGames, sets: toSets });
+    const chances = [odds.game, odds.match].map(percent) as [string, string];
+    const fair = odds.fair as [number, number];
+    said.textContent = texts.oddsAgainst(words, rival, ...chances, ...fair);
   }
   const fields = el("div.fields", against.root, games.root, sets.root);
   return { parts: [el("h3", texts.oddsOfMatch), fields, said], tell };
