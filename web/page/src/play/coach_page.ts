@@ -37,9 +37,9 @@ function oddsPart(s: Session): { parts: HTMLElement[]; tell(): void } {
       Number(select.value),
     ) as [number, number, number];
     const odds = s.carom.odds({ ratings: [rating, rival], games: toGames, sets: toSets });
-    const chances = [odds.game, odds.match].map(percent) as [string, string];
-    const fair = odds.fair as [number, number];
-    said.textContent = texts.oddsAgainst(words, rival, ...chances, ...fair);
+    const [mine, theirs] = odds.fair as [number, number];
+    const [game, match] = [odds.game, odds.match].map(percent) as [string, string];
+    said.textContent = texts.oddsAgainst(words, rival, game, match, mine, theirs);
   }
   const fields = el("div.fields", against.root, games.root, sets.root);
   return { parts: [el("h3", texts.oddsOfMatch), fields, said], tell };
