@@ -294,7 +294,7 @@ static const command_form form = {
              TIPS_TO_LEAVE " with --leave and other balls, " TIPS_TO_SCORE " to score"},
             {0}},
     .usage = "[OPTIONS] LAYOUT.jsonl | --balls X,Y:... [OPTIONS]",
-    .about = "Finds the ways to pot a ball: directly, or with a bank, a kick, a kiss, a carom or a "
+    .about = "Finds the ways to pot a ball: directly, rail first, or by a bank, kick, kiss, carom or "
              "combination. On a table without pockets it finds the ways to score in three-cushion: "
              "the rails and balls that the cue ball meets. For each way carom reports which of the "
              "given strokes has the best chance for a player: how often it succeeds with errors, "
@@ -302,15 +302,13 @@ static const command_form form = {
              "carom tries the stroke of each of them in all directions.\n",
     .options =
         (const option_row *const[]){
-            &option_ball,          &option_to_pocket,     &option_rails,
-            &option_leave,         &option_each,          &option_scan,
-            &option_table,         &option_cue,           &option_balls,
-            &option_one_gap,       &option_one_seed,      &option_shot_speed,
-            &option_ball_speed,    &option_tip,           &option_elevation,
-            &option_player,        &option_player_errors, &options_of_motion,
-            &option_with_of_shots, &option_cue_ball,      &option_layout,
-            &option_ways_csv,      &option_ways_json,     &option_ways_plot,
-            &option_threads,       &option_output,        NULL},
+            &option_ball,          &option_to_pocket,  &option_rails,      &option_leave,
+            &option_each,          &option_scan,       &option_table,      &option_cue,
+            &option_balls,         &option_one_gap,    &option_one_seed,   &option_shot_speed,
+            &option_ball_speed,    &option_tip,        &option_elevation,  &option_player,
+            &option_player_errors, &option_player_eye, &options_of_motion, &option_with_of_shots,
+            &option_cue_ball,      &option_layout,     &option_ways_csv,   &option_ways_json,
+            &option_ways_plot,     &option_threads,    &option_output,     NULL},
     .details =
         "columns:\n"
         "  chance               share of 400 strokes with errors that succeed: the ball falls and "

@@ -433,6 +433,10 @@ CAROM_API carom_status carom_table_make(carom_table_kind kind, carom_table *tabl
 CAROM_API const char *carom_rail_name(const carom_table *table, int rail);
 CAROM_API const char *carom_pocket_name(const carom_table *table, int pocket);
 
+/* 1 if a rail ends beside a pocket, within three radii of its centre, otherwise 0. A ball that
+ * meets such a rail and falls into the pocket is not banked. */
+CAROM_API int carom_is_beside(const carom_table *table, int rail, int pocket);
+
 /* A part of a table, or a ball. */
 typedef enum carom_part_kind {
   CAROM_PART_NONE = 0,   /* no part */
@@ -858,6 +862,15 @@ typedef struct carom_shot_state {
   uint64_t opaque[4096]; /* for the library alone. */
 } carom_shot_state;
 
+/* How the cue ball came to the first ball that it met. Only rails count, not jaws, nor the cuts of
+ * pockets, nor a rail that a ball touches where it lies when the shot begins. */
+typedef enum carom_approach {
+  CAROM_APPROACH_DIRECT = 0,     /* The cue ball met no rail before, or no ball at all. */
+  CAROM_APPROACH_RAIL_FIRST = 1, /* The cue ball met one rail, beside the ball: between the two
+                                    there is no room for the cue ball. */
+  CAROM_APPROACH_KICK = 2        /* The cue ball met other rails, or several. */
+} carom_approach;
+
 /* What happened in a shot, for rules of games. The library fills it in while it plays the shot, so
  * no event has to be kept. If there is no such thing, an index is -1 and a time is infinite. The
  * cue ball is that of the cue, or ball 0 without a cue. A cushion is a rail or a jaw. Bit k of a
@@ -888,8 +901,8 @@ typedef struct carom_facts {
                                            strike, 1, or 2 and more in a double hit. A second touch
                                            occurs within the push, or later because of
                                            cue.follow. */
-  uint32_t banked;                      /* the set of the balls that met a cushion outside of the
-                                           jaws and cuts of pockets. */
+  uint32_t banked;                      /* the set of the balls that fell after they met a rail, as
+                                           in rails[], that does not end beside the pocket. */
   double second_time;                   /* time of the second touch of the tip, s; infinite if there
                                            was none; 0: within the push. */
   double second_speed;                  /* the closing speed of the tip at its second touch, m/s; 0
@@ -921,6 +934,11 @@ typedef struct carom_facts {
   uint32_t at_head;                     /* the set of the balls that touched the head string, y =
                                            length/4, or were on its side of y = 0, by their places
                                            at their events. */
+  int32_t approach;                     /* a carom_approach: what the cue ball met before its first
+                                           ball. */
+  uint32_t rails[CAROM_BALLS_MOST];     /* the set of the rails that each ball met, as in approach:
+                                           bit k is rail k. */
+  int32_t reserved;                     /* 0. */
 } carom_facts;
 
 /* m: for the rules, balls and cushions that are nearer than this touch. This is a convention: about

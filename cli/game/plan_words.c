@@ -34,6 +34,8 @@ static void kind_words(const carom_plan_stroke *c, char text[40]) {
   text[0] = '\0';
   if (c->kind == CAROM_PLAN_SCAN)
     snprintf(text, 40, ", by several ways");
+  else if (c->kind == CAROM_PLAN_RAIL_FIRST)
+    snprintf(text, 40, ", rail first");
   else if (c->kind != CAROM_PLAN_POT && c->kind != CAROM_PLAN_GIVEN)
     snprintf(text, 40, ", by a %s", carom_plan_kind_name((carom_plan_kind)c->kind));
 }
@@ -51,7 +53,7 @@ void plan_describe(const shot_line *line, const carom_plan_stroke *c, char text[
     snprintf(text, PLAN_TEXT, "%s", words_without_ball(line, c));
   else if (line->table->table.pockets == 0)
     snprintf(text, PLAN_TEXT,
-             c->kind == CAROM_PLAN_KICK ? "a point, off a cushion, %s first" : "a point, %s first",
+             c->kind == CAROM_PLAN_CAROM ? "a point, %s first" : "a point, off a cushion, %s first",
              named_ball(line->name[c->ball], ball));
   else {
     kind_words(c, way_words);

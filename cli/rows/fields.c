@@ -756,7 +756,7 @@ ROW(option_player_errors, "errors", player, 0, "SCALE", set_errors, 0, ANY_KIND,
 ROW(option_player_eye, "eye", player, 0, "LENGTH", set_eye, 0, ANY_KIND,
     "how exactly the player sees where balls lie: the standard deviation of each place, each way, "
     "which every stroke with errors draws anew; 0: exactly",
-    .usual = "0.2mm");
+    .else_usual = "0.2mm, or exactly with --errors 0");
 
 /* Of whole shots: rows without a name stand for those of rows_of(). */
 ROW(options_of_shots, NULL, shot, 0, NULL, set_option, CAROM_READ_TO_STOP, ANY_KIND, NULL);

@@ -20,7 +20,6 @@ struct shot_file {
   bool begun;          /* a line has been met that is not blank */
   named_table **table; /* each stays where it is, for the shots that refer to it */
   size_t tables, room;
-  char engine[64];
   layout_moment moment;       /* of the shots, whose balls are read */
   carom_shot_cushion cushion; /* whose constants balls have by the name of their game */
 };
@@ -289,9 +288,6 @@ static shot_read take_line(shot_file *file, json_t *json, shot_line *line) {
     line->table = NULL;
     return bad_line(line, f.text);
   }
-  const char *engine = json_string_value(json_object_get(json, "engine"));
-  if (engine != NULL)
-    snprintf(file->engine, sizeof file->engine, "%s", engine);
   json_decref(json);
   line->json = NULL;
   return SHOT_END;
@@ -377,10 +373,6 @@ carom_status shot_line_play(const shot_line *line, const carom_shot_options *opt
       return status;
     free(shot->events);
   }
-}
-
-const char *shot_file_engine(const shot_file *file) {
-  return file->engine;
 }
 
 void shot_line_free(shot_line *line) {

@@ -72,9 +72,6 @@ void shot_line_give(shot_line *line, const carom_number *number, double x);
 carom_status shot_line_play(const shot_line *line, const carom_shot_options *options,
                             carom_shot *shot);
 
-/* The engine that the last line of kind meta named, or "". */
-const char *shot_file_engine(const shot_file *file);
-
 void shot_line_free(shot_line *line);
 void shot_file_close(shot_file *file);
 

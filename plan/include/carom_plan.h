@@ -604,8 +604,8 @@ typedef struct carom_plan_options {
 } carom_plan_options;
 
 /* The kind of a choice, which follows from what happens in the shot. A pot has the first of the
- * kinds combination, carom, kiss, kick, bank and pot that holds; a jaw or a cut of a pocket is no
- * cushion. */
+ * kinds combination, carom, kiss, kick, rail first, bank and pot that holds, by approach and banked
+ * of carom_facts. */
 typedef enum carom_plan_kind {
   CAROM_PLAN_POT = 0,   /* a direct pot of `ball` into `pocket`: the ball meets nothing else on its
                            way except a cushion beside the pocket */
@@ -616,25 +616,22 @@ typedef enum carom_plan_kind {
   CAROM_PLAN_PASS = 5,  /* to pass, if the rules allow it; the stroke means nothing */
   CAROM_PLAN_BREAK = 6, /* a break, in games that have one; no ball is named */
   CAROM_PLAN_BANK = 7,  /* the cue ball meets `ball`, which meets a cushion and falls */
-  CAROM_PLAN_KICK = 8,  /* the cue ball meets a cushion before any ball */
+  CAROM_PLAN_KICK = 8,  /* the cue ball meets a cushion before any ball, but see RAIL_FIRST */
   CAROM_PLAN_COMBINATION = 9, /* another ball meets `ball`, which falls */
   CAROM_PLAN_CAROM = 10,      /* the cue ball meets another ball before `ball`; without pockets: it
                                  meets two */
   CAROM_PLAN_SAFETY = 11,     /* no ball is named */
-  CAROM_PLAN_KISS = 12        /* the cue ball meets `ball`, which meets another ball and falls */
+  CAROM_PLAN_KISS = 12,       /* the cue ball meets `ball`, which meets another ball and falls */
+  CAROM_PLAN_RAIL_FIRST = 13  /* the cue ball meets the cushion beside its first ball, then that */
 } carom_plan_kind;
 
 /* The word for a kind, such as "bank"; "" for a value not listed. */
 CAROM_API const char *carom_plan_kind_name(carom_plan_kind kind);
 
-/* The kind of a shot that pots a ball: a carom_plan_kind. It follows from the events or brief
- * events that were kept. -1 if they do not show that the ball was hit and fell into the pocket. */
-CAROM_API int32_t carom_pot_kind(const carom_table *table, const carom_shot *shot, int cue_ball,
-                                 int ball, int pocket);
-
-/* 1 if a rail ends beside a pocket, within three radii of its centre, otherwise 0. A ball that
- * meets such a rail and falls into the pocket is not banked. */
-CAROM_API int carom_is_beside(const carom_table *table, int rail, int pocket);
+/* The kind of a shot that pots a ball: a carom_plan_kind. It follows from the facts, and from the
+ * events or brief events that were kept. -1 if they do not show that the ball was hit and fell into
+ * the pocket. */
+CAROM_API int32_t carom_pot_kind(const carom_shot *shot, int cue_ball, int ball, int pocket);
 
 /* What else a stroke was, as a set. */
 typedef enum carom_stroke_mark {

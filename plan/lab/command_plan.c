@@ -2,6 +2,7 @@
  * ball in hand by a player who errs, or played to the end by two; and how often shots come off
  * and games are won beside the chances that were predicted for them. Of games of points also how
  * many a visit makes. */
+#include "comparison.h"
 #include "game/ratings.h"
 #include "program/command.h"
 #include "program/memory.h"
@@ -16,12 +17,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BINS = 10, STROKES_MOST = 2000, KINDS = CAROM_PLAN_KISS + 1 };
+enum { BINS = 10, STROKES_MOST = 2000, KINDS = CAROM_PLAN_RAIL_FIRST + 1 };
 
 typedef struct strength_job {
   shared_options shared;
   int rules, racks, shots, seed, left, target;
-  bool games, run_out;
+  bool games, run_out, told;
   double errors, against, unsure, rating[CAROM_SEATS_MOST];
 } strength_job;
 
@@ -34,6 +35,10 @@ OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
 OPTION(strength_job, option_players, "players", rating, 0, "A,B", set_ratings, 0,
        "play matches of two players of these ratings, who break in turn; report how many the first "
        "one wins");
+OPTION(strength_job, option_told, "told", told, 0, NULL, set_flag, 0,
+       "with --players: they plan with --shots, see places of balls with errors and never think of "
+       "pots alone; report by kind of stroke the chances to play on, to foul, to lose at once and to "
+       "win that plans predict, beside what came; without --rules, of every game");
 OPTION(strength_job, option_run_out, "run-out", run_out, 0, NULL, set_flag, 0, "plan to run out");
 OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1,
        "number of racks to play (default 100)");
@@ -56,18 +61,11 @@ OPTION(strength_job, option_target, "target", target, 0, "N", set_count, 1,
        "points that win: in straight pool (default 100), and of the matches of --players (default: "
        "those of the game)");
 
-/* A row of the comparison of chances. `off` is what came of the strokes of one rack less what was
- * predicted of them. They are not independent, so the variance adds up off^2 rack by rack. */
-typedef struct bin {
-  double predicted, variance, off;
-  long shots, keeps;
-} bin;
-
 typedef struct tally {
   long racks, wins, strokes, pots, plans, fouls, visits;
   double points, best; /* of all visits, of one */
   double seconds;
-  bin bins[BINS], games[BINS], kinds[KINDS];
+  lab_comparison bins[BINS], games[BINS], kinds[KINDS];
   double *odds; /* of the values of all strokes, logarithms, */
   bool *won;    /* and whether that player won */
   size_t values, odds_room, won_room;
@@ -75,21 +73,6 @@ typedef struct tally {
 
 static int bin_of(double chance) {
   return chance < 1.0 ? (int)(BINS * chance) : BINS - 1;
-}
-
-/* Puts a chance beside what came. */
-static void count(bin *b, double chance, bool came) {
-  b->predicted += chance;
-  b->off += (double)came - chance;
-  b->shots++;
-  b->keeps += came;
-}
-
-static void end_rack(bin *bins, int count) {
-  for (int k = 0; k < count; k++) {
-    bins[k].variance += bins[k].off * bins[k].off;
-    bins[k].off = 0.0;
-  }
 }
 
 /* The players of a stroke: the one at the table, and the opponent. */
@@ -134,8 +117,8 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
       visit = 0.0;
     }
     const bool keeps = turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN;
-    count(&sums->bins[bin_of(best.keep)], best.keep, keeps);
-    count(&sums->kinds[best.kind], best.keep, keeps);
+    lab_compare(&sums->bins[bin_of(best.keep)], best.keep, keeps);
+    lab_compare(&sums->kinds[best.kind], best.keep, keeps);
     player_of[n] = striker;
     value[n++] = best.value;
     sums->strokes++;
@@ -150,28 +133,28 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
   sums->wins += winner == 0;
   for (int k = 0; k < n && winner >= 0; k++) {
     const double v = fmin(fmax(value[k], 1e-6), 1.0 - 1e-6);
-    count(&sums->games[bin_of(value[k])], value[k], player_of[k] == winner);
+    lab_compare(&sums->games[bin_of(value[k])], value[k], player_of[k] == winner);
     sums->odds = grow(sums->odds, &sums->odds_room, sums->values + 1, sizeof *sums->odds);
     sums->won = grow(sums->won, &sums->won_room, sums->values + 1, sizeof *sums->won);
     sums->odds[sums->values] = log(v / (1.0 - v));
     sums->won[sums->values++] = player_of[k] == winner;
   }
-  end_rack(sums->bins, BINS);
-  end_rack(sums->games, BINS);
-  end_rack(sums->kinds, KINDS);
+  lab_compare_end(sums->bins, BINS);
+  lab_compare_end(sums->games, BINS);
+  lab_compare_end(sums->kinds, KINDS);
 }
 
-static void tell_bins(const bin *bins, int count, const char *const names[], const char *came) {
+static void tell_bins(const lab_comparison *bins, int count, const char *const names[], const char *came) {
   printf("%spredicted,strokes,%s,standard_error\n", names != NULL ? "kind," : "", came);
   for (int k = 0; k < count; k++) {
-    const bin *b = &bins[k];
-    const double n = (double)b->shots;
-    if (b->shots == 0)
+    const lab_comparison *b = &bins[k];
+    const double n = (double)b->strokes;
+    if (b->strokes == 0)
       continue;
     if (names != NULL)
       printf("%s,", names[k]);
-    printf("%.3f,%ld,%.3f,%.3f\n", b->predicted / n, b->shots, (double)b->keeps / n,
-           sqrt(b->variance) / n);
+    printf("%.3f,%ld,%.3f,%.3f\n", b->predicted / n, b->strokes, b->came / n,
+           lab_compare_error(b));
   }
 }
 
@@ -220,13 +203,24 @@ static int play_ratings(const strength_job *job) {
     complain("--players: two ratings are needed");
     return EXIT_USAGE;
   }
-  const lab_ratings wanted = {.rules = (carom_rules_kind)job->rules,
-                              .target = job->target,
-                              .matches = job->racks,
-                              .seed = job->seed,
-                              .threads = job->shared.options.threads,
-                              .rating = job->rating};
-  return lab_play_ratings(&wanted) ? EXIT_GOOD : EXIT_USAGE;
+  lab_ratings wanted = {.rules = (carom_rules_kind)job->rules,
+                        .target = job->target,
+                        .matches = job->racks,
+                        .seed = job->seed,
+                        .threads = job->shared.options.threads,
+                        .rating = job->rating};
+  if (!job->told)
+    return lab_play_ratings(&wanted) ? EXIT_GOOD : EXIT_USAGE;
+  wanted.shots = job->shots;
+  puts("game,kind,chance,strokes,told,came,difference,standard_error");
+  if (job->rules >= 0)
+    return lab_play_told(&wanted) ? EXIT_GOOD : EXIT_USAGE;
+  bool plays = true;
+  for (int k = 0; plays && carom_rules_about_of((carom_rules_kind)k) != NULL; k++) {
+    wanted.rules = (carom_rules_kind)k;
+    plays = k == CAROM_RULES_POTTING || lab_play_told(&wanted); /* one player alone pots */
+  }
+  return plays ? EXIT_GOOD : EXIT_USAGE;
 }
 
 static const command_form form = {
@@ -238,8 +232,8 @@ static const command_form form = {
         "often shots keep the turn, beside the predicted chance. With --games each rack is played "
         "to the end, and the predicted chances to win stand beside the share of games won.\n",
     .options =
-        (const option_row *const[]){&option_rules, &option_games, &option_players, &option_run_out,
-                                    &option_left, &option_target, &option_racks, &option_shots,
+        (const option_row *const[]){&option_rules, &option_games, &option_players, &option_told,
+                                    &option_run_out, &option_left, &option_target, &option_racks, &option_shots,
                                     &option_errors, &option_against, &option_unsure, &option_seed,
                                     &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
@@ -251,10 +245,17 @@ int command_plan(int argc, char **argv) {
   static strength_job job;
   const char *path;
   job = (strength_job){
-      .shared = {.options = {.threads = 0}}, .racks = 100, .shots = 2000, .errors = 1.0};
+      .shared = {.options = {.threads = 0}}, .rules = -1, .racks = 100, .shots = 2000,
+      .errors = 1.0};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
+  if (job.told && !(job.rating[0] > 0.0)) {
+    complain("--told: give two ratings, --players A,B");
+    return EXIT_USAGE;
+  }
+  if (job.rules < 0 && !job.told)
+    job.rules = CAROM_RULES_EIGHTBALL;
   if (job.rating[0] > 0.0)
     return play_ratings(&job);
   if (!lab_game_is_played(job.rules))

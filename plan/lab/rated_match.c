@@ -4,17 +4,23 @@
  * its own, so that no result depends on the number of threads. */
 #include "rated_match.h"
 
+#include "comparison.h"
+#include "eye.h"
 #include "platform/threads.h"
 #include "program/memory.h"
 #include "program/message.h"
 #include "program/monotonic.h"
 #include "random.h"
+#include "view.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { BLOCK = 16, STROKES_MOST = 20000 };
+enum { BLOCK = 16, STROKES_MOST = 20000, KINDS = CAROM_PLAN_KISS + 1 };
+
+/* What plans predict of a stroke. */
+enum { KEEP, FOUL, LOSE, WIN, CHANCES };
 
 void lab_interval(double wins, double count, double bounds[2]) {
   static const double z = 1.96;
@@ -26,7 +32,15 @@ void lab_interval(double wins, double count, double bounds[2]) {
   bounds[1] = middle + half;
 }
 
+/* A stroke of a match: the side that played it, and its chances beside what came. */
+typedef struct told_stroke {
+  int side, kind;
+  double told[CHANCES], came[CHANCES];
+} told_stroke;
+
 typedef struct played_match {
+  told_stroke *told;
+  size_t count, room;
   double won; /* by the first player: 1, 0, or 0.5 of a draw */
   long strokes;
   bool failed, ended;
@@ -38,24 +52,73 @@ typedef struct block {
   played_match matches[BLOCK];
 } block;
 
-/* One stroke of the seat at the table, as its plan proposes it. */
+/* Moves the balls in play to where they may lie for a player who sees them where they are. */
+static void draw_places(carom_match *match, const carom_player *player, uint64_t seed) {
+  carom_record *record = &match->record;
+  carom_shot_ball balls[CAROM_BALLS_MOST];
+  int ball[CAROM_BALLS_MOST], count = 0, struck = 0, where;
+  for (int k = 0; k < (int)record->count; k++) {
+    if (record->balls[k].state.label == CAROM_BALL_POCKETED ||
+        record->balls[k].state.label == CAROM_BALL_OFF)
+      continue;
+    if (k == match->cue_ball)
+      struck = count;
+    ball[count] = k;
+    balls[count++] = record->balls[k];
+  }
+  carom_features features;
+  carom_prepared layout;
+  carom_ball_state drawn[CAROM_BALLS_MOST];
+  if (carom_prepare(&record->table, balls, count, &record->options, &features, &layout, &where) !=
+      CAROM_OK)
+    return;
+  const double eye = carom_player_bounded(player, &match->cue).eye;
+  carom_eye_draw(&layout, struck, eye, seed, DRAW_PLAYED, 0, drawn);
+  for (int k = 0; k < count; k++)
+    record->balls[ball[k]].state = drawn[k];
+}
+
+/* Adds a stroke that was ruled: its player, the balls that were on, and what was predicted. */
+static void keep_stroke(const carom_match *match, int side, uint32_t on,
+                        const carom_plan_stroke *choice, played_match *result) {
+  const carom_turn *turn = &match->ruling.turn;
+  result->told = grow(result->told, &result->room, result->count + 1, sizeof *result->told);
+  bool keeps = turn->outcome != CAROM_TURN_PASS && turn->outcome != CAROM_TURN_LOSE;
+  if (match->rules.race == CAROM_RACE_SEATS && turn->outcome == CAROM_TURN_PASS)
+    keeps = turn->foul == 0 && (match->ruling.facts.down & on) != 0;
+  result->told[result->count++] =
+      (told_stroke){.side = side,
+                    .kind = choice->kind,
+                    .told = {choice->keep, choice->foul, choice->lose, choice->value},
+                    .came = {(double)keeps, (double)(turn->foul != 0),
+                             (double)(turn->outcome == CAROM_TURN_LOSE)}};
+}
+
+/* One stroke of the seat at the table, as its plan proposes it; `player`: a player in its place,
+ * whose strokes the result lists, or NULL. */
 static bool play_stroke(carom_match *match, carom_plan_job *job, carom_plan_options *options,
-                        const carom_player *opponent, uint64_t seed) {
+                        const carom_player *player, uint64_t seed, played_match *result) {
   carom_plan_stroke best;
   int found;
   options->seed = seed;
-  options->opponent = opponent;
   job->options = options;
-  job->player = NULL;
+  job->player = player;
   job->cue = NULL;
   carom_status status = carom_match_plan(match, job, &best, 1, &found);
-  const int seat = match->seat;
+  const int seat = match->seat, side = (int)match->seating.seat[seat].side;
+  const uint32_t on = match->on;
   if (status == CAROM_OK)
     status = carom_match_prepare(match, seat, &best);
   if (status != CAROM_OK || best.kind == CAROM_PLAN_PASS)
     return status == CAROM_OK;
-  carom_player_strike(&match->player, seed, 0, &best.cue);
-  return carom_match_stroke(match, seat, &best.cue, NULL, NULL) == CAROM_OK;
+  const carom_player *striker = player != NULL ? player : &match->player;
+  carom_player_strike(striker, seed, 0, &best.cue);
+  if (player != NULL)
+    draw_places(match, player, seed);
+  status = carom_match_stroke(match, seat, &best.cue, NULL, NULL);
+  if (status == CAROM_OK && player != NULL)
+    keep_stroke(match, side, on, &best, result);
+  return status == CAROM_OK;
 }
 
 static void play(const lab_ratings *wanted, int number, played_match *result) {
@@ -63,11 +126,15 @@ static void play(const lab_ratings *wanted, int number, played_match *result) {
   carom_table_make((carom_table_kind)carom_rules_about_of(wanted->rules)->table, &table);
   lab_random draw = {((uint64_t)wanted->seed << 32) + 104729 * ((uint64_t)number + 1)};
   carom_seating seating;
-  carom_seating_make(wanted->rules, 2, &seating);
-  carom_player player[2];
-  for (int seat = 0; seat < 2; seat++) {
-    seating.seat[seat].rating = wanted->rating[seat];
-    player[seat] = carom_player_rated(wanted->rating[seat], wanted->rules);
+  const bool tells = wanted->shots > 0;
+  carom_seating_make(wanted->rules, tells ? 0 : 2, &seating);
+  carom_player player[CAROM_SEATS_MOST];
+  for (int seat = 0; seat < seating.count; seat++) {
+    const double rating = wanted->rating[seat % 2];
+    seating.seat[seat].rating = rating;
+    player[seat] = carom_player_rated(rating, wanted->rules);
+    if (tells)
+      player[seat].only_pots = 0.0;
   }
   const carom_match_setup setup = {.rules = wanted->rules,
                                    .table = &table,
@@ -78,13 +145,14 @@ static void play(const lab_ratings *wanted, int number, played_match *result) {
 
   /* the match, and room for the plans of both */
   carom_match *match = allocate(1, sizeof *match);
-  carom_plan_options options = {0};
+  carom_plan_options options = {.shots = wanted->shots};
   carom_plan_job job = {.memory_size = carom_plan_memory(&options)};
   job.memory = allocate(1, job.memory_size);
   *result = (played_match){.failed = carom_match_begin_with(match, &setup) != CAROM_OK};
   while (!result->failed && match->phase != CAROM_MATCH_OVER && result->strokes < STROKES_MOST) {
-    const carom_player *opponent = &player[1 - match->seat];
-    result->failed = !play_stroke(match, &job, &options, opponent, lab_bits(&draw));
+    options.opponent = &player[(match->seat + 1) % seating.count];
+    const carom_player *striker = tells ? &player[match->seat] : NULL;
+    result->failed = !play_stroke(match, &job, &options, striker, lab_bits(&draw), result);
     result->strokes++;
   }
 
@@ -93,6 +161,11 @@ static void play(const lab_ratings *wanted, int number, played_match *result) {
   result->won = 0.5;
   if (match->winner == 1 || match->winner == 2)
     result->won = match->winner == 1;
+  for (size_t k = 0; k < result->count; k++) {
+    result->told[k].came[WIN] = match->winner == 1 + result->told[k].side;
+    if (match->winner == CAROM_DRAWN)
+      result->told[k].came[WIN] = 0.5;
+  }
   if (result->failed)
     complain("match %d: %s", number, match->fault);
   free(job.memory);
@@ -106,24 +179,34 @@ static size_t play_some(const void *context, size_t start, size_t end) {
   return end;
 }
 
+/* Plays the next block of matches. Returns how many they are; 0: there is none, or one failed. */
+static int play_block(block *b) {
+  int count = b->wanted->matches - b->first;
+  if (count > BLOCK)
+    count = BLOCK;
+  carom_in_threads(play_some, &b, (size_t)count, b->wanted->threads, 1);
+  b->first += count;
+  progress_show("matches", b->first, b->wanted->matches);
+  for (int k = 0; k < count; k++)
+    if (b->matches[k].failed)
+      return 0;
+  return count;
+}
+
 bool lab_play_ratings(const lab_ratings *wanted) {
   const double begin = processor_ns();
   double won = 0.0;
   long strokes = 0, unfinished = 0;
-  block here = {.wanted = wanted}, *b = &here;
-  for (; b->first < wanted->matches; b->first += BLOCK) {
-    int count = wanted->matches - b->first;
-    if (count > BLOCK)
-      count = BLOCK;
-    carom_in_threads(play_some, &b, (size_t)count, wanted->threads, 1);
+  block b = {.wanted = wanted};
+  while (b.first < wanted->matches) {
+    const int count = play_block(&b);
+    if (count == 0)
+      return false;
     for (int k = 0; k < count; k++) {
-      if (b->matches[k].failed)
-        return false;
-      won += b->matches[k].won;
-      strokes += b->matches[k].strokes;
-      unfinished += !b->matches[k].ended;
+      won += b.matches[k].won;
+      strokes += b.matches[k].strokes;
+      unfinished += !b.matches[k].ended;
     }
-    progress_show("matches", b->first + count, wanted->matches);
   }
   progress_clear();
 
@@ -137,5 +220,48 @@ bool lab_play_ratings(const lab_ratings *wanted) {
          carom_word(CAROM_WORDS_RULES, (int)wanted->rules), rating[0], rating[1], won, count,
          100.0 * won / count, 100.0 * bounds[0], 100.0 * bounds[1], 100.0 * due, unfinished,
          (double)strokes / count, 1e-9 * (processor_ns() - begin) / count);
+  return true;
+}
+
+/* A row of CSV for each chance of a kind of stroke; `kind` KINDS: of all strokes. */
+static void print_told(const lab_ratings *wanted, int kind, const lab_comparison rows[CHANCES]) {
+  static const char *const chances[CHANCES] = {"keep", "foul", "lose", "win"};
+  const char *name = "all";
+  if (kind < KINDS)
+    name = carom_plan_kind_name((carom_plan_kind)kind);
+  const bool is_alone = carom_plan_rules_of(wanted->rules).race == CAROM_RACE_ALONE;
+  const int chances_told = is_alone ? WIN : CHANCES; /* who is alone plays for points */
+  for (int k = 0; k < chances_told && rows[k].strokes > 0; k++) {
+    const double n = (double)rows[k].strokes;
+    printf("%s,%s,%s,%ld,%.3f,%.3f,%+.3f,%.3f\n",
+           carom_word(CAROM_WORDS_RULES, (int)wanted->rules), name, chances[k], rows[k].strokes,
+           rows[k].predicted / n, rows[k].came / n, (rows[k].predicted - rows[k].came) / n,
+           lab_compare_error(&rows[k]));
+  }
+}
+
+bool lab_play_told(const lab_ratings *wanted) {
+  lab_comparison rows[KINDS + 1][CHANCES] = {0};
+  block b = {.wanted = wanted};
+  while (b.first < wanted->matches) {
+    const int count = play_block(&b);
+    if (count == 0)
+      return false;
+    for (int k = 0; k < count; k++) {
+      played_match *match = &b.matches[k];
+      for (size_t n = 0; n < match->count; n++)
+        for (int chance = 0; chance < CHANCES && match->ended; chance++) {
+          const told_stroke *stroke = &match->told[n];
+          lab_compare(&rows[stroke->kind][chance], stroke->told[chance], stroke->came[chance]);
+          lab_compare(&rows[KINDS][chance], stroke->told[chance], stroke->came[chance]);
+        }
+      lab_compare_end(&rows[0][0], (KINDS + 1) * CHANCES);
+      free(match->told);
+    }
+  }
+  progress_clear();
+  for (int kind = 0; kind <= KINDS; kind++)
+    print_told(wanted, kind, rows[kind]);
+  fflush(stdout);
   return true;
 }

@@ -13,11 +13,17 @@ typedef struct lab_ratings {
   carom_rules_kind rules;
   int target; /* points that win; 0: as many as the game has */
   int matches, seed, threads;
+  int shots;            /* of the plans of lab_play_told() */
   const double *rating; /* of two players */
 } lab_ratings;
 
 /* Plays matches in which the players break in turn, and prints how many the first one wins. Returns
  * false if a match cannot be played, and complains. */
 bool lab_play_ratings(const lab_ratings *wanted);
+
+/* Plays them with plans of so many shots, and with places of balls that err in each stroke as the
+ * players see them. Prints rows of CSV by kind of stroke: the chances that plans predict, what came
+ * of these strokes, and the difference with its standard error by matches. Returns as above. */
+bool lab_play_told(const lab_ratings *wanted);
 
 #endif

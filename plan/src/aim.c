@@ -38,8 +38,6 @@ static const double root_most = 1e-4, step_most = 1.0;
 static const double least_time = 1e-9; /* s */
 /* s: a further contact with the same rail is a hop */
 static const double same_contact = 0.1;
-/* cushions that end so near to a pocket are beside it: in its radii */
-static const double beside_most = 3.0;
 /* degrees on either side, for each rail before the first ball */
 static const double kick_wide = 20.0;
 static const double speed_most = 15.0, speed_least = 0.05; /* m/s, of the cue */
@@ -261,18 +259,12 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
   return p;
 }
 
-/* Whether a place is so near to the pocket that what is there is beside it. */
-static bool is_near_pocket(const way *w, const double place[2]) {
-  const double x = place[0] - w->pocket->centre[0], y = place[1] - w->pocket->centre[1];
-  return x * x + y * y < beside_most * beside_most * w->pocket->radius * w->pocket->radius;
-}
-
 /* Whether a cushion that the ball met is beside the pocket. */
 static bool is_beside(const way *w, const carom_brief_event *e) {
+  const int pocket = (int)(w->pocket - w->table->pocket);
   if (e->type == CAROM_EVENT_JAW)
-    return is_near_pocket(w, w->table->jaw[e->b].centre);
-  const carom_rail *r = &w->table->rail[e->b];
-  return is_near_pocket(w, r->p) || is_near_pocket(w, r->q);
+    return carom_is_near_pocket(w->table, pocket, w->table->jaw[e->b].centre);
+  return carom_is_beside(w->table, e->b, pocket);
 }
 
 /* What comes of a cue, of the whole layout. */

@@ -1,12 +1,14 @@
 /* Bank pool: the rules of the BCA, under the general rules of the WPA.
  *
- * A ball counts that is called with its pocket and banked: the cue ball meets it first, without a
- * cushion before, and it meets a cushion, not only jaws, before it falls. It keeps the turn, and
- * eight of them win. What falls otherwise comes back at the end of the visit, or when no other ball
- * is left. A foul costs one ball; who has none owes one; the third in a row loses. A ball that
- * leaves the table is no foul. After the break, which is called by nobody, who has potted plays on;
- * if it pots none and drives fewer than two balls to rails, the other may have it played again. */
+ * A ball counts that is called with its pocket and banked, as pot_kind.h has it: the cue ball meets
+ * it first and directly, and it meets a cushion that is not beside the pocket before it falls. It
+ * keeps the turn, and eight of them win. What falls otherwise comes back at the end of the visit,
+ * or when no other ball is left. A foul costs one ball; who has none owes one; the third in a row
+ * loses. A ball that leaves the table is no foul. After the break, which is called by nobody, who
+ * has potted plays on; if it pots none and drives fewer than two balls to rails, the other may have
+ * it played again. */
 #include "games.h"
+#include "pot_kind.h"
 #include "rules.h"
 
 enum { DRIVEN = 2 };
@@ -14,7 +16,7 @@ static const uint32_t object_balls = 0xfffe;
 
 static bool is_banked(const carom_facts *facts, carom_call call) {
   return carom_is_called(facts, call) && facts->first[0] == call.ball &&
-         facts->cushions_before[0] == 0 && (facts->banked >> call.ball & 1);
+         carom_approach_kind(facts) == CAROM_PLAN_POT && (facts->banked >> call.ball & 1) != 0;
 }
 
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,

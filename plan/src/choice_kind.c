@@ -11,9 +11,10 @@ typedef carom_search search;
 static int32_t point_kind(const carom_facts *facts, int ball) {
   if (facts->first[0] != ball || facts->first[1] < 0)
     return -1;
-  if (facts->cushions_before[0] > 0)
-    return CAROM_PLAN_KICK;
-  return CAROM_PLAN_CAROM;
+  const int32_t approach = carom_approach_kind(facts);
+  if (approach == CAROM_PLAN_POT)
+    return CAROM_PLAN_CAROM;
+  return approach;
 }
 
 /* The kind by which a stroke of the scan pots the ball that a choice names. */
@@ -36,7 +37,7 @@ static int32_t seen_kind(search *plan, const carom_candidate *c, const carom_pla
     carom_search_spend(plan, shot.count);
     int32_t kind;
     if (plan->view.pockets > 0 && choice->pocket >= 0)
-      kind = carom_pot_kind(plan->job.table, &shot, plan->cue_ball, ball, choice->pocket);
+      kind = carom_pot_kind(&shot, plan->cue_ball, ball, choice->pocket);
     else
       kind = point_kind(&facts, ball);
     if (kind >= 0)

@@ -1,20 +1,6 @@
-/* The cushions of a table, cuts, strokes that are ruled, and what they are worth. */
+/* Cuts, strokes that are ruled, and what they are worth. */
 #include "coach.h"
 #include "rules.h"
-
-#include <math.h>
-
-static double length_of(const carom_rail *rail) {
-  const double x = rail->q[0] - rail->p[0], y = rail->q[1] - rail->p[1];
-  return sqrt(x * x + y * y);
-}
-
-bool carom_is_cushion(const carom_table *table, int rail) {
-  double longest = 0.0;
-  for (int k = 0; k < table->rails; k++)
-    longest = fmax(longest, length_of(&table->rail[k]));
-  return length_of(&table->rail[rail]) > 0.2 * longest;
-}
 
 double carom_cut_at(const carom_event *contact, int cue_ball) {
   const int side = contact->a != cue_ball;

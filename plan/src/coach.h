@@ -1,5 +1,4 @@
-/* What the files of the coach share: the cushions of a table, cuts, strokes that are ruled, and
- * what they are worth. */
+/* What the files of the coach share: cuts, strokes that are ruled, and what they are worth. */
 #ifndef CAROM_PLAN_COACH_H
 #define CAROM_PLAN_COACH_H
 
@@ -10,9 +9,6 @@
 /* s: contacts with one rail that follow so soon are one, as a hop along it. */
 static const double carom_same_contact = 0.1;
 
-/* Whether a rail is a cushion, and not the cut of a pocket: it is longer than a fifth of the
- * longest one. */
-bool carom_is_cushion(const carom_table *table, int rail);
 /* The angle from the way of the cue ball, just before its contact with a ball, to the line of
  * centres, degrees; above 0 to the left of the way. */
 double carom_cut_at(const carom_event *contact, int cue_ball);

@@ -133,8 +133,7 @@ static bool is_whole(const carom_plan_job *job) {
          job->player != NULL && job->rules != NULL;
 }
 
-/* Of a job and of all that it points to but its memory. */
-static uint64_t fingerprint_of(const carom_plan_job *job) {
+uint64_t carom_fingerprint_of_job(const carom_plan_job *job) {
   uint64_t h = carom_fingerprint(1, job, sizeof *job);
   h = carom_fingerprint(h, job->table, sizeof *job->table);
   h = carom_fingerprint(h, job->balls, (size_t)job->count * sizeof *job->balls);
@@ -431,7 +430,7 @@ carom_status carom_plan(const carom_plan_job *job, carom_plan_stroke *choices, i
   const carom_status status = carom_search_prepare(job, false, room, &plan);
   if (status != CAROM_OK)
     return status;
-  plan->fingerprint = fingerprint_of(job);
+  plan->fingerprint = carom_fingerprint_of_job(job);
   think(plan);
   plan->go = plan_here;
   carom_search_begin_doubling(plan, FIRST, shots_of(&plan->options));
@@ -445,7 +444,8 @@ carom_status carom_plan_continue(const carom_plan_job *job, carom_plan_stroke *c
   search *plan = place(job);
   if (plan == NULL)
     return CAROM_ERROR_NULL;
-  if (job->count < 2 || job->count > CAROM_BALLS_MOST || plan->fingerprint != fingerprint_of(job))
+  if (job->count < 2 || job->count > CAROM_BALLS_MOST ||
+      plan->fingerprint != carom_fingerprint_of_job(job))
     return CAROM_ERROR_STATE;
   return play_slice(plan, choices, room, found);
 }
@@ -469,7 +469,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   status = prepare(plan, plan->hand, true);
   if (status != CAROM_OK)
     return status;
-  plan->fingerprint = fingerprint_of(job);
+  plan->fingerprint = carom_fingerprint_of_job(job);
   plan->go = find_places;
   return play_slice(plan, choices, room, found);
 }

@@ -1,13 +1,9 @@
 /* What a stroke was, and the words for it: pot_kind.h has the order of precedence. */
 #include "pot_kind.h"
-#include "table/table.h"
+#include "platform/arithmetic.h"
 
 #include <math.h>
 #include <stddef.h>
-
-/* A rail whose end is so near to the centre of a pocket is beside it: radii of the pocket. A corner
- * pocket of a pool table has its rails' ends at 1.2 to 1.6 radii; 6 radii would be 0.4 m. */
-static const double BESIDE = 3.0;
 
 /* Contacts with two balls so near in time are a split hit, s: a film of 1000 pictures a second
  * does not show which ball was met first. */
@@ -16,7 +12,7 @@ static const double SPLIT = 1e-3;
 /* ---- The terms */
 
 /* The terms beyond the kinds. */
-enum { SCRATCH = CAROM_PLAN_KISS + 1, DOUBLE_HIT, SPLIT_HIT, LEGAL_BREAK, FIRST_BALL, TERMS };
+enum { SCRATCH = CAROM_PLAN_RAIL_FIRST + 1, DOUBLE_HIT, SPLIT_HIT, LEGAL_BREAK, FIRST_BALL, TERMS };
 
 static const carom_term terms[TERMS] = {
     /* the kinds of a stroke that pots a ball, in their order of precedence */
@@ -28,8 +24,13 @@ static const carom_term terms[TERMS] = {
     [CAROM_PLAN_KISS] = {"kiss", "The cue ball drives the ball, which glances off another ball "
                                  "before it falls."},
     [CAROM_PLAN_KICK] = {"kick", "The cue ball meets a cushion before it meets any ball."},
-    [CAROM_PLAN_BANK] = {"bank", "The cue ball drives the ball, which meets a cushion before it "
-                                 "falls. A cushion beside the pocket does not count."},
+    [CAROM_PLAN_RAIL_FIRST] = {"rail first",
+                               "The cue ball meets the cushion beside its first ball, and then "
+                               "that ball. Between the two there is no room for the cue ball."},
+    [CAROM_PLAN_BANK] = {"bank",
+                         "The cue ball drives the ball, which meets a cushion before it "
+                         "falls. A cushion beside the pocket does not count, nor does one that "
+                         "the ball touches from the start."},
     [CAROM_PLAN_POT] = {"pot", "The ball falls. As the kind of a stroke, the pot is direct: the "
                                "cue ball meets the ball first, and the ball meets nothing else on "
                                "its way except a cushion beside the pocket."},
@@ -70,7 +71,7 @@ const carom_term *carom_term_of(int k) {
 }
 
 const char *carom_plan_kind_name(carom_plan_kind kind) {
-  if ((int)kind < 0 || (int)kind > CAROM_PLAN_KISS)
+  if ((int)kind < 0 || (int)kind >= SCRATCH)
     return "";
   return terms[kind].name;
 }
@@ -113,20 +114,15 @@ uint32_t carom_stroke_marks(const carom_facts *facts, int cue_ball) {
 
 /* ---- The kind of a pot */
 
-static double square_of_distance(const double a[2], const double b[2]) {
-  const double x = a[0] - b[0], y = a[1] - b[1];
-  return x * x + y * y;
-}
-
-int carom_is_beside(const carom_table *table, int rail, int pocket) {
-  if (table == NULL || rail < 0 || rail >= table->rails || rail >= CAROM_RAILS_MOST || pocket < 0 ||
-      pocket >= table->pockets || pocket >= CAROM_POCKETS_MOST)
-    return 0;
-  const carom_rail *r = &table->rail[rail];
-  const carom_pocket *hole = &table->pocket[pocket];
-  const double reach = BESIDE * hole->radius;
-  return square_of_distance(r->p, hole->centre) < reach * reach ||
-         square_of_distance(r->q, hole->centre) < reach * reach;
+int32_t carom_approach_kind(const carom_facts *facts) {
+  switch ((carom_approach)facts->approach) {
+  case CAROM_APPROACH_KICK:
+    return CAROM_PLAN_KICK;
+  case CAROM_APPROACH_RAIL_FIRST:
+    return CAROM_PLAN_RAIL_FIRST;
+  default:
+    return CAROM_PLAN_POT;
+  }
 }
 
 /* Event k of a shot, from whichever of its lists is kept. */
@@ -175,9 +171,8 @@ static int driver_of(const carom_shot *shot, int64_t end, int cue_ball, int ball
   return driver;
 }
 
-int32_t carom_pot_kind(const carom_table *table, const carom_shot *shot, int cue_ball, int ball,
-                       int pocket) {
-  if (table == NULL || shot == NULL || (shot->brief == NULL && shot->events == NULL))
+int32_t carom_pot_kind(const carom_shot *shot, int cue_ball, int ball, int pocket) {
+  if (shot == NULL || shot->facts == NULL || (shot->brief == NULL && shot->events == NULL))
     return -1;
   double time;
   const int64_t end = fall_of(shot, ball, pocket);
@@ -187,29 +182,20 @@ int32_t carom_pot_kind(const carom_table *table, const carom_shot *shot, int cue
   if (driver != cue_ball)
     return CAROM_PLAN_COMBINATION;
 
-  bool caroms = false, kisses = false, kicks = false, banks = false;
+  /* other balls that the cue ball meets before the ball, and the ball on its way */
+  bool kisses = false;
   for (int64_t k = 0; k < end; k++) {
     const carom_brief_event e = event_of(shot, k);
-    const bool is_earlier = e.time <= time, is_later = e.time >= time;
-
-    /* other balls that the cue ball meets before the ball, and the ball on its way */
     const int by_cue = met_by(&e, cue_ball), by_ball = met_by(&e, ball);
-    caroms |= is_earlier && by_cue >= 0 && by_cue != ball;
-    kisses |= is_later && by_ball >= 0 && by_ball != cue_ball;
-
-    /* cushions that they meet then */
-    if (e.type == CAROM_EVENT_RAIL && !carom_is_cut(table, e.b)) {
-      kicks |= is_earlier && e.a == cue_ball;
-      banks |= is_later && e.a == ball && !carom_is_beside(table, e.b, pocket);
-    }
+    if (e.time <= time && by_cue >= 0 && by_cue != ball)
+      return CAROM_PLAN_CAROM;
+    kisses |= e.time >= time && by_ball >= 0 && by_ball != cue_ball;
   }
-  if (caroms)
-    return CAROM_PLAN_CAROM;
+
+  const int32_t approach = carom_approach_kind(shot->facts);
   if (kisses)
     return CAROM_PLAN_KISS;
-  if (kicks)
-    return CAROM_PLAN_KICK;
-  if (banks)
+  if (approach == CAROM_PLAN_POT && (shot->facts->banked >> ball & 1) != 0)
     return CAROM_PLAN_BANK;
-  return CAROM_PLAN_POT;
+  return approach;
 }

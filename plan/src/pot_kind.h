@@ -11,13 +11,18 @@
  *   2. carom: the cue ball drives it, and met another ball before.
  *   3. kiss: the cue ball drives it, and the ball glances off another ball on its way.
  *   4. kick: the cue ball drives it, and met a cushion before.
- *   5. bank: the ball meets a cushion on its way.
- *   6. pot: none of these; the pot is direct.
+ *   5. rail first: the same, but the cushion is beside the ball.
+ *   6. bank: the ball meets a cushion on its way.
+ *   7. pot: none of these; the pot is direct.
  *
  * A ball that drives another one is that of its first contact; of several contacts of one instant
- * the cue ball's counts. A jaw or a cut of a pocket is no cushion. Nor is a cushion that ends
- * beside the pocket, within three radii of it, part of a bank: a ball that runs along it falls as
- * one that touches nothing. A second contact with the cue ball is no kiss. */
+ * the cue ball's counts. A second contact with the cue ball is no kiss. Which cushions count is
+ * decided once, where the facts of a shot are noted (carom_facts.approach and banked, facts.c), so
+ * rulings and kinds say the same. A jaw or a cut of a pocket is no cushion. A ball that touches a
+ * cushion from the start is not driven to it (WPA rules of play, 8.4). In a bank, contacts with
+ * cushions are clear and distinct, and one as the ball approaches its pocket is incidental (BCA,
+ * bank pool); here a cushion that ends beside the pocket never counts, because a ball that meets it
+ * and falls was on its way into that pocket. */
 #ifndef CAROM_PLAN_POT_KIND_H
 #define CAROM_PLAN_POT_KIND_H
 
@@ -36,6 +41,10 @@ const carom_term *carom_term_of(int k);
 
 /* Whether rules call it a double hit, with a push through a ball that was not frozen. */
 bool carom_is_double_hit(const carom_facts *facts);
+
+/* How the cue ball came to its first ball: CAROM_PLAN_KICK, RAIL_FIRST, or POT where it met that
+ * ball directly. */
+int32_t carom_approach_kind(const carom_facts *facts);
 
 /* The number of object balls that met a cushion or are no longer on the table. */
 int carom_driven(const carom_facts *facts, int cue_ball);

@@ -286,12 +286,14 @@ static void spread(const search *plan, shot_result *with) {
       f->pocket[k] = of_shot.pocket[n];
       f->pocket_time[k] = of_shot.pocket_time[n];
       f->cushions[k] = of_shot.cushions[n];
+      f->rails[k] = of_shot.rails[n];
       n--;
     } else {
       with->final[k] = plan->job.balls[k].state;
       f->pocket[k] = -1;
       f->pocket_time[k] = INFINITY;
       f->cushions[k] = 0;
+      f->rails[k] = 0;
     }
   }
 }

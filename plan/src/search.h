@@ -8,6 +8,8 @@
 void carom_search_begin(carom_search *plan, int64_t shots);
 /* Goes on with them. Returns whether the end is reached, where the best candidate is the first. */
 bool carom_search_run(carom_search *plan);
+/* The fingerprint of a job and of all that it points to but its memory. */
+uint64_t carom_fingerprint_of_job(const carom_plan_job *job);
 /* The share of the shots that the scan has. */
 double carom_scan_of(const carom_plan_options *o);
 

@@ -7,6 +7,9 @@
  * zone. How often strokes with errors do so is played; and some of those that play on outside the
  * zone are planned on, which shows where the plan turns.
  *
+ * The stages of a stroke come in pieces: a slice of a plan, a value, or a shot. Between two pieces
+ * all of the run-out is in the caller's memory, so slices change no bit.
+ *
  * The chance of the whole is no product of these: it comes from whole run-outs with errors, in
  * which each stroke is planned anew. */
 #include "carom_coach.h"
@@ -14,40 +17,60 @@
 #include "platform/elementary.h"
 #include "platform/ranges.h"
 #include "rules.h"
-#include "search_state.h"
+#include "search.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
-enum { STRAYS = 8, STRAY_SHOTS = 200, HALVINGS = 4 };
+/* VALUE: about as many events of a shot take as long as a value */
+enum { STRAYS = 8, STRAY_SHOTS = 200, HALVINGS = 4, VALUE = 25 };
 static const double STEP = 0.04; /* m, along a ray */
 
-/* What a run-out has before its plans in the job's memory. */
-typedef struct workspace {
-  carom_stroke_room room;
-  carom_ruling ruling;                     /* of a stroke with errors; */
-  carom_ruling stray[STRAYS];              /* of those that leave the zone */
-  carom_shot_ball balls[CAROM_BALLS_MOST]; /* the layout that is played */
-} workspace;
+/* The stages of a stroke, in their order. */
+typedef enum stage { PLAN, TURN, LEAVE, ZONE, TOLERANCE, SHARES, END } stage;
 
-/* A layout of the run-out, and all that its plan needs. */
+/* A search along a line: whole steps while they are good, then half ones. */
+typedef struct probe {
+  double reach, step;  /* the last good place, and how far beyond it the next one is */
+  int tries, halvings; /* that are left */
+} probe;
+
+/* A run-out in the job's memory, before its plans: the layout that is played, all that its plan
+ * needs, and how far the stages have come. */
 typedef struct run_out {
-  workspace *work;
-  carom_plan_options options;
-  carom_plan_rules rules;
-  carom_plan_job job; /* its balls are those of the workspace */
+  carom_plan_options options, stray_options;
+  carom_plan_rules rules, stray_rules;
+  carom_plan_job job, stray_job; /* job.balls are those below */
+  carom_shot_ball balls[CAROM_BALLS_MOST];
   bool hand;
+  carom_stroke_room room;
+  carom_ruling ruling;        /* of a stroke with errors; */
+  carom_ruling stray[STRAYS]; /* of those that leave the zone, */
+  carom_plan_stroke stray_choice[STRAYS];
+  int strays, good; /* how many of them, and of those that succeed */
+
+  /* for the next slice */
+  uint64_t fingerprint; /* of the caller's job; 0: none goes on */
+  carom_sequence_stroke *strokes;
+  int strokes_most, stroke; /* room for them, and which one it is now */
+  double within;
+  stage stage;
+  int done;      /* pieces of the stage */
+  bool is_begun; /* a plan, or a search along a line */
+  probe probe;
+  carom_status status;
 } run_out;
 
-static size_t bytes_of_workspace(void) {
-  return (sizeof(workspace) + 63) / 64 * 64;
+static size_t bytes_of_run_out(void) {
+  return (sizeof(run_out) + 63) / 64 * 64;
 }
 
 size_t carom_sequence_memory(const carom_plan_options *options) {
   const size_t plan = carom_plan_memory(options);
   if (plan == 0)
     return 0;
-  return bytes_of_workspace() + plan;
+  return bytes_of_run_out() + plan;
 }
 
 static bool is_whole(const carom_plan_job *job) {
@@ -56,16 +79,21 @@ static bool is_whole(const carom_plan_job *job) {
          job->memory_size >= carom_sequence_memory(job->options);
 }
 
+static bool has_balls(const carom_plan_job *job) {
+  return job->count >= 2 && job->count <= CAROM_BALLS_MOST;
+}
+
 /* Lays out the first layout of a job, whose plans run out. */
-static carom_status begin(run_out *r, const carom_plan_job *job, int in_hand) {
+static carom_status begin(const carom_plan_job *job, int in_hand, run_out **made) {
   if (!is_whole(job))
     return CAROM_ERROR_NULL;
-  if (job->count < 2 || job->count > CAROM_BALLS_MOST)
+  run_out *r = job->memory;
+  r->fingerprint = 0;
+  if (!has_balls(job))
     return CAROM_ERROR_BALLS;
   if (job->goal != NULL || (job->options != NULL && job->options->safeties))
     return CAROM_ERROR_OPTIONS;
-  r->work = job->memory;
-  r->options = (carom_plan_options){0};
+  memset(r, 0, sizeof *r);
   if (job->options != NULL)
     r->options = *job->options;
   r->options.chance_opponent = 1.0;
@@ -74,34 +102,42 @@ static carom_status begin(run_out *r, const carom_plan_job *job, int in_hand) {
   r->job = *job;
   r->job.options = &r->options;
   r->job.rules = &r->rules;
-  r->job.balls = r->work->balls;
-  r->job.memory = (char *)job->memory + bytes_of_workspace();
-  r->job.memory_size = job->memory_size - bytes_of_workspace();
-  memcpy(r->work->balls, job->balls, (size_t)job->count * sizeof *job->balls);
+  r->job.balls = r->balls;
+  r->job.memory = (char *)job->memory + bytes_of_run_out();
+  r->job.memory_size = job->memory_size - bytes_of_run_out();
+  memcpy(r->balls, job->balls, (size_t)job->count * sizeof *job->balls);
   r->hand = in_hand != 0;
+  *made = r;
   return CAROM_OK;
 }
 
-/* The best stroke of a layout. */
-static carom_status plan_layout(const carom_plan_job *job, bool hand, carom_plan_stroke *choice) {
-  int found;
-  if (hand)
-    return carom_plan_hand(job, NULL, NULL, choice, 1, &found);
-  return carom_plan(job, choice, 1, &found);
+/* Begins the plan of a layout, or goes on with it. r->is_begun remains while it has not ended. */
+static carom_status plan_layout(run_out *r, const carom_plan_job *job, bool hand,
+                                carom_plan_stroke *choice) {
+  int found = 0;
+  carom_status status;
+  if (r->is_begun)
+    status = carom_plan_continue(job, choice, 1, &found);
+  else if (hand)
+    status = carom_plan_hand(job, NULL, NULL, choice, 1, &found);
+  else
+    status = carom_plan(job, choice, 1, &found);
+  r->is_begun = status == CAROM_OK && found == 0;
+  return status;
 }
 
-/* The best stroke of the layout that is played. The cue ball in hand is put on its place. */
-static carom_status plan_stroke(const run_out *r, carom_plan_stroke *choice) {
-  const carom_status status = plan_layout(&r->job, r->hand, choice);
-  if (status != CAROM_OK || !r->hand)
+/* The same of the layout that is played. At the end, the cue ball in hand is put on its place. */
+static carom_status plan_stroke(run_out *r, carom_plan_stroke *choice) {
+  const carom_status status = plan_layout(r, &r->job, r->hand, choice);
+  if (status != CAROM_OK || r->is_begun || !r->hand)
     return status;
-  return carom_place_ball(r->job.table, r->work->balls, (int)r->job.count, (int)r->job.cue->ball,
+  return carom_place_ball(r->job.table, r->balls, (int)r->job.count, (int)r->job.cue->ball,
                           choice->place[0], choice->place[1], NULL);
 }
 
 /* Goes on with the layout and the state that a stroke leaves. */
 static void go_on(run_out *r, const carom_ruling *ruling) {
-  memcpy(r->work->balls, ruling->balls, (size_t)r->job.count * sizeof *ruling->balls);
+  memcpy(r->balls, ruling->balls, (size_t)r->job.count * sizeof *ruling->balls);
   r->rules.state = ruling->state;
   r->job.leave = (int64_t)ruling->turn.leave;
   r->hand = ruling->hand != 0;
@@ -112,12 +148,25 @@ static bool plays_on(const carom_ruling *ruling) {
   return ruling->turn.outcome == CAROM_TURN_KEEP || ruling->turn.outcome == CAROM_TURN_WIN;
 }
 
-static void play(const run_out *r, const carom_cue *cue, carom_call call, carom_ruling *ruling) {
-  carom_play_stroke(&r->job, cue, call, &r->work->room, &(carom_shot){.events = NULL}, ruling);
+/* Plays the stroke of a choice by another cue. Returns the number of its events. */
+static int64_t play(run_out *r, const carom_cue *cue, const carom_plan_stroke *choice,
+                    carom_ruling *ruling) {
+  carom_shot shot = {.events = NULL};
+  carom_play_stroke(&r->job, cue, (carom_call){choice->ball, choice->pocket}, &r->room, &shot,
+                    ruling);
+  return shot.count + 1;
 }
 
-static carom_call call_of(const carom_plan_stroke *choice) {
-  return (carom_call){choice->ball, choice->pocket};
+/* Takes the result of a probe at reach + step. Returns whether the search goes on. */
+static bool advance(probe *p, bool is_good) {
+  p->tries--;
+  if (is_good) {
+    p->reach += p->step;
+  } else {
+    p->step *= 0.5;
+    p->halvings--;
+  }
+  return p->tries > 0 && p->halvings > 0;
 }
 
 /* ---- Landing zones */
@@ -136,36 +185,39 @@ static double value_at(const run_out *r, carom_ruling *ruling, const double plac
   return value;
 }
 
-/* Sets the zone about the cue ball of a ruling, and the value there. */
-static void find_zone(const run_out *r, double within, carom_sequence_stroke *s) {
+/* The next value of a zone: that of the leave, then those along the rays. Returns whether there are
+ * more. */
+static bool probe_zone(run_out *r, carom_sequence_stroke *s) {
   carom_ruling *ruling = &s->ruling;
   const double *middle = ruling->balls[r->job.cue->ball].state.r;
-  for (int k = 0; k < CAROM_ZONE_CORNERS; k++)
-    memcpy(s->zone[k], middle, sizeof s->zone[k]);
-  s->leave_value = ruling->turn.outcome == CAROM_TURN_WIN;
-  if (ruling->turn.outcome != CAROM_TURN_KEEP || ruling->hand)
-    return;
-  s->leave_value = value_at(r, ruling, middle);
-  const double least = s->leave_value - within;
-  for (int k = 0; k < CAROM_ZONE_CORNERS; k++) {
-    double sine, cosine, reach = 0.0, step = STEP;
-    carom_sincos(2.0 * pi * k / (double)CAROM_ZONE_CORNERS, &sine, &cosine);
-
-    /* whole steps to the first place that is too bad, then half ones */
-    for (int halvings = 0; halvings < HALVINGS;) {
-      const double far = reach + step;
-      const double place[2] = {middle[0] + far * cosine, middle[1] + far * sine};
-      const double value = value_at(r, ruling, place);
-      if (value >= 0.0 && value >= least) {
-        reach = far;
-        continue;
-      }
-      step *= 0.5;
-      halvings++;
-    }
-    s->zone[k][0] = middle[0] + reach * cosine;
-    s->zone[k][1] = middle[1] + reach * sine;
+  if (!r->is_begun) {
+    for (int k = 0; k < CAROM_ZONE_CORNERS; k++)
+      memcpy(s->zone[k], middle, sizeof s->zone[k]);
+    s->leave_value = ruling->turn.outcome == CAROM_TURN_WIN;
+    if (ruling->turn.outcome != CAROM_TURN_KEEP || ruling->hand)
+      return false;
+    s->leave_value = value_at(r, ruling, middle);
+    r->probe = (probe){.step = STEP, .tries = INT_MAX, .halvings = HALVINGS};
+    r->is_begun = true;
+    return true;
   }
+
+  /* the next place along the ray */
+  double sine, cosine;
+  carom_sincos(2.0 * pi * r->done / (double)CAROM_ZONE_CORNERS, &sine, &cosine);
+  const double far = r->probe.reach + r->probe.step;
+  const double place[2] = {middle[0] + far * cosine, middle[1] + far * sine};
+  const double value = value_at(r, ruling, place);
+  if (advance(&r->probe, value >= 0.0 && value >= s->leave_value - r->within))
+    return true;
+
+  /* the corner, and the next ray */
+  s->zone[r->done][0] = middle[0] + r->probe.reach * cosine;
+  s->zone[r->done][1] = middle[1] + r->probe.reach * sine;
+  r->probe = (probe){.step = STEP, .tries = INT_MAX, .halvings = HALVINGS};
+  r->done++;
+  r->is_begun = r->done < CAROM_ZONE_CORNERS;
+  return r->is_begun;
 }
 
 /* Whether a place is in the zone: a ray from it crosses the border an odd number of times. */
@@ -193,75 +245,79 @@ static bool succeeds(const run_out *r, const carom_sequence_stroke *s, const car
 
 /* ---- What strokes with errors come to */
 
-/* How far one number of the stroke, which is within the cue, may change by steps of one sign. */
-static double limit_of(const run_out *r, const carom_sequence_stroke *s, carom_cue *cue,
-                       double *number, double step) {
-  enum { STEPS = 60 };
-  const double own = *number;
-  double good = 0.0;
-  for (int steps = 0, halvings = 0; steps < STEPS && halvings <= HALVINGS; steps++) {
-    *number = own + good + step;
-    play(r, cue, call_of(&s->choice), &r->work->ruling);
-    if (*number > 0.0 && succeeds(r, s, &r->work->ruling)) {
-      good += step;
-      continue;
-    }
-    step *= 0.5;
-    halvings++;
-  }
-  *number = own;
-  return own + good;
-}
-
-static void find_tolerance(const run_out *r, carom_sequence_stroke *s) {
+/* The next shot of a tolerance: how far the speed, then the direction may change to either side.
+ * Returns its events. */
+static int64_t probe_tolerance(run_out *r, carom_sequence_stroke *s) {
   static const double speed_step = 0.04, phi_step = 0.1; /* share of the speed; degrees */
+  enum { STEPS = 60 };
+  const int side = r->done / 2;
+  const bool is_speed = r->done % 2 == 0;
   carom_cue cue = s->choice.cue;
-  for (int side = 0; side < 2; side++) {
-    const double sign = 2.0 * side - 1.0;
-    s->speed[side] = limit_of(r, s, &cue, &cue.speed, sign * speed_step * cue.speed);
-    s->phi[side] = limit_of(r, s, &cue, &cue.phi, sign * phi_step);
+  double *number = is_speed ? &cue.speed : &cue.phi;
+  double *limit = is_speed ? &s->speed[side] : &s->phi[side];
+  if (!r->is_begun) {
+    const double step = is_speed ? speed_step * cue.speed : phi_step;
+    r->probe = (probe){.step = (2.0 * side - 1.0) * step, .tries = STEPS, .halvings = HALVINGS + 1};
   }
+
+  const double own = *number;
+  *number = own + r->probe.reach + r->probe.step;
+  const int64_t events = play(r, &cue, &s->choice, &r->ruling);
+  r->is_begun = advance(&r->probe, *number > 0.0 && succeeds(r, s, &r->ruling));
+  if (!r->is_begun) {
+    *limit = own + r->probe.reach;
+    r->done++;
+  }
+  return events;
 }
 
 /* The stroke with the errors of a number. */
-static carom_cue struck_by(const run_out *r, const carom_plan_stroke *choice, uint64_t number) {
+static carom_cue struck_by(const run_out *r, const carom_plan_stroke *choice, int number) {
   carom_cue cue = choice->cue;
-  carom_player_strike(r->job.player, r->options.seed, number, &cue);
+  carom_player_strike(r->job.player, r->options.seed, (uint64_t)number, &cue);
   return cue;
 }
 
-/* Plays strokes with errors, and keeps some of those that leave the zone. Returns how many. */
-static int find_shares(const run_out *r, carom_sequence_stroke *s) {
-  int good = 0, strays = 0;
-  for (int n = 0; n < CAROM_SEQUENCE_TRIES; n++) {
-    const carom_cue cue = struck_by(r, &s->choice, (uint64_t)n);
-    carom_ruling *ruling = &r->work->ruling;
-    play(r, &cue, call_of(&s->choice), ruling);
-    if (succeeds(r, s, ruling))
-      good++;
-    else if (ruling->turn.outcome == CAROM_TURN_KEEP && strays++ < STRAYS)
-      r->work->stray[strays - 1] = *ruling;
-  }
-  s->zone_share = good / (double)CAROM_SEQUENCE_TRIES;
-  s->stray_share = strays / (double)CAROM_SEQUENCE_TRIES;
-  return (int)carom_min(strays, STRAYS);
+/* Plays the next stroke with errors, and keeps it if it is one of the first that leave the zone.
+ * Returns its events. */
+static int64_t play_share(run_out *r, carom_sequence_stroke *s) {
+  const carom_cue cue = struck_by(r, &s->choice, r->done);
+  if (r->done++ == 0)
+    r->good = r->strays = 0;
+  const int64_t events = play(r, &cue, &s->choice, &r->ruling);
+  if (succeeds(r, s, &r->ruling))
+    r->good++;
+  else if (r->ruling.turn.outcome == CAROM_TURN_KEEP && r->strays++ < STRAYS)
+    r->stray[r->strays - 1] = r->ruling;
+  s->zone_share = r->good / (double)CAROM_SEQUENCE_TRIES;
+  s->stray_share = r->strays / (double)CAROM_SEQUENCE_TRIES;
+  return events;
 }
 
-/* Plans on from strays, and finds the most frequent pot but that of the next stroke. */
-static void find_turn(const run_out *r, int strays, const carom_plan_stroke *next,
-                      carom_sequence_stroke *s) {
-  carom_plan_stroke choice[STRAYS];
-  carom_plan_options options = r->options;
-  if (options.shots == 0 || options.shots > STRAY_SHOTS)
-    options.shots = STRAY_SHOTS;
-  for (int k = 0; k < strays; k++) {
-    const carom_ruling *stray = &r->work->stray[k];
-    carom_plan_rules rules;
-    carom_plan_job job = carom_job_after(&r->job, stray, &rules);
-    job.options = &options;
-    if (plan_layout(&job, stray->hand != 0, &choice[k]) != CAROM_OK)
-      choice[k].ball = -1;
+/* Plans on from the next stray. Returns whether there are more. */
+static bool plan_stray(run_out *r) {
+  const int kept = (int)carom_min(r->strays, STRAYS);
+  if (r->done == kept)
+    return false;
+  const carom_ruling *stray = &r->stray[r->done];
+  if (!r->is_begun) {
+    r->stray_options = r->options;
+    if (r->options.shots == 0 || r->options.shots > STRAY_SHOTS)
+      r->stray_options.shots = STRAY_SHOTS;
+    r->stray_job = carom_job_after(&r->job, stray, &r->stray_rules);
+    r->stray_job.options = &r->stray_options;
   }
+  carom_plan_stroke *choice = &r->stray_choice[r->done];
+  if (plan_layout(r, &r->stray_job, stray->hand != 0, choice) != CAROM_OK)
+    choice->ball = -1;
+  r->done += !r->is_begun;
+  return r->done < kept;
+}
+
+/* Finds the most frequent pot from the strays but that of the next stroke. */
+static void find_turn(const run_out *r, const carom_plan_stroke *next, carom_sequence_stroke *s) {
+  const carom_plan_stroke *choice = r->stray_choice;
+  const int strays = (int)carom_min(r->strays, STRAYS);
   int most = 0;
   for (int k = 0; k < strays; k++) {
     const bool is_next = choice[k].ball == next->ball && choice[k].pocket == next->pocket;
@@ -284,54 +340,133 @@ static bool is_pot(const carom_plan_stroke *choice) {
 }
 
 /* Plays the stroke without errors; where a pot misses, the first one with errors that plays on
- * stands for it. */
-static void find_leave(const run_out *r, carom_sequence_stroke *s) {
-  play(r, &s->choice.cue, call_of(&s->choice), &s->ruling);
-  for (int n = 0; n < CAROM_SEQUENCE_TRIES && is_pot(&s->choice) && !plays_on(&s->ruling); n++) {
-    const carom_cue cue = struck_by(r, &s->choice, (uint64_t)n);
-    play(r, &cue, call_of(&s->choice), &s->ruling);
-  }
+ * stands for it. Returns the events of the stroke. */
+static int64_t play_leave(run_out *r, carom_sequence_stroke *s) {
+  carom_cue cue = s->choice.cue;
+  if (r->done > 0)
+    cue = struck_by(r, &s->choice, r->done - 1);
+  r->done++;
+  return play(r, &cue, &s->choice, &s->ruling);
 }
 
 static bool is_stopped(const run_out *r) {
   return r->options.stop != NULL && *r->options.stop != 0;
 }
 
+/* ---- The stages */
+
+static void begin_stage(run_out *r, stage next) {
+  r->stage = next;
+  r->done = 0;
+  r->is_begun = false;
+}
+
+/* Plans the stroke. */
+static void go_through_plan(run_out *r, carom_sequence_stroke *s) {
+  r->status = plan_stroke(r, &s->choice);
+  if (r->status != CAROM_OK)
+    begin_stage(r, END);
+  else if (!r->is_begun)
+    begin_stage(r, TURN);
+}
+
+/* After the last piece of a stroke: the next stroke, or the end. */
+static void end_stroke(run_out *r, const carom_sequence_stroke *s) {
+  r->stroke++;
+  if (s->ruling.turn.outcome != CAROM_TURN_KEEP || !is_pot(&s->choice) || is_stopped(r) ||
+      r->stroke == r->strokes_most) {
+    begin_stage(r, END);
+    return;
+  }
+  go_on(r, &s->ruling);
+  memset(&r->strokes[r->stroke], 0, sizeof *s);
+  r->strokes[r->stroke].turn_ball = r->strokes[r->stroke].turn_pocket = -1;
+  begin_stage(r, PLAN);
+}
+
+/* Goes through the next piece of a stage. Returns about how many events it takes. */
+static int64_t go_through_piece(run_out *r) {
+  carom_sequence_stroke *s = &r->strokes[r->stroke];
+  int64_t events = r->options.slice;
+  switch (r->stage) {
+  case PLAN:
+    go_through_plan(r, s);
+    break;
+  case TURN:
+    if (r->stroke > 0 && plan_stray(r))
+      break;
+    if (r->stroke > 0)
+      find_turn(r, &s->choice, s - 1);
+    begin_stage(r, LEAVE);
+    break;
+  case LEAVE:
+    events = play_leave(r, s);
+    if (r->done > CAROM_SEQUENCE_TRIES || !is_pot(&s->choice) || plays_on(&s->ruling))
+      begin_stage(r, ZONE);
+    break;
+  case ZONE:
+    events = VALUE;
+    if (!probe_zone(r, s))
+      begin_stage(r, TOLERANCE);
+    break;
+  case TOLERANCE:
+    events = probe_tolerance(r, s);
+    if (r->done == 4)
+      begin_stage(r, SHARES);
+    break;
+  case SHARES:
+    events = play_share(r, s);
+    if (r->done == CAROM_SEQUENCE_TRIES)
+      end_stroke(r, s);
+    break;
+  case END:
+    break;
+  }
+  return events;
+}
+
+/* Plays a slice of a run-out, or what is left of it. */
+static carom_status play_slice(run_out *r, int *found) {
+  int64_t left = INT64_MAX;
+  if (r->options.slice > 0)
+    left = r->options.slice;
+  while (r->stage != END && left > 0)
+    left -= go_through_piece(r);
+  *found = 0;
+  if (r->stage != END)
+    return CAROM_OK;
+  *found = r->stroke;
+  return r->stroke > 0 ? CAROM_OK : r->status;
+}
+
 carom_status carom_sequence(const carom_plan_job *job, int in_hand, double within,
                             carom_sequence_stroke *strokes, int room, int *found) {
-  run_out r;
+  run_out *r;
   if (strokes == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
-  carom_status status = begin(&r, job, in_hand);
+  carom_status status = begin(job, in_hand, &r);
   if (status == CAROM_OK && !(within > 0.0 && within < 1.0))
     status = CAROM_ERROR_OPTIONS;
   if (status != CAROM_OK)
     return status;
-  int strays = 0, n = 0;
-  for (; n < carom_min(room, CAROM_SEQUENCE_MOST); n++) {
-    carom_sequence_stroke *s = &strokes[n];
-    memset(s, 0, sizeof *s);
-    s->turn_ball = s->turn_pocket = -1;
-    status = plan_stroke(&r, &s->choice);
-    if (status != CAROM_OK)
-      break;
+  if (job->options != NULL)
+    r->options.slice = job->options->slice;
+  r->fingerprint = carom_fingerprint_of_job(job);
+  r->strokes = strokes;
+  r->strokes_most = (int)carom_min(room, CAROM_SEQUENCE_MOST);
+  r->within = within;
+  memset(strokes, 0, sizeof *strokes);
+  strokes->turn_ball = strokes->turn_pocket = -1;
+  return play_slice(r, found);
+}
 
-    if (n > 0)
-      find_turn(&r, strays, &s->choice, &strokes[n - 1]);
-    find_leave(&r, s);
-    find_zone(&r, within, s);
-    find_tolerance(&r, s);
-    strays = find_shares(&r, s);
-    if (s->ruling.turn.outcome != CAROM_TURN_KEEP || !is_pot(&s->choice) || is_stopped(&r)) {
-      n++;
-      break;
-    }
-    go_on(&r, &s->ruling);
-  }
-  *found = n;
-  if (n > 0)
-    status = CAROM_OK;
-  return status;
+carom_status carom_sequence_continue(const carom_plan_job *job, int *found) {
+  if (found == NULL || !is_whole(job))
+    return CAROM_ERROR_NULL;
+  run_out *r = job->memory;
+  if (!has_balls(job) || r->fingerprint != carom_fingerprint_of_job(job))
+    return CAROM_ERROR_STATE;
+  return play_slice(r, found);
 }
 
 /* Plays one run-out; its strokes have errors and plans of their own. */
@@ -339,7 +474,7 @@ static carom_status play_run(run_out *r, uint64_t number, carom_sequence_counts 
   enum { STROKES_MOST = 200 };
   const uint64_t seed = r->options.seed;
   carom_status status = CAROM_OK;
-  carom_ruling *ruling = &r->work->ruling;
+  carom_ruling *ruling = &r->ruling;
   for (int n = 0; n < STROKES_MOST; n++) {
     carom_plan_stroke choice;
     r->options.seed = (uint64_t)(0x1p53 * carom_uniform(seed, DRAW_RUN_OUTS, number, (uint32_t)n));
@@ -347,7 +482,7 @@ static carom_status play_run(run_out *r, uint64_t number, carom_sequence_counts 
     if (status != CAROM_OK || is_stopped(r))
       break;
     const carom_cue cue = struck_by(r, &choice, 0);
-    play(r, &cue, call_of(&choice), ruling);
+    play(r, &cue, &choice, ruling);
     counts->strokes += plays_on(ruling);
     if (ruling->turn.outcome != CAROM_TURN_KEEP) {
       counts->runs += ruling->turn.outcome == CAROM_TURN_WIN;
@@ -361,18 +496,18 @@ static carom_status play_run(run_out *r, uint64_t number, carom_sequence_counts 
 
 carom_status carom_sequence_play(const carom_plan_job *job, int in_hand, int64_t first, int64_t n,
                                  carom_sequence_counts *counts) {
-  run_out r;
+  run_out *r;
   if (counts == NULL)
     return CAROM_ERROR_NULL;
   if (first < 0 || n < 0)
     return CAROM_ERROR_OPTIONS;
   for (int64_t k = first; k < first + n; k++) {
-    carom_status status = begin(&r, job, in_hand);
+    carom_status status = begin(job, in_hand, &r);
     if (status == CAROM_OK)
-      status = play_run(&r, (uint64_t)k, counts);
+      status = play_run(r, (uint64_t)k, counts);
     if (status != CAROM_OK)
       return status;
-    if (is_stopped(&r))
+    if (is_stopped(r))
       break;
     counts->plays++;
   }

@@ -5,7 +5,9 @@
  * degrees. */
 #include "carom_coach.h"
 #include "coach.h"
+#include "eye.h"
 #include "platform/ranges.h"
+#include "pot_kind.h"
 #include "view.h"
 
 #include <math.h>
@@ -25,8 +27,12 @@ typedef struct way_run {
   double start, low, high;
 } way_run;
 
-/* The shots of a batch, and of one stroke whose events are read. */
+/* The shots of a batch, with where the balls of each lie, and of one stroke whose events are
+ * read. */
 typedef struct workspace {
+  carom_features features;
+  carom_ball_kind kind[CAROM_BALLS_MOST];
+  carom_ball_state drawn[BLOCK][CAROM_BALLS_MOST];
   carom_shot shot[BLOCK];
   carom_facts facts[BLOCK];
   carom_cue cue[BLOCK];
@@ -52,16 +58,23 @@ static int cue_ball_of(const ways_search *s) {
   return (int)s->job->cues->ball;
 }
 
-/* Plays strokes of the layout; false after an error. */
-static bool play(ways_search *s, int n) {
-  const carom_shot_job shots = {.table = s->job->table,
-                                .balls = s->job->balls,
-                                .cues = s->work->cue,
-                                .count = s->job->count,
-                                .cue_stride = 1,
-                                .n = (uint64_t)n,
-                                .options = &s->options,
-                                .shots = s->work->shot};
+/* Plays strokes of the layout, or with `elsewhere` of the layouts that were drawn; false after an
+ * error. */
+static bool play(ways_search *s, int n, bool elsewhere) {
+  carom_shot_job shots = {.table = s->job->table,
+                          .balls = s->job->balls,
+                          .cues = s->work->cue,
+                          .count = s->job->count,
+                          .cue_stride = 1,
+                          .n = (uint64_t)n,
+                          .options = &s->options,
+                          .shots = s->work->shot};
+  if (elsewhere) {
+    shots.balls = NULL;
+    shots.kinds = s->work->kind;
+    shots.states = s->work->drawn[0];
+    shots.ball_stride = CAROM_BALLS_MOST;
+  }
   for (int k = 0; k < n; k++)
     s->work->shot[k] = (carom_shot){.facts = &s->work->facts[k], .final = s->work->final[k]};
   s->status = carom_shoot_batch(&shots);
@@ -95,16 +108,30 @@ int carom_way_succeeds(const carom_ways_job *job, const carom_shot *shot, const 
   return is_good(job, shot->facts, shot->final, w);
 }
 
-/* Sets the chance of a way, by strokes in batches; false after an error. */
+/* Sets the chance of a way, by strokes in batches, each of which draws the errors of the stroke and
+ * of the places of balls, as plans do; false after an error. */
 static bool find_chance(ways_search *s, way *w) {
+  workspace *work = s->work;
+  const double eye = carom_player_bounded(s->job->player, &w->cue).eye;
+  carom_prepared layout;
+  int where;
+  s->status = carom_prepare(s->job->table, s->job->balls, s->job->count, &s->options,
+                            &work->features, &layout, &where);
+  if (s->status < 0)
+    return false;
+  for (int k = 0; k < layout.count; k++)
+    work->kind[k] = *layout.kind[k];
+
   int good = 0;
   for (int first = 0; first < TRIES; first += BLOCK) {
     const int n = (int)carom_min(TRIES - first, BLOCK);
     for (int k = 0; k < n; k++) {
-      s->work->cue[k] = w->cue;
-      carom_player_strike(s->job->player, 0, (uint64_t)(first + k), &s->work->cue[k]);
+      const uint64_t number = (uint64_t)(first + k);
+      work->cue[k] = w->cue;
+      carom_player_strike(s->job->player, 0, number, &work->cue[k]);
+      carom_eye_draw(&layout, (int)w->cue.ball, eye, 0, DRAW_PLAYED, number, work->drawn[k]);
     }
-    if (!play(s, n))
+    if (!play(s, n, true))
       return false;
     for (int k = 0; k < n; k++)
       good += is_good(s->job, &s->work->facts[k], s->work->final[k], w);
@@ -139,7 +166,7 @@ static bool add_part(way *w, carom_part part) {
  * pocket is none, nor is a hop on the rail before. False where there is no room. */
 static bool add_rail(const ways_search *s, const carom_event *e, bool hop, way *w, int *rails) {
   const carom_table *t = s->job->table;
-  if (hop || !carom_is_cushion(t, e->b))
+  if (hop || carom_is_cut(t, e->b))
     return true;
   const char *name = carom_rail_name(t, e->b);
   ++*rails;
@@ -215,7 +242,7 @@ static bool add_link(const ways_search *s, const carom_shot *shot, const pot_cha
     const carom_event *e = &shot->events[k];
     if (e->time < chain->start[n])
       continue;
-    if (is_of(e, CAROM_EVENT_RAIL, ball)) {
+    if (is_of(e, CAROM_EVENT_RAIL, ball) && (shot->facts->rails[ball] >> e->b & 1) != 0) {
       const int parts = w->parts;
       if (!add_rail(s, e, e->b == last, w, &rails->total))
         return false;
@@ -249,7 +276,7 @@ static bool read_pot(const ways_search *s, const carom_shot *shot, way *w) {
       return false;
   }
   w->parts -= rails.at_pocket;
-  w->kind = carom_pot_kind(s->job->table, shot, cue, w->ball, w->pocket);
+  w->kind = carom_pot_kind(shot, cue, w->ball, w->pocket);
   return w->kind >= 0 && rails.total - rails.at_pocket <= s->job->rails;
 }
 
@@ -464,7 +491,7 @@ static bool scan_block(ways_search *s, int stroke, int64_t first, int n, double 
     cue[k] = s->job->cues[stroke];
     cue[k].phi = step * (double)(first + k);
   }
-  if (!play(s, n))
+  if (!play(s, n, false))
     return false;
 
   for (int k = 0; k < n; k++) {
@@ -606,6 +633,7 @@ static carom_status begin(ways_search *s, const carom_ways_job *job, int64_t roo
   if (job->shot != NULL)
     s->options = *job->shot;
   s->run = (way_run *)(s->work + 1);
+  s->work->features.radius = 0.0; /* nothing is prepared yet */
   return CAROM_OK;
 }
 

@@ -130,7 +130,7 @@ int carom_names_ball(const carom_plan_stroke *choice) {
 /* Whether event k of a shot is a cushion that the ball meets, and no hop along the one before. */
 static bool is_rail(const carom_table *table, const carom_shot *shot, int64_t k, int64_t ball) {
   const carom_event *e = &shot->events[k];
-  if (e->type != CAROM_EVENT_RAIL || e->a != ball || !carom_is_cushion(table, (int)e->b))
+  if (e->type != CAROM_EVENT_RAIL || e->a != ball || carom_is_cut(table, e->b))
     return false;
   for (int64_t n = k - 1; n >= 0 && e->time - shot->events[n].time < carom_same_contact; n--)
     if (shot->events[n].type == e->type && shot->events[n].a == ball && shot->events[n].b == e->b)

@@ -202,7 +202,7 @@ TEST(three_cushion) {
       carom_shoot(&table, balls, 3, &best[i].cue, &shot_options, &shot);
       const bool point = facts.first[1] >= 0 && facts.cushions_before[1] >= 3;
       ck_assert(!point || best[i].ball == facts.first[0]);
-      ck_assert(!point || (best[i].kind == CAROM_PLAN_KICK) == (facts.cushions_before[0] > 0));
+      ck_assert(!point || (best[i].kind == CAROM_PLAN_CAROM) == (facts.cushions_before[0] == 0));
       ck_assert(best[i].ball >= 0 || best[i].kind == CAROM_PLAN_SAFETY);
     }
     sum += p;

@@ -78,6 +78,7 @@ static const member members[] = {
     OF_FACTS(beyond_middle, SET),
     OF_FACTS(at_head, SET),
     OF_FACTS(banked, SET),
+    OF_FACTS(approach, NUMBER),
     MEMBER(in_play, SET),
     MEMBER(together, SET),
     MEMBER(met, SET),

@@ -1,4 +1,5 @@
-/* Plans that are stopped, and plans in slices. */
+/* Plans that are stopped, and plans and run-outs in slices. */
+#include "carom_coach.h"
 #include "carom_match.h"
 #include "plan_support.h"
 
@@ -132,6 +133,50 @@ TEST(plans_in_slices) {
       ck_assert_mem_eq(best, whole, (size_t)found * sizeof *best);
       ck_assert_int_eq(judged, previous);
     }
+    edge_free(&memory);
+  }
+}
+
+/* A run-out in slices has the strokes of one call, bit for bit, and a slice judges no more shots
+ * than it has events, but those of a plan that begins. Another job is refused. */
+TEST(run_outs_in_slices) {
+  static const int64_t slices[] = {1, 40, 1000};
+  static carom_sequence_stroke whole[CAROM_SEQUENCE_MOST], strokes[CAROM_SEQUENCE_MOST];
+  for (int hand = 0; hand < 2; hand++) {
+    int found_whole, found;
+    make_layout(4, 3);
+    job.leave = hand ? CAROM_LEAVE_ANYWHERE : CAROM_LEAVE_AFTER;
+    stopped_rules = rules;
+    rules.judge = judge_and_stop;
+    judged_most = -1;
+    options = (carom_plan_options){.shots = 200, .seed = 4};
+    job.memory_size = carom_sequence_memory(&options);
+    memory = edge_make(job.memory_size, true);
+    job.memory = memory.memory;
+    expect_ok(carom_sequence(&job, hand, 0.03, whole, CAROM_SEQUENCE_MOST, &found_whole));
+    ck_assert_int_gt(found_whole, 1);
+    for (size_t k = 0; k < COUNT_OF(slices); k++) {
+      options.slice = slices[k];
+      memset(job.memory, 0x55, job.memory_size);
+      memset(strokes, 0x55, sizeof strokes);
+      int64_t most = 0, calls = 0;
+      judged = 0;
+      expect_ok(carom_sequence(&job, hand, 0.03, strokes, CAROM_SEQUENCE_MOST, &found));
+      for (; found == 0; calls++) {
+        const int64_t previous = judged;
+        expect_ok(carom_sequence_continue(&job, &found));
+        if (judged - previous > most)
+          most = judged - previous;
+      }
+      ck_assert_int_le(most, slices[k] + 2);
+      ck_assert_int_gt(calls, judged / (slices[k] + 2));
+      ck_assert_int_eq(found, found_whole);
+      ck_assert_mem_eq(strokes, whole, (size_t)found * sizeof *strokes);
+      expect_ok(carom_sequence_continue(&job, &found)); /* what has ended stays */
+      ck_assert_int_eq(found, found_whole);
+    }
+    options.seed++;
+    ck_assert_int_eq(carom_sequence_continue(&job, &found), CAROM_ERROR_STATE);
     edge_free(&memory);
   }
 }

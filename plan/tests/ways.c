@@ -18,9 +18,9 @@ static carom_cue stroke[SPEEDS];
 
 /* Plays a stroke from the layout; its events and facts are kept until the next one. */
 static carom_shot play(const carom_cue *cue_of_stroke) {
-  static carom_brief_event events[ROOM];
+  static carom_event events[ROOM];
   static carom_facts facts;
-  carom_shot shot = {.brief = events, .room = ROOM, .facts = &facts};
+  carom_shot shot = {.events = events, .room = ROOM, .facts = &facts};
   carom_shoot(&table, balls, BALLS, cue_of_stroke, &shot_options, &shot);
   return shot;
 }
@@ -32,15 +32,29 @@ static bool is_beside(int rail, int pocket) {
   return fmin(distance(r->p, c), distance(r->q, c)) < 3.0 * table.pocket[pocket].radius;
 }
 
+/* Whether there is no room for the cue ball between the ball at r and a rail. */
+static bool is_narrow(int rail, const double *r) {
+  const double *p = table.rail[rail].p, *q = table.rail[rail].q, R = balls[0].kind.radius;
+  const double across = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+  return fabs(across) / distance(p, q) < 3.0 * R;
+}
+
+/* Whether a ball meets a rail, and no cut; not where it lay at first. */
+static bool is_rail(const carom_event *e) {
+  return e->type == CAROM_EVENT_RAIL && carom_rail_name(&table, e->b) != NULL &&
+         distance(e->before[0].r, balls[e->a].state.r) >= CAROM_RULES_TOUCH;
+}
+
 /* The kind of the pot of a ball: who met it first, and what they met before and after. */
 static int kind_of(const carom_shot *shot, int ball, int pocket) {
   const double contact_time = shot->facts->first_time[0];
   double time = INFINITY;
-  int driver = -1, earlier = 0, balls_before = 0, kisses = 0, banks = 0;
+  int driver = -1, balls_before = 0, kisses = 0, banks = 0;
+  uint32_t earlier = 0;
   for (int64_t k = 0; k < shot->count && k < ROOM; k++) {
-    const carom_brief_event *e = &shot->brief[k];
+    const carom_event *e = &shot->events[k];
     const bool contact = e->type == CAROM_EVENT_BALL_BALL, ours = e->a == ball || e->b == ball;
-    const bool rail = e->type == CAROM_EVENT_RAIL && carom_rail_name(&table, e->b) != NULL;
+    const bool rail = is_rail(e);
     if (e->type == CAROM_EVENT_POCKET && e->a == ball)
       break;
     if (contact && ours && (driver < 0 || (e->time == time && e->a == 0))) {
@@ -49,7 +63,7 @@ static int kind_of(const carom_shot *shot, int ball, int pocket) {
       time = e->time;
     } else if (contact && ours && e->a != 0 && e->b != 0 && e->time >= time)
       kisses++;
-    earlier += rail && e->a == 0 && e->time <= contact_time;
+    earlier |= (uint32_t)(rail && e->a == 0 && e->time <= contact_time) << (rail ? e->b : 0);
     balls_before += contact && !ours && (e->a == 0 || e->b == 0) && e->time <= time;
     banks += rail && e->a == ball && driver >= 0 && !is_beside(e->b, pocket);
   }
@@ -59,6 +73,9 @@ static int kind_of(const carom_shot *shot, int ball, int pocket) {
     return CAROM_PLAN_CAROM;
   if (kisses > 0)
     return CAROM_PLAN_KISS;
+  for (int k = 0; k < table.rails && earlier != 0; k++)
+    if (earlier == 1U << k && is_narrow(k, balls[ball].state.r))
+      return CAROM_PLAN_RAIL_FIRST;
   if (earlier > 0)
     return CAROM_PLAN_KICK;
   return banks > 0 ? CAROM_PLAN_BANK : CAROM_PLAN_POT;
@@ -156,18 +173,18 @@ TEST(every_window_is_a_way) {
   ck_assert(windows > layouts && listed == windows);
 }
 
-/* The kind of a pot has one name: of each way of random layouts `carom ways` and the planner, which
- * reads brief events, say the same, as does the reading of this test. */
+/* The kind of a pot has one name: of each way of random layouts `carom ways`, the planner and the
+ * reading of this test say the same. */
 TEST(a_pot_has_one_name) {
   random_source r = {test_seed()};
-  int of_kind[CAROM_PLAN_KISS + 1] = {0}, all = 0;
+  int of_kind[CAROM_PLAN_RAIL_FIRST + 1] = {0}, all = 0;
   for (int layout = 0; layout < draws_of_each(FEWER(12)); layout++) {
-    make_balls(&r, layout, false);
+    make_balls(&r, layout, layout % 3 == 0);
     find(SPEEDS, -1);
     for (int n = 0; n < ways; n++) {
       const way *w = &found[n];
       const carom_shot shot = play(&w->cue);
-      const int planned = carom_pot_kind(&table, &shot, 0, w->ball, w->pocket);
+      const int planned = carom_pot_kind(&shot, 0, w->ball, w->pocket);
       const int read = kind_of(&shot, w->ball, w->pocket);
       ck_assert_msg(w->kind == planned && w->kind == read,
                     "layout %d, ball %d at %.3f degrees: ways %s, planner %s, here %s", layout,
@@ -179,12 +196,13 @@ TEST(a_pot_has_one_name) {
     }
   }
   printf("%d ways", all);
-  for (int kind = 0; kind <= CAROM_PLAN_KISS; kind++)
+  for (int kind = 0; kind <= CAROM_PLAN_RAIL_FIRST; kind++)
     if (of_kind[kind] > 0)
       printf(", %s %d", carom_plan_kind_name((carom_plan_kind)kind), of_kind[kind]);
   puts("");
   ck_assert(of_kind[CAROM_PLAN_POT] > 0 && of_kind[CAROM_PLAN_BANK] > 0 &&
-            of_kind[CAROM_PLAN_KICK] > 0 && of_kind[CAROM_PLAN_COMBINATION] > 0);
+            of_kind[CAROM_PLAN_KICK] > 0 && of_kind[CAROM_PLAN_COMBINATION] > 0 &&
+            of_kind[CAROM_PLAN_RAIL_FIRST] > 0);
 }
 
 /* Whether the stroke of this direction pots ball 1 into the right side pocket. */
@@ -222,7 +240,7 @@ TEST(a_window_across_zero_degrees) {
 /* Whether the cue ball meets a ball directly, or right off one rail. */
 static bool is_met_soon(const carom_cue *aimed) {
   const carom_shot shot = play(aimed);
-  const carom_brief_event *event = shot.brief;
+  const carom_event *event = shot.events;
   for (int64_t k = 0; k < shot.count && event[k].time < shot.facts->first_time[0] - 0.1; k++)
     if (event[k].type == CAROM_EVENT_RAIL)
       return false;
@@ -242,7 +260,7 @@ TEST(pots_at_rails) {
       carom_pot pot = {.ball = 8, .pocket = w->pocket};
       carom_cue aimed = stroke[0];
       const bool direct =
-          w->kind == CAROM_PLAN_POT || (w->kind == CAROM_PLAN_KICK && w->parts == 1);
+          w->kind == CAROM_PLAN_POT || (w->kind == CAROM_PLAN_RAIL_FIRST && w->parts == 1);
       if (!direct || w->phi[1] - w->phi[0] < 0.25 || !is_met_soon(&w->cue))
         continue;
       expect_ok(carom_aim(&table, balls, BALLS, &shot_options, &pot, &aimed));

@@ -64,6 +64,21 @@ static void fly_over(carom_facts *facts, const carom_sim *sim) {
   }
 }
 
+/* How the cue ball comes to its first ball. */
+static carom_approach approach_of(const carom_sim *sim, int ball) {
+  const uint32_t rails = sim->shot->facts->rails[sim->struck];
+  if (rails == 0)
+    return CAROM_APPROACH_DIRECT;
+  int rail = 0;
+  while ((rails >> rail & 1) == 0)
+    rail++;
+  const double *line = sim->features->line[rail], *r = sim->path[ball].from.r;
+  const double gap = line[0] * r[0] + line[1] * r[1] + line[2] - sim->rates[ball].radius;
+  if (rails == UINT32_C(1) << rail && gap < 2.0 * sim->rates[sim->struck].radius)
+    return CAROM_APPROACH_RAIL_FIRST;
+  return CAROM_APPROACH_KICK;
+}
+
 /* The cue ball meets a ball. Only the first meeting with each ball counts. */
 static void meet(carom_facts *facts, const carom_sim *sim, int ball) {
   int count = 0;
@@ -80,6 +95,7 @@ static void meet(carom_facts *facts, const carom_sim *sim, int ball) {
   if (count == 0) {
     const carom_ball_state current = state_now(sim, sim->struck);
     memcpy(facts->first_place, current.r, sizeof facts->first_place);
+    facts->approach = approach_of(sim, ball);
   }
   if (count == 0 || sim->time - facts->first_time[0] <= CAROM_RULES_INSTANT)
     facts->first_set |= set_of(ball);
@@ -101,11 +117,23 @@ static bool is_frozen(const carom_sim *sim, int i) {
 
 /* A ball meets a rail or a jaw. */
 static void meet_cushion(carom_facts *facts, const carom_sim *sim, const carom_due *pending_event) {
-  facts->cushions[pending_event->a]++;
-  if (pending_event->type == CAROM_EVENT_RAIL && !carom_is_cut(sim->table, pending_event->b))
-    facts->banked |= set_of(pending_event->a);
-  if (facts->first[0] >= 0 && !is_frozen(sim, pending_event->a))
+  const int ball = pending_event->a, part = pending_event->b;
+  facts->cushions[ball]++;
+  if (is_frozen(sim, ball))
+    return;
+  if (facts->first[0] >= 0)
     facts->cushions_after++;
+  if (pending_event->type == CAROM_EVENT_RAIL && !carom_is_cut(sim->table, part))
+    facts->rails[ball] |= set_of(part);
+}
+
+/* Whether a ball that falls into a pocket has met a rail that does not end beside it. */
+static bool is_banked(const carom_sim *sim, int ball, int pocket) {
+  const uint32_t rails = sim->shot->facts->rails[ball];
+  for (int k = 0; rails >> k != 0; k++)
+    if ((rails >> k & 1) && !carom_is_beside(sim->table, k, pocket))
+      return true;
+  return false;
 }
 
 /* A ball has an event: where it has been. Its last event was at the start of its path; where it
@@ -154,6 +182,8 @@ void carom_facts_event(const carom_sim *sim, const carom_due *pending_event) {
     facts->down |= set_of(a);
     facts->pocket[a] = b;
     facts->pocket_time[a] = sim->time;
+    if (is_banked(sim, a, b))
+      facts->banked |= set_of(a);
     break;
   case CAROM_EVENT_LEFT_TABLE:
     facts->off |= set_of(a);

@@ -202,7 +202,7 @@ static bool good_result(const carom_sim *sim, const result *so_far) {
   const carom_facts *f = &so_far->facts;
   const int64_t most = so_far->events;
   bool good = so_far->time >= sim->time && so_far->time < INFINITY && in(most, 0, INT32_MAX) &&
-              in(f->cushions_after, 0, most) &&
+              in(f->cushions_after, 0, most) && in(f->approach, 0, CAROM_APPROACH_KICK) &&
               (f->down | f->off | f->moved) >> (sim->count - 1) <= 1;
   good &= f->second_time >= 0.0 && carom_is_positive(1.0 + f->second_speed);
   for (int n = 0; n < 2; n++)

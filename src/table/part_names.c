@@ -1,4 +1,5 @@
-/* Where rails and pockets are, in the words of a player at the head of the table. */
+/* Where rails and pockets are, in the words of a player at the head of the table, and which of them
+ * are beside each other. */
 #include "table/table.h"
 
 #include <math.h>
@@ -6,6 +7,9 @@
 
 /* rails shorter than this part of the longest one are cuts of pockets */
 static const double cut_most = 0.2;
+/* A rail whose end is so near to the centre of a pocket is beside it: radii of the pocket. A corner
+ * pocket of a pool table has its rails' ends at 1.2 to 1.6 radii; 6 radii would be 0.4 m. */
+static const double beside_most = 3.0;
 
 static double square_of_length(const carom_rail *r) {
   const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1];
@@ -17,6 +21,21 @@ bool carom_is_cut(const carom_table *t, int rail) {
   for (int k = 0; k < t->rails; k++)
     longest = fmax(longest, square_of_length(&t->rail[k]));
   return square_of_length(&t->rail[rail]) <= cut_most * cut_most * longest;
+}
+
+bool carom_is_near_pocket(const carom_table *t, int pocket, const double place[2]) {
+  const carom_pocket *hole = &t->pocket[pocket];
+  const double x = place[0] - hole->centre[0], y = place[1] - hole->centre[1];
+  const double reach = beside_most * hole->radius;
+  return x * x + y * y < reach * reach;
+}
+
+int carom_is_beside(const carom_table *t, int rail, int pocket) {
+  if (t == NULL || rail < 0 || rail >= t->rails || rail >= CAROM_RAILS_MOST || pocket < 0 ||
+      pocket >= t->pockets || pocket >= CAROM_POCKETS_MOST)
+    return 0;
+  return carom_is_near_pocket(t, pocket, t->rail[rail].p) ||
+         carom_is_near_pocket(t, pocket, t->rail[rail].q);
 }
 
 /* The name of the side of the rectangle, from 0 to width and length, on which a rail lies, or

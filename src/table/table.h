@@ -68,6 +68,8 @@ void carom_blend_jaw(const carom_table *table, int index, const carom_ball_kind 
 
 /* part_names.c: whether a rail is the cut of a pocket, and no cushion: those are short. */
 bool carom_is_cut(const carom_table *table, int rail);
+/* Whether a place is so near to a pocket that a rail that ends there is beside it. */
+bool carom_is_near_pocket(const carom_table *table, int pocket, const double place[2]);
 
 /* nose.c: the height of a nose for a ball, how far it is inside the wall that stands for it, and
  * the distance from the wall at which a ball on the cloth touches it. */

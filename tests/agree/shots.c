@@ -1,4 +1,5 @@
 /* Whole shots have equal bits in a batch and in single calls, whatever the threads and the cut. */
+#include "carom_tangent.h"
 #include "random_shots.h"
 #include "shot/sim.h"
 #include "support.h"
@@ -37,6 +38,8 @@ typedef struct results {
   carom_shot shot[SHOTS];
   carom_event *events;
   carom_ball_state final[SHOTS][16];
+  carom_facts facts[SHOTS];
+  carom_shot_state state[SHOTS];
   int8_t status[SHOTS];
 } results;
 
@@ -44,8 +47,11 @@ static results *make_results(void) {
   results *r = calloc(1, sizeof *r);
   r->events = calloc((size_t)SHOTS * ROOM, sizeof *r->events);
   for (int k = 0; k < SHOTS; k++)
-    r->shot[k] =
-        (carom_shot){.events = r->events + (size_t)k * ROOM, .room = ROOM, .final = r->final[k]};
+    r->shot[k] = (carom_shot){.events = r->events + (size_t)k * ROOM,
+                              .room = ROOM,
+                              .final = r->final[k],
+                              .facts = &r->facts[k],
+                              .state = &r->state[k]};
   return r;
 }
 
@@ -53,7 +59,10 @@ static results *make_results(void) {
 static carom_status play_batch(const carom_shot_job *like, int from, int n, results *r) {
   carom_shot_job job = *like;
   job.table = &table;
-  job.balls = balls + like->ball_stride * (uint64_t)from;
+  if (like->kinds == NULL)
+    job.balls = balls + like->ball_stride * (uint64_t)from;
+  else
+    job.states += like->ball_stride * (uint64_t)from;
   job.cues = cues + like->cue_stride * (uint64_t)from;
   job.n = (uint64_t)n;
   job.shots = r->shot + from;
@@ -68,6 +77,8 @@ static void same_results(const results *a, const results *b) {
     ck_assert_mem_eq(&a->shot[k].time, &b->shot[k].time, sizeof a->shot[k].time);
   }
   ck_assert_mem_eq(a->final, b->final, sizeof a->final);
+  ck_assert_mem_eq(a->facts, b->facts, sizeof a->facts);
+  ck_assert_mem_eq(a->state, b->state, sizeof a->state);
   ck_assert_mem_eq(a->events, b->events, (size_t)SHOTS * ROOM * sizeof *a->events);
 }
 
@@ -194,6 +205,148 @@ TEST(brief_events) {
   }
   carom_ball_state states[16];
   ck_assert_int_eq(carom_shot_at(balls, 16, &b, 0.5, states), CAROM_ERROR_EVENTS_LOST);
+}
+
+/* ---- Kinds and states by reference, in place of balls */
+
+enum { LAYOUTS = 60, BALLS = 6 };
+static carom_ball_kind kinds[BALLS];
+static carom_ball_state lies[LAYOUTS * BALLS];
+
+/* Random places of balls whose kinds differ; layout 7 has balls that overlap, and the cue of shot
+ * 11 is bad. */
+static void make_layouts(void) {
+  lab_random r = {test_seed()};
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  for (int i = 0; i < BALLS; i++) {
+    kinds[i] = carom_ball_kind_of(CAROM_GAME_POOL);
+    kinds[i].mu_slide = 0.15 + 0.02 * i;
+    kinds[i].mu_roll = 0.008 + 0.001 * i;
+    kinds[i].restitution = 0.9 + 0.01 * i;
+    kinds[i].restitution_cushion = 0.8 + 0.02 * i;
+  }
+  for (int k = 0; k < LAYOUTS; k++) {
+    carom_shot_ball *const b = balls + BALLS * k;
+    for (int i = 0; i < BALLS; i++)
+      b[i] = (carom_shot_ball){.kind = kinds[i], .state.label = CAROM_BALL_POCKETED};
+    for (int i = 0; i < BALLS; i++)
+      while (carom_place_ball(&table, b, BALLS, i, lab_uniform(&r, 0.0, table.width),
+                              lab_uniform(&r, 0.0, table.length), NULL) != CAROM_OK) {
+      }
+    cues[k] = carom_cue_of(CAROM_GAME_POOL);
+    cues[k].speed = lab_uniform(&r, 1.0, 4.0);
+    cues[k].phi = lab_uniform(&r, 0.0, 360.0);
+  }
+  memcpy(balls[7 * BALLS + 3].state.r, balls[7 * BALLS + 2].state.r, sizeof balls->state.r);
+  cues[11].phi = NAN;
+  for (int k = 0; k < LAYOUTS * BALLS; k++)
+    lies[k] = balls[k].state;
+}
+
+/* The bits of single shots with whole balls; layouts of their own or the first one for all, to rest
+ * or stopped, with states to go on. */
+TEST(kinds_and_states_have_the_bits_of_balls) {
+  make_layouts();
+  for (int k = 0; k < 6; k++) {
+    const carom_shot_options options = {.world = (carom_world)(k % 2),
+                                        .time_most = k < 4 ? 0.0 : 1.5};
+    const carom_shot_job job = {.kinds = kinds,
+                                .states = lies,
+                                .count = BALLS,
+                                .ball_stride = k < 2 ? 0 : BALLS,
+                                .cue_stride = 1,
+                                .options = &options};
+    results *single = play_both(&job, LAYOUTS);
+    ck_assert_int_eq(single->status[7], k < 2 ? CAROM_OK : CAROM_ERROR_OVERLAP);
+    ck_assert_int_eq(single->status[11], CAROM_ERROR_CUE_PHI);
+    int contacts = 0, in_error = 0;
+    for (int n = 0; n < LAYOUTS; n++) {
+      contacts += single->facts[n].first[0] >= 0;
+      in_error += single->status[n] < 0;
+    }
+    ck_assert(k >= 4 || contacts > LAYOUTS / 4);
+    ck_assert_int_le(in_error, 2 + LAYOUTS / 10);
+    free_results(single);
+  }
+}
+
+/* Derivatives with respect to the cue, of a job by reference and of one with balls. */
+TEST(derivatives_have_the_bits_of_balls) {
+  enum { DIRECTIONS = 2, FINAL = BALLS * CAROM_STATE_NUMBERS * DIRECTIONS };
+  static double final[2][LAYOUTS][FINAL], seed[CAROM_CUE_NUMBERS * DIRECTIONS];
+  static int8_t status[2][LAYOUTS];
+  make_layouts();
+  for (int k = 0; k < CAROM_CUE_NUMBERS * DIRECTIONS; k++)
+    seed[k] = 0.01 * (k + 1);
+  const carom_tangent_seeds seeds = {.directions = DIRECTIONS, .cue = seed};
+  const carom_shot_options options = {.threads = 3};
+  for (int by_reference = 0; by_reference < 2; by_reference++) {
+    results *r = make_results();
+    carom_tangent tangents[LAYOUTS];
+    for (int k = 0; k < LAYOUTS; k++)
+      tangents[k] = (carom_tangent){.final = final[by_reference][k]};
+    carom_shot_job job = {.table = &table,
+                          .balls = by_reference ? NULL : balls,
+                          .kinds = by_reference ? kinds : NULL,
+                          .states = by_reference ? lies : NULL,
+                          .cues = cues,
+                          .count = BALLS,
+                          .ball_stride = BALLS,
+                          .cue_stride = 1,
+                          .n = LAYOUTS,
+                          .options = &options,
+                          .shots = r->shot,
+                          .status = r->status};
+    carom_shoot_batch(&job);
+    carom_tangent_job own = {
+        .played = &job, .seeds = &seeds, .tangents = tangents, .status = status[by_reference]};
+    ck_assert_int_eq(carom_shot_tangent_batch(&own), r->status[7]);
+    /* refused as in a batch */
+    job.kinds = by_reference ? NULL : kinds;
+    ck_assert_int_eq(carom_shot_tangent_batch(&own),
+                     by_reference ? CAROM_ERROR_NULL : CAROM_ERROR_SHOT_OPTIONS);
+    free_results(r);
+  }
+  int known = 0;
+  for (int k = 0; k < LAYOUTS; k++)
+    known += status[0][k] >= 0;
+  ck_assert_int_gt(known, LAYOUTS / 2);
+  ck_assert_mem_eq(status[0], status[1], sizeof status[0]);
+  ck_assert_mem_eq(final[0], final[1], sizeof final[0]);
+}
+
+/* Half of it, or both ways at once: an error of the call, with nothing written. A bad kind costs
+ * every shot, as each has it. */
+TEST(balls_or_kinds_with_states) {
+  make_layouts();
+  carom_shot shot[2] = {{.count = 77}};
+  int8_t status[2];
+  carom_shot_job job = {.table = &table,
+                        .cues = cues,
+                        .count = BALLS,
+                        .ball_stride = BALLS,
+                        .n = 1,
+                        .shots = shot,
+                        .status = status};
+  for (int k = 0; k < 8; k++) {
+    const bool has_balls = k & 1, has_kinds = k & 2, has_states = k & 4;
+    job.balls = has_balls ? balls : NULL;
+    job.kinds = has_kinds ? kinds : NULL;
+    job.states = has_states ? lies : NULL;
+    status[0] = 99;
+    shot[0].count = 77;
+    const bool good = has_balls ? !has_kinds && !has_states : has_kinds && has_states;
+    const carom_status of_bad = has_balls ? CAROM_ERROR_SHOT_OPTIONS : CAROM_ERROR_NULL;
+    ck_assert_int_eq(carom_shoot_batch(&job), good ? CAROM_OK : of_bad);
+    ck_assert_int_eq(status[0], good ? CAROM_OK : 99);
+    ck_assert(good ? shot[0].count > 0 && shot[0].count != 77 : shot[0].count == 77);
+  }
+  ck_assert_ptr_nonnull(strstr(carom_status_string(CAROM_ERROR_SHOT_OPTIONS), "kinds"));
+  job.balls = NULL;
+  job.n = 2;
+  kinds[2].mu_roll = -1.0;
+  ck_assert_int_eq(carom_shoot_batch(&job), CAROM_ERROR_MU_MOTION);
+  ck_assert(status[0] == CAROM_ERROR_MU_MOTION && status[1] == CAROM_ERROR_MU_MOTION);
 }
 
 /* ---- Stopping and going on */
@@ -504,6 +657,20 @@ TEST(bytes_of_states) {
   }
 }
 
+/* How the cue ball came to a ball at r, after it met a set of rails. */
+static int approach_of(uint32_t rails, const double *r) {
+  if (rails == 0)
+    return CAROM_APPROACH_DIRECT;
+  for (int k = 0; k < table.rails; k++) {
+    const double *p = table.rail[k].p, *q = table.rail[k].q, way = distance(p, q);
+    const double along = ((r[0] - p[0]) * (q[0] - p[0]) + (r[1] - p[1]) * (q[1] - p[1])) / way;
+    const double gap = sqrt(fmax(0.0, pow(distance(r, p), 2.0) - along * along)) - r[2];
+    if (rails == 1U << k && gap < 2.0 * r[2])
+      return CAROM_APPROACH_RAIL_FIRST;
+  }
+  return CAROM_APPROACH_KICK;
+}
+
 /* What the cue ball meets in a contact: the order of its balls, those of the first instant, and
  * where it was then. */
 static void meet(carom_facts *f, const carom_event *e, int cue) {
@@ -512,8 +679,10 @@ static void meet(carom_facts *f, const carom_event *e, int cue) {
   while (f->order[place] >= 0 && f->order[place] != other)
     place++;
   f->order[place] = other;
-  if (f->first[0] == -1)
+  if (f->first[0] == -1) {
     memcpy(f->first_place, e->before[side].r, sizeof f->first_place);
+    f->approach = approach_of(f->rails[cue], e->before[1 - side].r);
+  }
   if (f->first[0] == -1 || e->time <= f->first_time[0] + CAROM_RULES_INSTANT)
     f->first_set |= 1U << other;
 }
@@ -521,7 +690,7 @@ static void meet(carom_facts *f, const carom_event *e, int cue) {
 static void meet_cushion(carom_facts *f, const carom_event *e) {
   f->cushions[e->a]++;
   if (e->type == CAROM_EVENT_RAIL && !carom_is_cut(&table, e->b))
-    f->banked |= 1U << e->a;
+    f->rails[e->a] |= 1U << e->b;
   f->cushions_after += f->first[0] != -1;
 }
 
@@ -549,6 +718,9 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
       f.down |= 1U << e->a;
       f.pocket[e->a] = e->b;
       f.pocket_time[e->a] = e->time;
+      for (int rail = 0; rail < table.rails; rail++)
+        if ((f.rails[e->a] >> rail & 1) && !carom_is_beside(&table, rail, e->b))
+          f.banked |= 1U << e->a;
     } else if (e->type == CAROM_EVENT_LEFT_TABLE) {
       f.off |= 1U << e->a;
     } else if (e->type == CAROM_EVENT_BALL_BALL) {
@@ -641,7 +813,7 @@ TEST(facts_of_shots) {
   static carom_event events[10 * ROOM];
   static carom_shot_state state;
   make_breaks();
-  int down = 0, off = 0, second = 0, pushes = 0, jumps = 0;
+  int down = 0, off = 0, second = 0, pushes = 0, jumps = 0, banks = 0, approaches = 0;
   for (int k = 0; k < 60; k++) {
     carom_cue cue = cues[k == 4 ? 5 : k];
     carom_facts facts;
@@ -687,10 +859,13 @@ TEST(facts_of_shots) {
     down += facts.down != 0;
     off += facts.off != 0;
     second += facts.first[1] >= 0;
+    banks += facts.banked != 0;
+    approaches |= 1 << facts.approach;
   }
   printf("%d shots pot, %d lose a ball over the cushions, in %d the cue ball meets a second ball\n",
          down, off, second);
-  ck_assert(down > 5 && second > 5 && pushes > 5 && jumps > 0);
+  ck_assert(down > 5 && second > 5 && pushes > 5 && jumps > 0 && banks > 0);
+  ck_assert_int_eq(approaches & ~(1 << CAROM_APPROACH_RAIL_FIRST), 5); /* ways.c has that */
   carom_facts facts;
   const carom_facts nothing = facts_of(events, 0, 0);
   ck_assert_int_lt(shoot(&cues[4], NULL, &(carom_shot){.facts = &facts}), 0);

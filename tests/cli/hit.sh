@@ -47,7 +47,7 @@ PYTHON
 echo "words and pictures say what the numbers say:"
 cat > said.py << 'PYTHON'
 import csv, math, os, re, subprocess
-from drawn import check_hit
+from drawn import small_letters
 
 carom = os.environ["CAROM"]
 
@@ -116,7 +116,10 @@ for cut, spin, more in (
     row = next(csv.DictReader(rows.splitlines()))
     after = next(csv.DictReader(run("resolve", "--derived", "-", input=rows).splitlines()))
     expected = said(row, after, spin, cut)
-    print(*asked, words == expected or [pair for pair in zip(words, expected) if pair[0] != pair[1]], check_hit("hit.svg", row, after, words))
+    picture = open("hit.svg", encoding="utf-8").read().splitlines()
+    in_picture = " ".join(re.sub("<[^>]*>", "", line) for line in picture if "xml:space" in line)
+    print(*asked, words == expected or [pair for pair in zip(words, expected) if pair[0] != pair[1]], in_picture.split()[-len(" ".join(words).split()):] == " ".join(words).split(), small_letters("hit.svg"))
+    print(*(line for line in picture if "xml:space" not in line), sep="\n")
 PYTHON
 python said.py
 echo "textbooks:"

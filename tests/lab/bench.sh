@@ -63,6 +63,10 @@ changed reference-pooltool-n1000.csv -0.8
 timed --kernel euler --data data 2> /dev/null | tail -n 1
 changed reference-exact-paper.csv -0.009
 timed --kernel exact --isa plain --threads 1 --pairs 204 --data data
+echo "--- shots that pooltool recorded"
+lab bench --shots "$DATA/shots-pooltool.jsonl" --world pooltool | grep -v '^#' | cut -c1-30
+lab bench --shots "$DATA/shots-mathavan.jsonl" --threads 2 --budget 0.2 --csv -o shots.csv
+grep -v '^#' shots.csv | awk -F, 'NR > 1 { print $1, NF, ($5 > 0 && $6 > 0 && $8 > 1 ? "timed" : "not timed: " $0) }' | tail -n 1
 echo "--- usage"
 try lab bench --isa mmx 2>&1 | sed 's/best, .*/best, .../'
 try env CAROM_ISA=plain "$LAB" bench --isa avx512

@@ -2,7 +2,7 @@
 try lab --help
 lab --version | sed 's/[0-9][0-9]*/N/g'
 try lab kernels --help
-python -m wrapped "$LAB" paper kernels resolve verify bench bounds stress parity plan learn trace experiments published
+python -m wrapped "$LAB" paper kernels resolve verify bench bounds stress plan learn trace experiments published
 echo "--- the table"
 try lab kernels | sed 's/  */ /g; /^configurations/s/:.*/:/; / avx512 /d' # what depends on the machine, as the widths of columns do
 lab kernels --csv -o kernels.csv

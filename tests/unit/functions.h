@@ -552,6 +552,13 @@ static const carom_plan_job *sliced_plan(void) {
   carom_plan(&plan, choices, 4, &begun);
   return &plan;
 }
+/* A run-out that has begun. */
+static const carom_plan_job *sliced_run_out(void) {
+  int begun;
+  plan_options.slice = 10;
+  carom_sequence(&plan, 0, 0.1, sequence_strokes, 1, &begun);
+  return &plan;
+}
 /* A match that has begun: the cue ball is in hand. */
 static carom_match *begun(void) {
   carom_match_begin(&match, CAROM_RULES_NINEBALL, &table, 1, 0);
@@ -627,6 +634,7 @@ static carom_match *moving(void) {
     carom_plan_hand(PTR(&plan), MAYBE(zeros), NULL, PTR(choices), LENGTH(4), PTR(&found)))         \
   F(sequence, carom_sequence(PTR(&plan), ANYINT(0), NUM(0.1), PTR(sequence_strokes), LENGTH(1),    \
                              PTR(&found)))                                                         \
+  F(sequence_continue, carom_sequence_continue(PTR(sliced_run_out()), PTR(&found)))                \
   F(sequence_memory, GIVES(carom_sequence_memory(MAYBE(&plan_options))))                           \
   F(sequence_play,                                                                                 \
     carom_sequence_play(PTR(&plan), ANYINT(0), ANYINT(0), LENGTH(1), PTR(&sequence_counts)))       \
@@ -659,7 +667,7 @@ static carom_match *moving(void) {
     (player = carom_player_rated(ANY(500.0), ANYENUM(carom_rules_kind, 0)), ACCEPTED))             \
   F(player_of, (player = carom_player_of(ANY(1.0)), ACCEPTED))                                     \
   F(player_strike, (carom_player_strike(MAYBE(&player), 1, 1, MAYBE(&aimed)), ACCEPTED))           \
-  F(pot_kind, GIVES(carom_pot_kind(MAYBE(&table), MAYBE(&shot), ANYINT(0), ANYINT(1), ANYINT(0)))) \
+  F(pot_kind, GIVES(carom_pot_kind(MAYBE(&shot), ANYINT(0), ANYINT(1), ANYINT(0))))                \
   F(rating_of, carom_rating_of(PTR(&score), LENGTH(1), PTR(&rating)))                              \
   F(referee, carom_referee(PTR(&rules), PTR(&table), PTR(balls), INT(count), INT(0),               \
                            MAYBE(whole()), ((carom_call){ANYINT(1), ANYINT(1)}), PTR(&ruling)))    \

@@ -8,7 +8,7 @@
     derivatives  tangents, jacobian, hessian, aim_slope, Tangents, Hessian, Flag
     plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating; Goal, sequence,
                  RunOut
-    coach        odds, Odds; review, Review, Drill
+    coach        odds, Odds; review, Review, Drill; best_breaks
     rules        Match, a whole game; referee, Rules, Ruling, Facts, Turn, Foul
     other        dtypes, the structured dtypes; cite, physics_revision, isa_in_force
     modules      record, tracks, fit, jax, torch, pooltool; games: potting, drills, pool, matches,
@@ -107,6 +107,7 @@ if _TYPE_CHECKING:
         RunOut as RunOut,
         Turn as Turn,
         aim as aim,
+        best_breaks as best_breaks,
         chances as chances,
         odds as odds,
         plan as plan,
@@ -124,7 +125,7 @@ if _TYPE_CHECKING:
 _OFFERED = (
     "ALL_THREADS Calibration CaromError Drill EventType Facts Features Flag Foul Goal Hessian "
     "Label Match Odds Options Outcome Pot Rating Review Rules Ruling RunOut Shot Shots Status "
-    "Table Tangents Turn aim aim_slope alciatore balls by_number calibrate chances cite collide "
+    "Table Tangents Turn aim aim_slope alciatore balls best_breaks by_number calibrate chances cite collide "
     "cue cushion cushion_impacts cushion_trace dtypes hessian impacts isa_in_force jacobian "
     "mu_ball odds physics_revision place_ball plan player racks rating referee resume review "
     "sequence simulate simulate_arrow simulate_batch struck tables tangents trace value "
@@ -133,7 +134,7 @@ _OFFERED = (
 
 # Names of the folder games, and modules of folders, which are loaded when they are asked for.
 _OF_GAMES = frozenset(
-    "Drill Facts Foul Goal Match Odds Pot Rating Review Rules Ruling RunOut Turn aim chances odds "
+    "Drill Facts Foul Goal Match Odds Pot Rating Review Rules Ruling RunOut Turn aim best_breaks chances odds "
     "plan player rating referee review sequence value with_errors".split()
 )
 _MODULES_OF_FOLDERS = frozenset(

@@ -24,6 +24,7 @@ Doubles = npt.NDArray[np.float64]
 __all__ = [
     "ball_kind",
     "ball_state",
+    "break_choice",
     "brief_event",
     "plan_stroke",
     "columns",
@@ -112,6 +113,8 @@ player: Record = _record("carom_player")
 plan_stroke: Record = _record("carom_plan_stroke")  # A shot that `carom.plan` proposes.
 # A stroke of a run-out by `carom.sequence`.
 sequence_stroke: Record = _record("carom_sequence_stroke")
+# A break that `carom.best_breaks` proposes, with the results of breaks.
+break_choice: Record = _record("carom_break_choice")
 facts: Record = _record("carom_facts")  # What happened in a shot, which `carom.Features` shows.
 # How a game stands for the player at the table: opening, group, fouls, score, lost, pocket, may,
 # on, free_ball, target, innings; user is of one's own rules.

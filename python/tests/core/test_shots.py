@@ -474,8 +474,8 @@ def test_a_refused_shot_has_no_numbers():
 
 
 def test_games_and_terms():
-    """The measured balls of billiard, the terms by themselves, each shot of a batch with its own;
-    rails of their own.
+    """The terms by themselves, each shot of a batch with its own; rails of their own. The test
+    terms of C has the numbers of each game.
     """
     table = carom.tables.threecushion()
     r, v = [[0.7, 1.0]], [0.6, 1.2, 0.0]
@@ -483,23 +483,9 @@ def test_games_and_terms():
         carom.balls(r, v=v, game="billiard"),
         carom.balls(r, v=v, game="billiard", drag=0.0, roll_loss=0.0),
     )
-    kind = measured["kind"][0]
-    assert (
-        kind["drag"] == 0.0118
-        and kind["roll_loss"] == 0.091
-        and kind["law_a"] == 0.049
-        and kind["smooth_q"] == 0.35
-    )
+    assert measured["kind"]["drag"] > 0.0 and not plain["kind"]["drag"].any()
     named = carom.simulate(table, measured, cushion_model="smooth")
     assert carom.simulate(table, measured).final.tobytes() == named.final.tobytes()
-    for game in ("pool", "snooker", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"):
-        terms = "drag roll_loss law_a law_b law_c nose_height omega_ratio".split()
-        constants = [name for name in terms if carom.balls(r, game=game)["kind"][name].any()]
-        own = {
-            "pool": ["roll_loss", "nose_height"],
-            "snooker": ["drag", "roll_loss", "nose_height"],
-        }
-        assert constants == own.get(game, [])
     shots = carom.simulate_batch(table, np.stack([measured, plain]))
     assert shots.time[0] < shots.time[1]
     assert all(
@@ -585,24 +571,6 @@ def test_tables_and_racks():
     )
 
 
-def test_strike():
-    """A blow at the centre with no elevation: no spin, and the speed of an impact with squirt's end
-    mass, in proportion to 1 + e of the tip.
-    """
-    motion = carom.struck(
-        carom.cue(speed=3.0, b=0.0, phi=0.0), carom.balls([[0.5, 0.5]])[0]["kind"]
-    )
-    assert motion["v"][0] > 3.0 and abs(motion["v"][1]) < 1e-12 and not motion["w"].any()
-    resin = carom.struck(
-        carom.cue(speed=3.0, b=0.0, phi=0.0, tip_restitution=0.85),
-        carom.balls([[0.5, 0.5]])[0]["kind"],
-    )
-    assert (
-        abs(resin["v"][0] / motion["v"][0] - 1.85 / 1.73) < 1e-15
-        and carom.cue(game="pooltool_pool")["tip_restitution"] == 1.0
-    )
-
-
 def test_pictures():
     shot = carom.simulate(TABLE, RACK, carom.cue(speed=8.0))
     name = "{http://www.w3.org/2000/svg}"
@@ -639,49 +607,24 @@ def test_pictures():
 
 
 def test_balls_that_fly():
-    balls, lossless = (
-        carom.balls([[0.5, 0.6], [0.5, 0.905]]),
-        {"speed": 3.0, "theta": 45.0, "b": 0.0, "tip_restitution": 1.0},
-    )
-    cue = carom.cue(**lossless, tip_time=-1.0)
-    over = carom.simulate(TABLE, balls, cue)
-    assert over.events["type"][:2].tolist() == [carom.EventType.STRIKE, carom.EventType.SLATE]
-    assert (
-        abs(over.positions(np.linspace(0.0, 0.3, 31))[:, 0, 2].max() - 0.028575 - 0.135695) < 1e-4
-    )
-    flat = carom.simulate(TABLE, balls, cue, space="flat")
-    assert (
-        flat.events["type"][1] == carom.EventType.BALL_BALL
-        and (flat.events["after"]["v"][..., 2] == 0).all()
-    )
-    # a tip that touches for a while presses the ball on the slate, so the ball jumps lower than from
-    # a blow of no duration; tip and slate together decide how high
-    for tip_time, height in ((0.0006, 0.01645), (0.002, 0.00336), (0.0, 0.04825)):
-        pressed = carom.simulate(TABLE, balls[:1], carom.cue(**lossless, tip_time=tip_time))
-        top = pressed.positions(np.linspace(0.0, 0.3, 3001))[:, 0, 2].max() - 0.028575
-        rise = pressed.events["after"]["v"][0, 0, 2]
-        assert rise > 0.0 and abs(rise**2 / (2 * 9.81) - top) < 1e-5 and abs(top - height) < 1e-4
-    # off the table, which is no error; the batch takes the same options, as keywords or as one
-    # object
-    balls, cue = (
-        carom.balls([[0.4, 2.14], [0.8, 1.8]]),
-        carom.cue(**lossless, miscue=0.5, tip_time=-1.0),
-    )
+    """Off the table, which is no error; the batch takes the same options, as keywords or as one
+    object. C has the heights of hops.
+    """
+    balls = carom.balls([[0.4, 2.14], [0.8, 1.8]])
+    cue = carom.cue(speed=3.0, theta=45.0, b=0.0, tip_restitution=1.0, miscue=0.5, tip_time=-1.0)
     gone = carom.simulate(TABLE, balls, cue)
-    assert gone.events["type"][-1] == carom.EventType.LEFT_TABLE and gone.final[
-        "label"
-    ].tolist() == [carom.Label.OFF, 0]
+    assert gone.events["type"][:2].tolist() == [carom.EventType.STRIKE, carom.EventType.SLATE]
+    assert gone.events["type"][-1] == carom.EventType.LEFT_TABLE
+    assert gone.final["label"].tolist() == [carom.Label.OFF, 0]
     for space, label in (("3d", carom.Label.OFF), ("flat", carom.Label.STATIONARY)):
-        options, chosen = (
-            carom.Options(space=space, ball_model="mirror"),
-            carom.Options(space=space),
-        )
+        options = carom.Options(space=space, ball_model="mirror")
         shots = (
             carom.simulate_batch(TABLE, balls, cue, space=space),
             carom.simulate_batch(TABLE, balls, cue, options=options, ball_model="default"),
         )
         assert all(
-            single.final[0]["label"] == label and single.options == chosen for single in shots
+            single.final[0]["label"] == label and single.options == carom.Options(space=space)
+            for single in shots
         )
 
 
@@ -866,35 +809,3 @@ def test_tables_of_any_shape():
         carom.simulate(bent, carom.balls([[0.3, 0.3]]), carom.cue(speed=4.0, phi=20.0)).status
         == carom.Status.OK
     )
-
-
-def test_pocketed_balls_fall():
-    shot = next(
-        shot
-        for shot in (
-            carom.simulate(TABLE, carom.racks.nineball(TABLE, seed=k), carom.cue(speed=9.0))
-            for k in range(30)
-        )
-        if (shot.events["type"] == 5).any()
-    )
-    fall = shot.events[shot.events["type"] == 5][0]
-    times = fall["time"] + np.linspace(0, 0.05, 6)
-    drawn, states = shot.states(times, drawn=True), shot.states(times)
-    ball, others = fall["a"], np.flatnonzero(shot.final["label"] != carom.Label.POCKETED)
-    assert (np.diff(drawn["r"][:, ball, 2]) < 0).all() and drawn["r"][0, ball, 2] == fall["before"][
-        "r"
-    ][0, 2]
-    assert (states["r"][:, ball, 2] < drawn["r"][:, ball, 2]).all() and (
-        drawn[:, others] == states[:, others]
-    ).all()
-    lies = shot.states(fall["time"] + 1.0, drawn=True)[
-        ball
-    ]  # where its fall ends, at the depth of its pocket
-    assert (
-        lies["r"][2] == pytest.approx(shot.final["r"][ball, 2])
-        and not lies["v"].any()
-        and lies["label"] == shot.final["label"][ball]
-    )
-    assert shot.states(fall["time"] + 2.0, drawn=True)[ball] == lies
-    of_batch = carom.simulate_batch(TABLE, shot.balls, shot.cue[None], room=500)[0]
-    assert (of_batch.states(times, drawn=True) == drawn).all()

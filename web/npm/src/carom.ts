@@ -33,6 +33,8 @@ import type {
   BallKind,
   BallState,
   Bank,
+  BreakChoice,
+  BreakOptions,
   Calibration,
   Call,
   PlanStroke,
@@ -73,6 +75,12 @@ import type {
   TableName,
   TracePoint,
 } from "./types.js";
+
+/** The number of events of a slice. */
+function sliceOf(slice: number): number {
+  if (whole(slice, "slice") < 1) throw new RangeError("slice: at least 1 event is needed, not 0");
+  return slice;
+}
 
 const IMPACT = layout.carom_impact;
 const RESULT = layout.carom_result;
@@ -1276,6 +1284,21 @@ export class Carom {
   }
 
   /**
+   * The breaks that win most often for a player: the place of the cue ball behind the head string,
+   * the speed, the height of the tip and the cut. `balls` are a rack, ball 0 the cue ball; each
+   * break that is tried has a rack of its own. It takes some 12,000 breaks.
+   */
+  bestBreaks(
+    rack: RackName,
+    table: Table,
+    balls: readonly ShotBall[],
+    options: BreakOptions = {},
+  ): BreakChoice[] {
+    this.#resident = undefined;
+    return this.#plans.bestBreaks(rack, table, balls, options);
+  }
+
+  /**
    * The stroke that a player makes of the one that he means, with errors drawn from a seed and the
    * number of the stroke.
    */
@@ -1340,8 +1363,7 @@ export class Carom {
     options: PlanOptions = {},
     slice = 1000,
   ): Generator<undefined, PlanStroke[]> {
-    if (whole(slice, "slice") < 1) throw new RangeError("slice: at least 1 event is needed, not 0");
-    return this.#plans.think(table, balls, undefined, options, slice, 0);
+    return this.#plans.think(table, balls, undefined, options, sliceOf(slice), 0);
   }
 
   /**
@@ -1362,7 +1384,17 @@ export class Carom {
    * landing zone of the cue ball, and the chance of the whole by run-outs that are played.
    */
   sequence(table: Table, balls: readonly ShotBall[], options: SequenceOptions = {}): Sequence {
-    return this.#plans.sequence(table, balls, options);
+    return this.#plans.sequence(table, balls, options, 0).next().value as Sequence;
+  }
+
+  /** The same in slices, as `think`. Each run-out that is played is a slice. */
+  thinkSequence(
+    table: Table,
+    balls: readonly ShotBall[],
+    options: SequenceOptions = {},
+    slice = 1000,
+  ): Generator<undefined, Sequence> {
+    return this.#plans.sequence(table, balls, options, sliceOf(slice));
   }
 
   /** The balls that may be met first, and potted. */

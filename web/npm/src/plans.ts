@@ -21,6 +21,8 @@ import {
 import type {
   Aim,
   AimOf,
+  BreakChoice,
+  BreakOptions,
   Call,
   PlanStroke,
   Cue,
@@ -31,6 +33,7 @@ import type {
   Odds,
   PlanOptions,
   Player,
+  RackName,
   Rating,
   Review,
   Ruling,
@@ -80,6 +83,8 @@ const fieldsOf = (state: object, keys: readonly string[]): object =>
     Object.entries(state).filter(([key, value]) => keys.includes(key) && value !== undefined),
   );
 const SCORE = layout.carom_score;
+const BREAK = layout.carom_break_choice;
+const BREAK_JOB = layout.carom_break_job;
 const SERIES = layout.carom_series;
 const BOUNDS = {
   speedShare: 0,
@@ -301,6 +306,61 @@ export class Plans {
     }
   }
 
+  /** The breaks that win most often, by breaks of a rack that are played. */
+  bestBreaks(
+    rack: RackName,
+    table: Table,
+    balls: readonly ShotBall[],
+    options: BreakOptions,
+  ): BreakChoice[] {
+    refuseUnknown(options, KEYS.breaks);
+    const { breaks = 500, best = 3, gap = 1e-4, seed = 1, cue, player, opponent, shot } = options;
+    const most = values.CAROM_BREAK_CHOICES;
+    const memory = this.#memory;
+    const { addresses } = this.#host;
+    const { player: playerAt, opponent: opponentAt } = this.#addresses;
+    this.#host.writeLayout(table, balls);
+    this.#writeCue({ speed: 9, ...cue });
+    const memorySize = memory.exports.carom_break_memory();
+    const room = memory.allocate(memorySize + BREAK_JOB.size + most * BREAK.size);
+    const job = room + memorySize;
+    const choices = job + BREAK_JOB.size;
+    try {
+      setStruct(memory, job, "carom_break_job", {
+        table: addresses.table,
+        balls: addresses.balls,
+        count: balls.length,
+        cue: addresses.cue,
+        player: this.#writePlayer(playerAt, player ?? this.player({}), "player"),
+        opponent: opponent ? this.#writePlayer(opponentAt, opponent, "opponent") : 0,
+        shot: this.#host.writeShotOptions(shot ?? {}),
+        rack: value("carom_rack_kind", rack, "rack"),
+        gap,
+        seed: whole(seed, "seed", Number.MAX_SAFE_INTEGER),
+        memory: room,
+        memorySize,
+      });
+      const count = whole(best, "best", most);
+      const played = BigInt(whole(breaks, "breaks"));
+      const code = memory.exports.carom_break_best(job, played, choices, count);
+      if (code === values.CAROM_ERROR_OPTIONS)
+        throw new RangeError(
+          `breaks, best: at least 16 and 1 to ${most} are needed, and the rack of a game with a break, not ${breaks}, ${best} and ${rack}`,
+        );
+      this.#refuse(code, "rack");
+      return Array.from({ length: count }, (_, k) => {
+        const choice = readStruct<C.BreakChoice>(
+          memory,
+          choices + k * BREAK.size,
+          "carom_break_choice",
+        );
+        return { ...choice, aim: names.carom_break_aim[choice.aim]! };
+      });
+    } finally {
+      memory.free(room);
+    }
+  }
+
   withErrors(cue: Partial<Cue>, player: Player, seed: number, number: number): Cue {
     const { cue: pointer } = this.#host.addresses;
     this.#writePlayer(this.#addresses.player, player, "player");
@@ -320,9 +380,7 @@ export class Plans {
     cues: readonly Partial<Cue>[] | undefined,
     options: PlanOptions,
   ): PlanStroke[] {
-    const { done, value } = this.think(table, balls, cues, options, 0, 0).next();
-    if (!done) throw new RangeError("carom: a plan at once has not ended");
-    return value;
+    return this.think(table, balls, cues, options, 0, 0).next().value as PlanStroke[];
   }
 
   /**
@@ -353,11 +411,11 @@ export class Plans {
     try {
       const { corners, found } = this.#addresses;
       for (let begun = false; ; begun = true) {
-        // Other calls since the last slice have used the memory of arguments.
-        const job = this.#writeJob(table, balls, options);
-        setStruct(memory, this.#addresses.options, "carom_plan_options", { slice }, false);
-        const more = { memory: room, memorySize: size, leave: Math.max(leave, leaveOf(inHand)) };
-        setStruct(memory, job, "carom_plan_job", more, false);
+        const job = this.#writeSlice(table, balls, options, slice, {
+          memory: room,
+          memorySize: size,
+          leave: Math.max(leave, leaveOf(inHand)),
+        });
         memory.i32[found / 4] = most;
         let code: number;
         if (begun) code = memory.exports.carom_plan_continue(job, choices, best, found);
@@ -391,38 +449,51 @@ export class Plans {
     }
   }
 
-  /** A run-out as a whole, and the share of those that are played. */
-  sequence(
+  /**
+   * A run-out as a whole, and the share of those that are played; in slices of so many events, and
+   * one for each that is played. 0: at once.
+   */
+  *sequence(
     table: Table,
     balls: readonly ShotBall[],
     { within = 0.03, plays = 100, ...options }: SequenceOptions,
-  ): Sequence {
+    slice: number,
+  ): Generator<undefined, Sequence> {
     refuseUnknown(options, KEYS.sequence);
     const { inHand = "no" } = options;
     const memory = this.#memory;
-    const job = this.#writeJob(table, balls, options);
-    const size = memory.exports.carom_sequence_memory(this.#addresses.options);
-    if (size === 0) refuseShots(options);
+    const { exports } = memory;
+    this.#writeJob(table, balls, options);
+    const memorySize = exports.carom_sequence_memory(this.#addresses.options);
+    if (memorySize === 0) refuseShots(options);
     const most = values.CAROM_SEQUENCE_MOST;
-    const room = memory.allocate(size);
+    const room = memory.allocate(memorySize);
     const steps = memory.allocate(most * STEP.size);
     try {
       const { counts, found } = this.#addresses;
-      const more = { memory: room, memorySize: size, leave: leaveOf(inHand) };
-      setStruct(memory, job, "carom_plan_job", more, false);
       const hand = Number(inHand !== "no");
-      this.#refuse(
-        memory.exports.carom_sequence(job, hand, within, steps, most, found),
-        "sequence",
-      );
+      const more = { memory: room, memorySize, leave: leaveOf(inHand) };
+      const write = (): Pointer => this.#writeSlice(table, balls, options, slice, more);
+      let code = exports.carom_sequence(write(), hand, within, steps, most, found);
+      for (;;) {
+        this.#refuse(code, "sequence");
+        if (memory.i32[found / 4]! > 0) break;
+        yield undefined;
+        code = exports.carom_sequence_continue(write(), found);
+      }
       const strokes = Array.from({ length: memory.i32[found / 4]! }, (_, k) =>
         this.#readStep(steps + k * STEP.size, options, balls),
       );
-      setStruct(memory, counts, "carom_sequence_counts", {});
-      const many = BigInt(whole(plays, "plays"));
-      this.#refuse(memory.exports.carom_sequence_play(job, hand, 0n, many, counts), "sequence");
-      const { runs } = readStruct<C.SequenceCounts>(memory, counts, "carom_sequence_counts");
-      return { strokes, chance: runs / plays, plays };
+
+      let all = 0;
+      for (let k = 0; k < whole(plays, "plays"); k++) {
+        if (slice > 0) yield undefined;
+        setStruct(memory, counts, "carom_sequence_counts", {});
+        const code = exports.carom_sequence_play(write(), hand, BigInt(k), 1n, counts);
+        this.#refuse(code, "sequence");
+        all += readStruct<C.SequenceCounts>(memory, counts, "carom_sequence_counts").runs;
+      }
+      return { strokes, chance: all / plays, plays };
     } finally {
       for (const pointer of [room, steps]) memory.free(pointer);
     }
@@ -829,6 +900,19 @@ export class Plans {
       count: balls.length,
       goal: this.#writeGoal(options.goal),
     });
+  }
+
+  /** The job of a slice: other calls since the last one have used the memory of arguments. */
+  #writeSlice(
+    table: Table,
+    balls: readonly ShotBall[],
+    options: PlanOptions,
+    slice: number,
+    more: { memory: Pointer; memorySize: number; leave: number },
+  ): Pointer {
+    const job = this.#writeJob(table, balls, options);
+    setStruct(this.#memory, this.#addresses.options, "carom_plan_options", { slice }, false);
+    return setStruct(this.#memory, job, "carom_plan_job", more, false);
   }
 
   #readChoice(pointer: Pointer): PlanStroke {

@@ -248,6 +248,26 @@ export interface Odds extends Omit<C.Odds, "score"> {
   /** The games of both sides with which the match is fairest. */
   fair: readonly number[];
 }
+/** What breaks are compared by, for `bestBreaks`. */
+export interface BreakOptions {
+  /** How many breaks are played of each break that is proposed, at least 16. Default 500. */
+  breaks?: number;
+  /** How many are proposed, 1 to 8. Default 3. */
+  best?: number;
+  /** Between the balls of the racks, m. Default 1e-4. */
+  gap?: number;
+  seed?: number;
+  /** The stroke to compare with; no break is faster. Default: 9 m/s. */
+  cue?: Partial<Cue>;
+  player?: Player;
+  /** Default: who errs as the player does. */
+  opponent?: Player;
+  shot?: ShotOptions;
+}
+/** A break: costs of errors are NaN for all but the first. */
+export interface BreakChoice extends Omit<C.BreakChoice, "aim"> {
+  aim: C.BreakAim;
+}
 /** A layout to practise a stroke: that of the review. */
 export type Drill = C.Drill;
 /** What a stroke meant and cost. Numbers of a stroke at no pocket are NaN, and it has no drill. */

@@ -266,6 +266,15 @@ test("goals, safeties, and run-outs as a whole", () => {
   expect(
     Math.max(...zone.map((corner) => Math.hypot(corner[0] - x, corner[1] - y))),
   ).toBeGreaterThan(0.02);
+  // In slices, beside another call, it is the same.
+  const few = { ...asked, shots: 100, plays: 3 };
+  const thought = carom.thinkSequence(table, balls, few, 500);
+  let slices = 0;
+  let step = thought.next();
+  for (; !step.done; slices++, step = thought.next())
+    carom.chances(table, balls, [{ phi: 90 }], asked);
+  expect(step.value).toEqual(carom.sequence(table, balls, few));
+  expect(slices).toBeGreaterThan(20);
   const wrong = { ...asked, goal: { kind: "close" as "near" } };
   expect(() => carom.plan(table, balls, wrong)).toThrow("goal.kind");
 });
@@ -358,7 +367,7 @@ test("points of three-cushion", () => {
   const balls = carom.rack("threecushion", table);
   const best = carom.plan(table, balls, { rules: "threecushion", shots: 600 });
   expect(best[0]!.value).toBeCloseTo(best[0]!.keep, 12);
-  expect(["carom", "kick"]).toContain(best[0]!.kind);
+  expect(["carom", "kick", "rail_first"]).toContain(best[0]!.kind);
   const { turn, facts } = carom.referee(table, balls, best[0]!.cue, {
     rules: "threecushion",
     group: "open",
@@ -580,6 +589,30 @@ test("a rating grows with what is won, by both builds; a score in error is named
   expect(plain!(8).low).toBeGreaterThan(plain!(7).low);
   expect(builds[0]!.carom.rating([]).high).toBeCloseTo(696.51005, 4);
   expect(() => plain!(-1)).toThrow("scores[0]: a rating must be 0 to 1000");
+});
+
+test("the break that wins most comes with its results and costs, by both builds", () => {
+  const [first, second] = builds.map(({ carom }) => {
+    const table = carom.table("9ft");
+    const balls = carom.rack("nineball", table, { seed: 3 });
+    const options = { breaks: 32, best: 8, player: carom.player({ fargo: 500 }) };
+    return carom.bestBreaks("nineball", table, balls, options);
+  });
+  expect(second).toEqual(first);
+  const wins = first!.map(({ counts }) => counts.wins / counts.breaks);
+  expect(wins).toEqual([...wins].sort((a, b) => b - a));
+  for (const { place, cue, counts } of first!) {
+    expect(place[1]).toBeLessThanOrEqual(0.635);
+    expect(cue.speed).toBeLessThanOrEqual(9);
+    expect([counts.breaks, counts.stays + counts.scratches + counts.off >= 32]).toEqual([32, true]);
+  }
+  expect(first!.map(({ cost }) => Number.isFinite(cost))).toEqual(wins.map((_, k) => k === 0));
+  const table = carom.table("9ft");
+  const rack = carom.rack("nineball", table);
+  for (const options of [{ breaks: 15 }, { best: 0 }])
+    expect(() => carom.bestBreaks("nineball", table, rack, options)).toThrow("breaks, best");
+  expect(() => carom.bestBreaks("straight" as "nineball", table, rack)).toThrow("rack");
+  expect(() => carom.bestBreaks("nineball", table, rack, { racks: 3 } as object)).toThrow("racks");
 });
 
 test("odds are those of Python, and a stroke beside its aim is reviewed, by both builds", () => {

@@ -11,6 +11,8 @@ const callsOf = (carom: Carom) => ({
   plan: carom.plan.bind(carom),
   chances: carom.chances.bind(carom),
   sequence: carom.sequence.bind(carom),
+  bestBreaks: carom.bestBreaks.bind(carom),
+  review: carom.review.bind(carom),
   drill: (...args: Rest<typeof drillStroke>) => drillStroke(carom, ...args),
 });
 type Rest<F> = F extends (first: Carom, ...rest: infer R) => unknown ? R : never;

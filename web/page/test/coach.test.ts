@@ -10,6 +10,7 @@ import {
   fingersOn,
   gameOf,
   keptGame,
+  keptSetup,
   linesOf,
   numberIn,
   pages,
@@ -20,7 +21,7 @@ import {
 } from "./page.js";
 
 describePages("beside the game", () => {
-  const { open, frames, text, turnTo } = pages();
+  const { open, click, colour, frames, text, turnTo } = pages();
 
   test("the coach tells chances before a stroke, what it cost after it, and keeps a log to print", async () => {
     // A straight pot, and the nine for the game.
@@ -66,6 +67,75 @@ describePages("beside the game", () => {
     await page.emulateMedia({ media: "print" });
     await shows(page, "#table-scene", false);
     await shows(page, "#log table");
+  });
+
+  test("the coach finds safeties, leaves and breaks, and tells odds and what one misses", async () => {
+    const lay = "0.635,1.2 0.3,2.2 in in 0.9,0.6 in in in in 0.9,1.9";
+    const page = await open("", PHONE, gameOf("nineball", "person", lay));
+    const ask = async (...steps: string[]) => act(page, "#coach-menu", ...steps);
+    await ask("#ask-safety");
+    await comesToSay(page, "said", /^Hint: a safety, .* wins the game in \d+ %/);
+    await ask("#ask-hidden");
+    await comesToSay(page, "said", /^Hint: .* leaves the cue ball hidden in \d+ %, fouls in \d+ %/);
+    await ask("#snooker-on=4", "#ask-snooker");
+    await comesToSay(page, "said", /^Hint: .* leaves a snooker on ball 4 in \d+ %/);
+
+    // A place is tapped, or aimed at with the keys; a ring shows it.
+    const near = /leaves the cue ball within 20 cm of the place in [1-9]\d* %/;
+    await ask("#ask-near");
+    await says(page, "said", /^Tap the place/);
+    await click(page, 0.635, 1.7, true);
+    await comesToSay(page, "said", near);
+    const [red, , blue] = await colour(page, 0.835, 1.7, 5);
+    expect(red! - blue!).toBeGreaterThan(60);
+    await ask("#ask-near");
+    await page.keyboard.press("Enter");
+    await comesToSay(page, "said", /leaves the cue ball within 20 cm/);
+    await says(page, "turn", /^Player 1's turn/);
+
+    // What a stroke cost: an aim at the 1 that misses by a degree.
+    await act(page, "#hint");
+    await comesToSay(page, "said", /^Hint: ball 1 into/);
+    await turnTo(page, (await numberIn(page, "phi")) + 1);
+    await act(page, "#shoot", "#skip");
+    await comesToSay(page, "turn", /^Player 2's turn/);
+    const rows = () => page.evaluate(() => localStorage.getItem("carom-reviews") ?? "");
+    await expect.poll(rows).toContain('"strokes":1');
+    await act(page, "#coach-menu");
+    const [, strokes, kept, , misses] = await page.locator("#reviews td").allTextContents();
+    expect([strokes, kept]).toEqual(["1", "0 %"]);
+    expect(parseFloat(misses!)).toBeGreaterThan(0);
+
+    // The odds are those of the library.
+    await act(page, "#odds-against=400", "#odds-games=1");
+    const said = await text(page, "odds-said");
+    const [, rating, game, match] = /for a (\d+),.* a game in (\d+) % .* match in (\d+) %/.exec(
+      said,
+    )!;
+    const chance = 1 / (1 + 2 ** ((400 - Number(rating)) / 100));
+    expect([game, match]).toEqual([0, 0].map(() => (100 * chance).toFixed(0)));
+    expect(await violations(page)).toEqual([]);
+    await act(page, "#reviews button");
+    await shows(page, "#undo-stroke");
+    const { at } = await keptSetup<{ at: string }>(page);
+    expect(at).toBe(lay);
+  });
+
+  test("the coach's break is aimed from behind the line, and told with its costs", async () => {
+    const page = await open("", {}, gameOf("nineball", "500", undefined, "600"));
+    await act(page, "#coach-menu");
+    await shows(page, "#ask-safety", false);
+    await act(page, "#ask-break");
+    await comesToSay(
+      page,
+      "said",
+      /^The break that wins most is aimed, at \d\.\d m\/s.* wins with it in \d+\.\d % \(± \d\.\d %\), .* of the tip -?\d\.\d % of games\.$/,
+    );
+    await act(page, "#shoot", "#skip");
+    const places = linesOf<{ at?: [number, number] }>(await keptGame(page), "place");
+    // The rules refuse a place beyond the line.
+    const at = places.find((row) => row.at !== undefined)!.at;
+    expect(at).not.toEqual([0.635, 0.635]);
   });
 
   test("the view from behind the cue starts when it is asked for, and shows the balls as they roll", async () => {

@@ -1,11 +1,22 @@
 """Games: their rules and plans, and environments for agents. `carom.plan` is `carom.games.plan`."""
 
-from carom.games.coach import Drill, Odds, Review, odds, review
+from carom.games.coach import Drill, Odds, Review, best_breaks, odds, review
 from carom.games.match import Match
 from carom.games.plans import Goal, Pot, Rating, RunOut, aim, chances, plan, player, rating
 from carom.games.plans import sequence, value, with_errors
 from carom.games.rules import Facts, Foul, Rules, Ruling, Turn, referee
 
 __all__ = ["Drill", "Facts", "Foul", "Goal", "Match", "Odds", "Pot", "Rating", "Review", "Rules"]
-__all__ += ["Ruling", "RunOut", "Turn", "aim", "chances", "odds", "plan", "player", "rating"]
+__all__ += [
+    "Ruling",
+    "RunOut",
+    "Turn",
+    "aim",
+    "best_breaks",
+    "chances",
+    "odds",
+    "plan",
+    "player",
+    "rating",
+]
 __all__ += ["referee", "review", "sequence", "value", "with_errors"]

@@ -1,17 +1,38 @@
-"""Advice for a player by `carom_coach.h`: the odds of matches, and what strokes of a match cost."""
+"""Advice for a player by `carom_coach.h`: odds of matches, what strokes of a match cost, and breaks
+that win most often.
+"""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
+from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Seed, choice, copied, listing, number, pointer, several, whole
-from carom._shot_options import Options, chosen
+from carom._faults import argument_error, shot_arguments
+from carom._rows import (
+    Array,
+    Seed,
+    choice,
+    copied,
+    listing,
+    number,
+    pointer,
+    seed_of,
+    several,
+    whole,
+    worded,
+)
+from carom._shot_options import Options, chosen, shot_options
 from carom.dtypes import Records
 from carom.games.match import ORDERS, cue_of
-from carom.games.plans import Job
+from carom.games.plans import Job, one_player
+from carom.games.plans import player as usual_player
 from carom.games.rules import Game, GivenState, Made
-from carom.layouts import Table, one_cue
+from carom.layouts import Table, check_table, of_record, one_cue
+from carom.layouts import cue as usual_cue
+from carom.status import CaromError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -20,7 +41,7 @@ if TYPE_CHECKING:
 
     from carom._shot_options import Changes
 
-__all__ = ["Drill", "Odds", "Review", "odds", "review"]
+__all__ = ["Drill", "Odds", "Review", "best_breaks", "odds", "review"]
 __dir__ = listing(__name__)
 
 _USUAL = Options()
@@ -177,3 +198,83 @@ def review(
         drill=Drill((*drill.place,), drill.radius, drill.rating) if is_direct else None,
         **values,
     )
+
+
+def best_breaks(
+    rack: str,
+    table: Table,
+    balls: Records,
+    cue: Records | None = None,
+    *,
+    player: Records | None = None,
+    opponent: Records | None = None,
+    breaks: int = 500,
+    best: int = 3,
+    gap: float = 1e-4,
+    seed: Seed = 1,
+    options: Options = _USUAL,
+    **changes: Unpack[Changes],
+) -> Records:
+    """The breaks that win most often: place of the cue ball, speed, height of the tip, and cut.
+
+    Parameters
+    ----------
+    rack : str
+        The rack of a game with a break, such as "nineball"; `balls` are one, the cue ball first.
+    cue : ndarray of `carom.dtypes.cue`, optional
+        The stroke to compare with; no break is faster. Default: 9 m/s.
+    player, opponent, seed, options
+        As for `carom.plan`.
+    breaks : int
+        How many breaks are played of each break that is proposed, at least 16.
+    best : int
+        How many are proposed, 1 to 8.
+    gap : float
+        m, between the balls of the racks.
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.break_choice`, shape (best,)
+        The best one first; `counts` has the results of its breaks, and the costs of the first one
+        say how much more often it would win without the player's errors.
+
+    Raises
+    ------
+    CaromError
+        The layout, the cue or an option is in error.
+    """
+    check_table(table)
+    kind = choice(worded("RACK"), rack, "rack")
+    layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
+    struck = copied(one_cue(usual_cue(speed=9.0) if cue is None else cue))
+    choices: Array = np.zeros(
+        whole(best, "best", least=1, most=lib.CAROM_BREAK_CHOICES), dtypes.break_choice
+    )
+    memory: Array = np.empty(lib.carom_break_memory() // 8 + 1, np.float64)
+    one = one_player(usual_player() if player is None else player)
+    rival = ffi.NULL if opponent is None else one_player(opponent, "opponent")
+    shot = shot_options(chosen(options, changes))
+    record = table.record
+    job = ffi.new(
+        "carom_break_job *",
+        {
+            "table": pointer("carom_table[]", record),
+            "balls": pointer("carom_shot_ball[]", layout),
+            "count": len(layout),
+            "cue": pointer("carom_cue[]", struck),
+            "player": one,
+            "opponent": rival,
+            "shot": shot,
+            "rack": kind,
+            "gap": number(gap, "gap", "a distance in m is needed"),
+            "seed": seed_of(seed),
+            "memory": pointer("double[]", memory),
+            "memory_size": memory.nbytes,
+        },
+    )
+    played = whole(breaks, "breaks", least=16)
+    code = lib.carom_break_best(job, played, pointer("carom_break_choice[]", choices), best)
+    if code < 0:
+        wrong = argument_error(shot_arguments(table, layout, struck, shot), layout, struck)
+        raise wrong or CaromError(code, "rack", rack)
+    return choices

@@ -178,7 +178,7 @@ def with_errors(cue: Records, player: Records, seed: Seed, number: int = 0) -> R
     """
     struck = copied(one_cue(cue))
     lib.carom_player_strike(
-        _one_player(player),
+        one_player(player),
         seed_of(seed, 2**63 - 1),
         whole(number, "number"),
         pointer("carom_cue[]", struck),
@@ -340,7 +340,7 @@ _usual_player = player
 _RANGES = {"tip_most": (0.0, 1.0), "eye": (-np.inf, 0.01), "reserved": (0.0, 0.0)}
 
 
-def _one_player(player: Records, name: str = "player") -> Any:
+def one_player(player: Records, name: str = "player") -> Any:
     """A player for C. It keeps the array that it is made of."""
     record = copied(of_record(player, dtypes.player, name, "player()"))
     if record.ndim != 0:
@@ -459,10 +459,10 @@ class Job:
         request.chance_opponent = whole(run_out, "run_out", most=1)
         request.safeties = whole(safeties, "safeties", most=1)
         request.once = stop is None and seconds == 0.0  # Ctrl-C asks for no choice
-        rival = None if opponent is None else _one_player(opponent, "opponent")
+        rival = None if opponent is None else one_player(opponent, "opponent")
         request.opponent = ffi.NULL if rival is None else rival
         request.stop = game.stop
-        player = _one_player(_usual_player() if personal is None else personal)
+        player = one_player(_usual_player() if personal is None else personal)
         game.check_layout(table, self.layout)
         memory: Array = np.empty(memory_of(request) // 8 + 1, np.float64)
         wanted = ffi.NULL if goal is None else _goal(goal, len(self.layout))

@@ -29,6 +29,7 @@ import {
   within,
 } from "../table/grip.js";
 import { isWithin } from "../table/head.js";
+import { NEAR } from "./coaching.js";
 import type { Session } from "./parts.js";
 import {
   aimed,
@@ -127,6 +128,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   g.setLineDash([]);
   drawMarks(s, pen);
   if (s.hinted) drawZones(pen, s.sequence);
+  if (s.hinted && s.place) circle(pen, s.place, NEAR, 2, MARK);
   if (cue && onTable(cueBall.state)) {
     if (s.first) {
       stroke(pen, cueBall.state.r, s.first.place, 1.4, "#ffffffd0");
@@ -202,6 +204,7 @@ function strike(s: Session, ball: number): void {
 }
 export function tap(s: Session, grip: Grip, place: Point): void {
   const cueBall = s.play.balls[s.play.cueBall]!;
+  if (s.asksPlace) return void s.coach.leaveNear(place);
   if (grip.kind === "pocket") return choose(s, { pocket: grip.pocket });
   if (grip.kind === "ball" && grip.ball !== s.play.cueBall) {
     if (s.play.strikable.includes(grip.ball)) return strike(s, grip.ball);
@@ -323,6 +326,8 @@ function strikeNext(s: Session): void {
 function pressed(s: Session, event: KeyboardEvent): boolean {
   const ends = event.key === "Enter" || event.key === "Escape";
   if (s.film.playing && ends) s.showing.skip();
+  else if (event.key === "Enter" && s.asksPlace && s.first)
+    void s.coach.leaveNear([s.first.place[0]!, s.first.place[1]!]);
   else if (event.key === "Enter") shoot(s);
   else if (!free(s)) return false;
   else if ((event.ctrlKey || event.metaKey) && event.key === "z") undo(s);

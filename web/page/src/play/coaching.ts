@@ -3,11 +3,13 @@
 import type { AimOf, Call, Carom, PlanStroke, Cue, PlanOptions, ShotBall, Table } from "carom";
 import { drop, far } from "../far.js";
 import { onTable } from "../table/filmed.js";
+import { GAMES } from "../table/games.js";
 import { isSafe, percent, wordsOfChances, wordsOfPlan } from "../table/words.js";
 import { wrong } from "../ui.js";
-import { isComputer, OPTIONS, type Play } from "./game.js";
+import { isComputer, OPTIONS, type Play, type Setup } from "./game.js";
 import { costOf, keepRow, type Row } from "./log.js";
-import type { Coach, Session } from "./parts.js";
+import type { Coach, Question, Session } from "./parts.js";
+import { countReview } from "./reviews.js";
 import {
   aimAt,
   cueOf,
@@ -29,6 +31,10 @@ const PLAN = 1000;
 const TRY = 200;
 /** Shots of the plans of a run-out, and how often it is played. */
 const RUN_OUT = { shots: 300, plays: 40 };
+/** Breaks of each break that is compared. */
+const BREAKS = 128;
+/** How near to its place a leave is, m. */
+export const NEAR = 0.2;
 /** How long the aim rests before its chances are asked for, ms. */
 const PAUSE = 120;
 /** Beyond this off the aim, degrees, another ball or pocket was meant. */
@@ -108,11 +114,14 @@ function wordsOfCue({ a, b, speed }: Cue): string {
   const tip = [height, side].filter(Boolean).join(texts.andWord);
   return texts.atMS(speed.toFixed(1), tip && texts.withTip(tip));
 }
-function wordsOfHint(s: Session, choice: PlanStroke): string {
+function wordsOfHint(s: Session, choice: PlanStroke, goal: string | undefined): string {
   const { play, first } = s;
   const stroke = wordsOfPlan(play, choice, first?.ball === -1);
   const cue = choice.kind === "pass" ? "" : wordsOfCue(choice.cue);
-  const chances = wordsOfChances(choice, !play.hasPockets);
+  const chances =
+    goal === undefined
+      ? wordsOfChances(choice, !play.hasPockets)
+      : texts.chancesOfGoal(goal, percent(choice.value), percent(choice.foul));
   const errors = play.practice ? "" : texts.thisStrokeErrsLike;
   return texts.hintOf(stroke, cue, wordsOfLevel(s), chances, errors);
 }
@@ -134,6 +143,7 @@ function setHint(s: Session, choice: PlanStroke): void {
   };
   s.special = choice.kind === "push" ? "push" : undefined;
   s.sequence = [];
+  s.place = undefined;
   s.hinted = true; // the words of the turn make room for the hint
   s.showing.rest();
 }
@@ -175,26 +185,79 @@ async function tellRunOut(
   says(s, `${hint} ${texts.toRunOut(list, percent(chance))}`);
 }
 
-async function advise(s: Session): Promise<void> {
+/** Begins a search of the coach; a later one, or a stroke, ends it. */
+async function search(
+  s: Session,
+  begins: string,
+  answer: (isWanted: () => boolean) => Promise<void>,
+): Promise<void> {
   if (!free(s)) return says(s, why(s));
   const generation = ++s.searchGeneration;
   s.chancesGeneration++; // chances that come later do not hide the hint
+  s.asksPlace = false;
   const isWanted = (): boolean => generation === s.searchGeneration && free(s);
-  says(s, texts.lookingForTheBest);
+  says(s, begins);
   try {
-    const { drill } = s.play.setup;
-    if (drill !== undefined) return await adviseDrill(s, drill, isWanted);
-    drop("plan"); // a search for another stroke
-    const choice = await best(requestOf(s.play, levelOf(s)));
-    if (!isWanted()) return;
-    setHint(s, choice);
-    const hint = wordsOfHint(s, choice);
-    says(s, hint);
-    if (s.play.hasPockets && !s.play.breaks) await tellRunOut(s, choice, hint, isWanted);
+    await answer(isWanted);
   } catch (error) {
     if (isWanted()) says(s, wrong(error));
   }
 }
+const advise = (s: Session, question?: Question): Promise<void> =>
+  search(s, texts.lookingForTheBest, async (isWanted) => {
+    const { drill } = s.play.setup;
+    if (drill !== undefined && !question) return await adviseDrill(s, drill, isWanted);
+    drop("plan"); // a search for another stroke
+    const choice = await best(requestOf(s.play, levelOf(s)), question?.options);
+    if (!isWanted()) return;
+    setHint(s, choice);
+    s.place = question?.options.goal?.place;
+    s.showing.rest();
+    const hint = wordsOfHint(s, choice, question?.words);
+    says(s, hint);
+    const runsOut = !question && s.play.hasPockets && !s.play.breaks;
+    if (runsOut) await tellRunOut(s, choice, hint, isWanted);
+  });
+/** Sets the break of a rack that wins most, and says what the errors cost. */
+const adviseBreak = (s: Session): Promise<void> =>
+  search(s, texts.lookingForTheBreak, async (isWanted) => {
+    const { play } = s;
+    const { table, balls, options } = requestOf(play, levelOf(s));
+    const { player, opponent, seed } = options as Required<PlanOptions>;
+    const { rack } = GAMES[play.played!.base]!;
+    drop("bestBreaks"); // a search for another rack
+    const more = { player, opponent, seed, breaks: BREAKS, best: 1, shot: OPTIONS };
+    const [found] = await far("bestBreaks", rack, table, balls, more);
+    if (!isWanted()) return;
+    const { cue, place, counts, aimCost, speedCost, tipCost } = found!;
+    play.put(play.cueBall, ...place);
+    aimAt(s, cue);
+    look(s);
+    s.sequence = [];
+    s.place = undefined;
+    s.hinted = true;
+    s.showing.rest();
+    const mean = counts.wins / counts.breaks;
+    const error = Math.sqrt((counts.winSquares / counts.breaks - mean ** 2) / counts.breaks);
+    const share = (x: number): string => `${(100 * x).toFixed(1).replace(/^-0.0$/, "0.0")} %`;
+    const words = texts.breakWins(
+      wordsOfCue(cue),
+      wordsOfLevel(s),
+      share(mean),
+      share(error),
+      percent(counts.makes / BREAKS),
+      percent(counts.fouls / BREAKS),
+      share(aimCost),
+      share(speedCost),
+      share(tipCost),
+    );
+    says(s, words);
+  });
+const leaveNear = (s: Session, place: readonly [number, number]): Promise<void> =>
+  advise(s, {
+    options: { goal: { kind: "near", place, distance: NEAR } },
+    words: texts.leavesItNear(100 * NEAR),
+  });
 
 /** The chances of the stroke that is aimed, a moment after it was. */
 async function chances(s: Session): Promise<void> {
@@ -251,12 +314,32 @@ async function lookBack(
   }
 }
 
+/** Counts what a stroke cost by its kind, for the coach's page. */
+async function keepReview(
+  { table, balls, options }: Request,
+  setup: Setup,
+  cue: Cue,
+  call: Call | undefined,
+): Promise<void> {
+  if (typeof call === "string") return; // a push-out or a pass is meant as no pot
+  try {
+    const review = await far("review", table, balls, cue, options, call);
+    countReview(review, setup, balls);
+  } catch (error) {
+    console.info("A stroke of this game has no review:", error);
+  }
+}
+
 export const coaching = (s: Session): Coach => ({
-  advise: () => advise(s),
+  advise: (question) => advise(s, question),
+  adviseBreak: () => adviseBreak(s),
+  leaveNear: (place) => leaveNear(s, place),
   chances: () => chances(s),
   review() {
     const request = requestOf(s.play, levelOf(s));
-    return async (cue, call) => {
+    return async (cue, call, isTold) => {
+      if (s.play.hasPockets) void keepReview(request, s.play.setup, cue, call);
+      if (!isTold) return;
       s.chancesGeneration++; // chances of this stroke that come later do not hide its review
       const { play } = s;
       const verdict = await lookBack(s.carom, request, cue, call);

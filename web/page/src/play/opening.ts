@@ -40,6 +40,7 @@ export function start(s: Session, play: Play, id: string, seat: 0 | 1 = 0): void
     special: undefined,
     verdict: "",
     hinted: false,
+    asksPlace: false,
   });
   s.film.stop();
   s.film.look(1);

@@ -1,6 +1,6 @@
 // What a game at the page is played by, and how it stands: the types of the session, which the
 // files of its parts share.
-import type { Call, Carom, Cue, Choice, SequenceStroke } from "carom";
+import type { Call, Carom, Choice, Cue, PlanOptions, SequenceStroke, Vec2 } from "carom";
 import type { player as filmPlayer } from "../../../player/player.js";
 import type { filmOf, Quaternion } from "../table/filmed.js";
 import type { Stroke as StrokeValues } from "../table/stroke.js";
@@ -101,14 +101,25 @@ export interface EndView {
   hide(): void;
 }
 
+/** What the coach is asked for instead of the stroke that wins most, and what that does, in words. */
+export interface Question {
+  options: Pick<PlanOptions, "goal" | "safeties">;
+  words?: string;
+}
 /** The coach at the table (coaching.ts). */
 export interface Coach {
   /** Sets the best stroke that a search finds. */
-  advise(): Promise<void>;
+  advise(question?: Question): Promise<void>;
+  /** Sets the break that wins most. */
+  adviseBreak(): Promise<void>;
+  /** Sets the stroke that leaves the cue ball near a place. */
+  leaveNear(place: readonly [number, number]): Promise<void>;
   /** Says the chances of the stroke that is aimed. */
   chances(): Promise<void>;
-  /** Begins the review of a stroke of this layout; what it returns takes the stroke. */
-  review(): (cue: Cue, call: Call | undefined) => Promise<void>;
+  /** Begins the review of a stroke of this layout; what it returns takes the stroke, and whether its
+   * verdict is told.
+   */
+  review(): (cue: Cue, call: Call | undefined, isTold: boolean) => Promise<void>;
 }
 
 /** What a game is played by, which is there as long as the view. */
@@ -119,7 +130,17 @@ interface Parts {
   readonly sound: Sound;
   readonly words: Record<"turn" | "score" | "message", HTMLElement>;
   readonly buttons: Record<
-    "menu" | "hint" | "replay" | "undo" | "rack" | "push" | "skip" | "link" | "space" | "sound",
+    | "menu"
+    | "hint"
+    | "coach"
+    | "replay"
+    | "undo"
+    | "rack"
+    | "push"
+    | "skip"
+    | "link"
+    | "space"
+    | "sound",
     HTMLButtonElement
   >;
   /** The choices of the rules besides a stroke. */
@@ -151,6 +172,9 @@ export interface Progress {
   hinted: boolean;
   /** The run-out behind the hint, which is drawn while there is one. */
   sequence: readonly SequenceStroke[];
+  /** Whether the next tap names the place of a leave; and the place of the leave that is hinted. */
+  asksPlace: boolean;
+  place: Vec2 | undefined;
   /** What the aim meets first. */
   first: Look | undefined;
   turned: Quaternion[];

@@ -23,6 +23,8 @@ export const progressOf = (play: Play): Progress => ({
   verdict: "",
   hinted: false,
   sequence: [],
+  asksPlace: false,
+  place: undefined,
   first: undefined,
   turned: [],
   turnedBefore: [],

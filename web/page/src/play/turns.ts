@@ -50,8 +50,7 @@ export function shoot(s: Session): void {
     const stroke = play.stroke(cue, call);
     s.verdict = "";
     says(s, "");
-    const isReviewed = settings.coach && play.played && play.setup.drill === undefined;
-    if (isReviewed) void review(cue, call);
+    if (play.played && play.setup.drill === undefined) void review(cue, call, settings.coach);
     finishTurn(s, stroke);
   } catch (error) {
     says(s, wrong(error));
@@ -97,6 +96,7 @@ function finishTurn(s: Session, stroke: Stroke): void {
   s.theirs = undefined;
   s.special = undefined;
   s.hinted = false;
+  s.asksPlace = false;
   saveAndCount(s);
   s.showing.perform(stroke, () => next(s));
 }

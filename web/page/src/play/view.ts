@@ -6,6 +6,7 @@ import { drop } from "../far.js";
 import { button, eachFrame, el, parameters, wrong } from "../ui.js";
 import { aiming, drawAim } from "./aim.js";
 import { shotClock } from "./clock.js";
+import { coachPage } from "./coach_page.js";
 import { coaching } from "./coaching.js";
 import { controls } from "./controls.js";
 import { diagramPage, type Source } from "./diagram.js";
@@ -65,6 +66,7 @@ function buttonsOf(session: () => Session): Session["buttons"] {
   return {
     menu: named("new-game", texts.newGame, () => undefined),
     hint: named("hint", texts.hint, (s) => s.coach.advise()),
+    coach: named("coach-menu", texts.coach, () => undefined),
     replay: named("replay", texts.replay, (s) => s.showing.replay()),
     undo: named("undo-stroke", texts.undo, undo),
     rack: named("rack-up", texts.newRack, beginAgain),
@@ -155,6 +157,8 @@ async function toggle(s: Session): Promise<void> {
 /** The dialogs of a game: a new one with its settings, the log of strokes, diagrams. */
 function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typeof diagramPage> } {
   const log = logPage(s.training.plan);
+  const coach = coachPage(s);
+  s.buttons.coach.addEventListener("click", coach.open);
   const diagram = diagramPage(s.carom, s.coarse);
   const shut = (text: string, id: string, action: () => void): HTMLElement => {
     const press = (): void => {
@@ -199,7 +203,7 @@ function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typ
     games.open();
   });
   return {
-    overlays: [games.root, games.calibration, log.root, diagram.root, s.training.photo],
+    overlays: [games.root, games.calibration, coach.root, log.root, diagram.root, s.training.photo],
     diagram,
   };
 }
@@ -222,6 +226,7 @@ export function playView(
       "div.row.tools",
       buttons.menu,
       buttons.hint,
+      buttons.coach,
       buttons.replay,
       buttons.space,
       buttons.undo,

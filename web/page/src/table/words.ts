@@ -10,6 +10,7 @@ export const percent = (x: number): string => `${(100 * x).toFixed(0)} %`;
 const BY: Partial<Record<PlanStroke["kind"], string>> = {
   bank: texts.byABank,
   kick: texts.byAKick,
+  rail_first: texts.offACushionFirst,
   combination: texts.byACombination,
   carom: texts.byACarom,
   kiss: texts.byAKiss,
@@ -86,6 +87,7 @@ function wordsOfChoice(
     return hasPockets ? texts.aStrokeWithoutA : texts.aStrokeAfterWhich;
   }
   if (!hasPockets) return texts.theBallFirst(translate(names[ball]!));
-  const first = cushionFirst && kind !== "kick" ? texts.offACushionFirst : "";
+  const isNamed = kind === "kick" || kind === "rail_first";
+  const first = cushionFirst && !isNamed ? texts.offACushionFirst : "";
   return wordsOfPot(table, names, choice, `${BY[kind] ?? ""}${first}`);
 }
