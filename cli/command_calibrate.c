@@ -5,8 +5,6 @@
 #include "shots/shot_table.h"
 #include "subcommands.h"
 
-#include <jansson.h>
-
 typedef struct calibrate_job {
   shared_options shared;
   int table; /* among `tables` */

@@ -22,7 +22,6 @@
 
 #include "carom_coach.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

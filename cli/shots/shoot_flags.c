@@ -10,8 +10,6 @@
 #include "shots/places.h"
 #include "shots/shot_fault.h"
 
-#include <limits.h>
-
 enum { MOST_TEXT = 1024 };
 
 static OPTION_SET(set_table) {

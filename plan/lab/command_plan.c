@@ -13,7 +13,6 @@
 #include "rated_match.h"
 #include "subcommands.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
