@@ -8,6 +8,7 @@
 #include "miss.h"
 #include "places.h"
 #include "platform/promise.h"
+#include "prepare.h"
 #include "ranking.h"
 #include "rows.h"
 #include "rules.h"
@@ -69,13 +70,6 @@ static candidate gentle(const search *plan) {
                      .kind = CAROM_PLAN_FOUL,
                      .ball = -1,
                      .pocket = -1};
-}
-
-double carom_scan_of(const carom_plan_options *o) {
-  static const double usual = 0.5;
-  if (o->scan == 0.0)
-    return usual;
-  return fmax(o->scan, 0.0);
 }
 
 /* ---- The course of a search: each of these sets the next stage, and what comes after it */
