@@ -7,9 +7,6 @@
 
 #include <stdbool.h>
 
-/* s: contacts with one rail that follow so soon are one, as a hop along it. */
-static const double carom_same_contact = 0.1;
-
 /* The angle from the way of the cue ball, just before its contact with a ball, to the line of
  * centres, degrees; above 0 to the left of the way. */
 double carom_cut_at(const carom_event *contact, int cue_ball);

@@ -244,7 +244,7 @@ static bool is_sparse(const search *plan) {
   return plan->blind || has_place;
 }
 
-/* Strokes near the best are played once without errors. False where there are none. */
+/* Strokes near the best are turned, and played once without errors. False where there are none. */
 static bool add_near(search *plan) {
   const int64_t first = plan->count;
   int64_t parents = 1;
@@ -255,8 +255,8 @@ static bool add_near(search *plan) {
   carom_search_near(plan, carom_min(plan->entered, parents));
   if (plan->count == first)
     return false;
-  carom_search_stage(plan, first, plan->count - first, 1, 0);
-  plan->next = NEXT_NEAR;
+  carom_search_steer_added(plan, first);
+  plan->next = NEXT_TURNED;
   return true;
 }
 
@@ -406,6 +406,10 @@ static void go_on(search *plan) {
     carom_search_add_up(plan);
     carom_search_sort(plan, plan->count);
     next_round(plan);
+    break;
+  case NEXT_TURNED:
+    carom_search_steered(plan);
+    plan->next = NEXT_NEAR;
     break;
   case NEXT_NEAR:
     take_near(plan);

@@ -53,6 +53,7 @@ typedef struct carom_candidate {
                                               /* 0: not yet; and that pot */
   carom_miss miss; /* of the shot without errors, where it was measured */
   carom_miss lead; /* of a kick: the miss of the first ball with which it is met as it has to be */
+  bool turns;      /* it is to be turned before it is played */
   double chance;   /* of the direct pot that it was aimed at */
   float leave[2];  /* of a push-out or a pass that was searched: carom_plan_stroke.leave, */
   float leave_worth, leave_error; /* and what it is worth without a foul, with its error */
@@ -77,6 +78,8 @@ enum { PATH_ROWS = 32, PATH_EVENTS = 40 };
 typedef struct carom_trail {
   carom_event event[PATH_EVENTS];
   carom_ball_state drawn[CAROM_BALLS_MOST];
+  carom_facts facts;
+  int64_t work; /* of the shots that were measured, in events */
 } carom_trail;
 /* The miss of a shot of a candidate without errors, which had so many events. */
 typedef struct carom_search carom_search;
@@ -103,7 +106,8 @@ typedef enum carom_search_next {
   NEXT_STEER,  /* it keeps the strokes that could be steered, and plays them */
   NEXT_PLAYED, /* it takes those */
   NEXT_ROUND,  /* it sorts the candidates of a round with errors, and begins the next round */
-  NEXT_NEAR,   /* it takes strokes near the best one into the round */
+  NEXT_TURNED, /* it keeps the strokes near the best that could be turned, and plays them */
+  NEXT_NEAR,   /* it takes these into the round */
   NEXT_DUEL,   /* it sorts the few best, which were played against each other */
   NEXT_LOOK,   /* it compares another pot, which was played again, with the best */
   NEXT_LEAVE,  /* it searches the leaves of push-outs and of a pass, */

@@ -10,6 +10,9 @@
 
 static const double pi = 3.14159265358979323846, degree = 3.14159265358979323846 / 180.0;
 
+/* s: contacts with one rail that follow so soon are one, as a hop along it. */
+static const double carom_same_contact = 0.1;
+
 static inline double carom_within(double x, double least, double most) {
   if (x < least)
     return least;
