@@ -187,6 +187,7 @@ static bool is_known(const search *plan, const candidate *c) {
  * and half as much again, could not be told from them. */
 void carom_search_near(search *plan, int64_t parents) {
   enum { POT_WAYS = 6, WAYS = 10, PLACE_WAYS = 4 };
+  const int64_t first = plan->count;
   int places = 0;
   if (plan->places > 0 && !plan->breaks)
     places = PLACE_WAYS;
@@ -216,7 +217,8 @@ void carom_search_near(search *plan, int64_t parents) {
           continue;
       }
       c.miss.miss = (float)NAN;
-      if (steered && (is_known(plan, &c) || !carom_search_turn(plan, &c, plan->path)))
+      c.turns = steered && !is_known(plan, &c);
+      if (steered && (!c.turns || plan->count - first >= PATH_ROWS))
         continue;
       carom_search_add(plan, c);
     }

@@ -44,22 +44,29 @@ static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed
   needed[0] = needed[1] = 1;
 }
 
-/* The chance that a seat which loses a life in each round with the chance `usual`, a guess, has
- * lost all in the first n rounds. It is binomial: one[i] is the chance of i misses. */
-static double chance_out(uint64_t lives, int rounds) {
+enum { LIVES_MOST = 16 };
+
+/* The lives that a seat has lost after some rounds, in each of which it loses one with the chance
+ * `usual`, a guess. They are binomial: chance[i] is that of i lives, and of all the last. */
+typedef struct lives_lost {
+  double chance[LIVES_MOST + 1];
+  int last;
+} lives_lost;
+
+static lives_lost none_lost(uint64_t lives) {
+  return (lives_lost){{1.0}, (int)carom_min((int64_t)(lives & INT32_MAX), LIVES_MOST)};
+}
+
+static void play_round(lives_lost *lost) {
   static const double usual = 0.4;
-  enum { LIVES_MOST = 16 };
-  double one[LIVES_MOST + 1] = {1.0};
-  const int last = (int)carom_min((int64_t)(lives & INT32_MAX), LIVES_MOST);
-  for (int round = 0; round < rounds; round++) {
-    one[last] += usual * one[last - (last > 0)];
-    for (int i = last - 1; i >= 0; i--) {
-      one[i] *= 1.0 - usual;
-      if (i > 0)
-        one[i] += usual * one[i - 1];
-    }
+  double *chance = lost->chance;
+  const int last = lost->last;
+  chance[last] += usual * chance[last - (last > 0)];
+  for (int i = last - 1; i >= 0; i--) {
+    chance[i] *= 1.0 - usual;
+    if (i > 0)
+      chance[i] += usual * chance[i - 1];
   }
-  return one[last];
 }
 
 /* The seat at the table plays first in each round, so that it wins if its last life goes in a round
@@ -69,13 +76,20 @@ static double value(const carom_rules_state *game, const carom_ball_state *layou
   (void)layout, (void)count, (void)in_hand;
   enum { ROUNDS = 60 };
   const int own = carom_seat_of(game);
-  double sum = 0.0, out = chance_out(game->user[own], 0);
+  lives_lost lost[CAROM_SEATS_MOST];
+  for (int seat = 0; seat < CAROM_SEATS_MOST; seat++)
+    lost[seat] = none_lost(game->user[seat]);
+  double sum = 0.0, out = lost[own].chance[lost[own].last];
   for (int round = 1; round <= ROUNDS; round++) {
-    const double later = chance_out(game->user[own], round);
+    play_round(&lost[own]);
+    const double later = lost[own].chance[lost[own].last];
     double others = later - out;
-    for (int seat = 0; seat < CAROM_SEATS_MOST; seat++)
-      if (seat != own && game->user[seat] > 0)
-        others *= chance_out(game->user[seat], round - 1);
+    for (int seat = 0; seat < CAROM_SEATS_MOST; seat++) {
+      if (seat == own || game->user[seat] == 0)
+        continue;
+      others *= lost[seat].chance[lost[seat].last];
+      play_round(&lost[seat]);
+    }
     sum += others;
     out = later;
   }

@@ -195,6 +195,7 @@ void carom_search_mirrors(search *plan, int64_t most) {
                                  .phi = carom_turned(w->phi / degree),
                                  .b = tip[order / SPEEDS],
                                  .kind = CAROM_PLAN_SCAN,
+                                 .turns = true,
                                  .lead = lead,
                                  .miss = {.miss = (float)NAN,
                                           .ball = (int8_t)in_shot(plan, w->ball),

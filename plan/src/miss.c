@@ -186,12 +186,14 @@ static const double good = 0.3, fair = 0.8;         /* misses of strokes that ar
  * leaves it. */
 static double miss_at(const search *plan, const candidate *c, const carom_miss *same, double phi,
                       carom_trail *path) {
-  carom_shot shot = {.events = path->event, .room = PATH_EVENTS};
+  carom_shot shot = {.events = path->event, .room = PATH_EVENTS, .facts = &path->facts};
   carom_cue cue = carom_search_stroke(plan, c, 0, 0);
   cue.phi = carom_turned(phi);
   cue.ball = plan->cue_ball;
   const carom_prepared layout = carom_search_layout(plan, c, 0, 0, path->drawn);
-  if (carom_shoot_prepared(&layout, &cue, &shot) < 0)
+  const carom_status status = carom_shoot_prepared(&layout, &cue, &shot);
+  path->work += carom_search_work(&shot);
+  if (status < 0)
     return (double)NAN;
   const carom_miss m = miss_of(plan, c, path->event, shot.count, same);
   if (m.ball < 0)

@@ -205,6 +205,16 @@ double carom_search_leave(const search *plan, const carom_rules_state *game,
   return worth;
 }
 
+double carom_search_ruled(const search *plan, const carom_ruling *ruling) {
+  double worth;
+  if (has_worth(plan, &ruling->turn, CAROM_OK, &worth))
+    return worth;
+  carom_ball_state layout[CAROM_BALLS_MOST];
+  for (int k = 0; k < plan->view.count; k++)
+    layout[k] = ruling->balls[k].state;
+  return carom_search_leave(plan, &ruling->state, layout, &ruling->turn);
+}
+
 /* The worth of a shot for the player: its turn, and the value of the layout that it leaves.
  * `final` is changed. */
 static outcome judge(const search *plan, const carom_facts *facts, carom_ball_state *final,
@@ -221,7 +231,9 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
   if (!ends)
     leave_layout(plan, &game, c, final, taken_back, &turn);
-  if (carom_has_goal(&plan->job))
+  if (c->kind == CAROM_PLAN_PUSH && c->leave[0] > 0.0f && turn.foul == CAROM_FOUL_NONE)
+    o.worth = (double)c->leave_worth;
+  else if (carom_has_goal(&plan->job))
     o.worth = !taken_back && carom_search_reaches(plan, &game, final, &turn, &o.near);
   else if (!ends)
     o.worth = carom_search_leave(plan, &game, final, &turn);
@@ -300,7 +312,7 @@ static void spread(const search *plan, shot_result *with) {
 
 /* The work of a shot, in events. A further touch of the tip takes about as long as 80 of them: in
  * straight rail 40 us, where an event takes 0.5 us. */
-static uint16_t work_of(const carom_shot *shot) {
+uint16_t carom_search_work(const carom_shot *shot) {
   enum { TOUCH = 80 };
   const int64_t further = carom_max(shot->facts->touches - 1, 0);
   return (uint16_t)carom_min(shot->count + TOUCH * further, UINT16_MAX);
@@ -341,7 +353,7 @@ __attribute__((noinline)) static int64_t play_row(const search *plan, int64_t ro
                    .first = (int8_t)first_hit};
   else
     *o = judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
-  o->events = work_of(&shot);
+  o->events = carom_search_work(&shot);
   return shot.count;
 }
 
@@ -354,8 +366,11 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
       return k;
     const int64_t events = play_row(plan, row);
     const candidate *c = &plan->found[s->first + row / s->each];
-    if (s->measure != NULL)
+    if (s->measure != NULL) {
+      plan->path[row].work = plan->outcome[row].events;
       plan->outcome[row].miss = s->measure(plan, c, &plan->path[row], events);
+      plan->outcome[row].events = (uint16_t)carom_min(plan->path[row].work, UINT16_MAX);
+    }
   }
   return end;
 }
@@ -373,11 +388,13 @@ void carom_search_spend(search *plan, int64_t events) {
 }
 
 bool carom_search_play(search *plan) {
-  enum { COST = 256 }; /* of all but few rows */
   carom_stage *s = &plan->stage;
+  /* of all but few rows; where misses are measured, of several shots each */
+  const bool measures = s->measure != NULL || s->work != play_rows;
+  const int64_t cost = measures ? 1024 : 256;
   do {
     /* in a slice a block of rows that cost hardly more than what is left of it */
-    const int64_t left = s->rows - s->done, block = plan->slice / COST + (plan->slice > 0);
+    const int64_t left = s->rows - s->done, block = plan->slice / cost + (plan->slice > 0);
     const size_t rows = (size_t)(left > block && !carom_is_stopped(plan) ? block : left);
     const int64_t played = (int64_t)carom_crew_work(plan->crew, s->work, plan, rows, ROWS_LEAST);
     for (int64_t k = s->done; k < s->done + played; k++)

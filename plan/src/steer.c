@@ -15,15 +15,20 @@ typedef carom_outcome outcome;
 typedef carom_search search;
 
 static size_t steer_rows(const void *context, size_t first, size_t end) {
-  enum { COST = 40 }; /* of the events of its shots */
   const search *plan = context;
   for (size_t k = first; k < end; k++) {
     const int64_t row = plan->stage.done + (int64_t)k;
     if (row > 0 && carom_is_stopped(plan))
       return k;
     candidate *c = &plan->found[plan->stage.first + row];
-    const int turn = carom_search_turn(plan, c, &plan->path[row]);
-    plan->outcome[row] = (outcome){.turn = (int8_t)turn, .events = COST};
+    outcome *o = &plan->outcome[row];
+    *o = (outcome){.turn = 1};
+    if (!c->turns)
+      continue;
+    c->turns = false;
+    plan->path[row].work = 0;
+    o->turn = (int8_t)carom_search_turn(plan, c, &plan->path[row]);
+    o->events = (uint16_t)carom_min(plan->path[row].work, UINT16_MAX);
   }
   return end;
 }
@@ -43,8 +48,16 @@ static void add_seeds(search *plan) {
     seed[index] = k;
     seeds = (int)carom_min(seeds + 1, PATH_ROWS);
   }
-  for (int n = 0; n < seeds; n++)
-    carom_search_add(plan, plan->found[seed[n]]);
+  for (int n = 0; n < seeds; n++) {
+    candidate c = plan->found[seed[n]];
+    c.turns = true;
+    carom_search_add(plan, c);
+  }
+}
+
+void carom_search_steer_added(search *plan, int64_t first) {
+  plan->stage =
+      (carom_stage){.work = steer_rows, .first = first, .each = 1, .rows = plan->count - first};
 }
 
 bool carom_search_steer(search *plan) {
@@ -56,8 +69,7 @@ bool carom_search_steer(search *plan) {
   else
     carom_search_mirrors(plan, PATH_ROWS);
   plan->steered++;
-  plan->stage =
-      (carom_stage){.work = steer_rows, .first = first, .each = 1, .rows = plan->count - first};
+  carom_search_steer_added(plan, first);
   return true;
 }
 

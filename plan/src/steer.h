@@ -6,6 +6,8 @@
 
 /* Makes the next strokes that are steered, with their stage; false where there are no more. */
 bool carom_search_steer(carom_search *plan);
+/* The stage that turns those of the candidates from `first` on that are to be turned. */
+void carom_search_steer_added(carom_search *plan, int64_t first);
 /* Keeps those that could be steered, with the stage that plays them. */
 void carom_search_steered(carom_search *plan);
 /* Takes those that reach a goal. */

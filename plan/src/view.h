@@ -233,6 +233,7 @@ enum {
   DRAW_MIND,        /* whether a player thinks of nothing but potting, */
   DRAW_REASONS,     /* the errors of strokes that explain a choice, */
   DRAW_RUN_OUTS,    /* the seeds of the strokes of a run-out, */
+  DRAW_LEAVES,      /* the errors of push-outs whose leaves are searched, */
   DRAW_ROUND = 16   /* and the errors of the rounds, a stage each. */
 };
 /* between 0 and 1, without the ends */

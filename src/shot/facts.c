@@ -95,7 +95,7 @@ static void meet(carom_facts *facts, const carom_sim *sim, int ball) {
   if (count == 0) {
     const carom_ball_state current = state_now(sim, sim->struck);
     memcpy(facts->first_place, current.r, sizeof facts->first_place);
-    facts->approach = approach_of(sim, ball);
+    facts->approach = (int32_t)approach_of(sim, ball);
   }
   if (count == 0 || sim->time - facts->first_time[0] <= CAROM_RULES_INSTANT)
     facts->first_set |= set_of(ball);

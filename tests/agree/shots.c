@@ -480,6 +480,8 @@ TEST(stopped_and_continued) {
       s.cue.theta = 30.0;
     for (int k = 0; k < s.count && n % 3 == 1; k++)
       s.ball[k].kind.drag = 0.0129;
+    s.table.slope_x = n % 4 == 1 ? 2e-3 : 0.0;
+    s.table.slope_y = n % 8 == 5 ? -1e-3 : 0.0;
     const carom_shot_options options = {
         .world = n % 4 == 3 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM,
         .cushion_model = n % 5 == 0 ? CAROM_SHOT_CUSHION_DEFAULT : CAROM_SHOT_CUSHION_HAN};
