@@ -171,6 +171,9 @@ static void write_lines(FILE *out, const plan_job *job, const shot_line *line,
                         json_pack("{s: s, s: f, s: f, s: f, s: f}", "kind",
                                   carom_plan_kind_name((carom_plan_kind)c->kind), "value", c->value,
                                   "error", c->error, "keep", c->keep, "foul", c->foul));
+    if (c->leave[0] > 0.0)
+      json_object_set_new(json_object_get(written, "plan"), "leave",
+                          json_pack("[f, f]", c->leave[0], c->leave[1]));
     shot_json_write(out, written);
   }
 }

@@ -107,6 +107,9 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
     fputs("the visit ends\n", out);
   else if (passes && isnan(why->leave))
     fputs("the other plays\n", out);
+  else if (passes && choice->leave[0] > 0.0)
+    fprintf(out, "the other wins %.0f %% by playing; given back, the player wins %.0f %%\n",
+            100.0 * choice->leave[0], 100.0 * choice->leave[1]);
   else if (passes)
     fprintf(out, "the other wins %.0f %%\n", 100.0 * (1.0 - why->leave));
   else if (!why->has_next)

@@ -235,18 +235,18 @@ CAROM_API size_t carom_sequence_memory(const carom_plan_options *options);
  * the player hardly ever plays on. in_hand: 1 if the cue ball is in hand before the first stroke,
  * within the bounds of job->leave. within: how much value the landing zones may lose, above 0 and
  * below 1. A stroke takes about as long as two plans, and as eight more of at most 200 shots. If
- * options->stop is set, the run-out ends with the stroke that is planned. If options->slice is above
- * 0, the call returns after about so many events of shots with *found 0, for
- * carom_sequence_continue(). Returns CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is less memory than
- * carom_sequence_memory(); CAROM_ERROR_OPTIONS for another `within`, a goal, or options->safeties;
- * or an error of carom_plan() for the first layout. */
+ * options->stop is set, the run-out ends with the stroke that is planned. If options->slice is
+ * above 0, the call returns after about so many events of shots with *found 0, for
+ * carom_sequence_continue(). Returns CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is
+ * less memory than carom_sequence_memory(); CAROM_ERROR_OPTIONS for another `within`, a goal, or
+ * options->safeties; or an error of carom_plan() for the first layout. */
 CAROM_API carom_status carom_sequence(const carom_plan_job *job, int in_hand, double within,
                                       carom_sequence_stroke *strokes, int room, int *found);
 
 /* Goes on with a run-out in slices, as carom_plan_continue() does with a plan: *found is 0 until
  * the run-out has ended, and strokes[] of carom_sequence(), which is in use until then, has the
- * bits of one call. Returns CAROM_OK; CAROM_ERROR_NULL as in carom_sequence(); CAROM_ERROR_STATE if the
- * memory has no run-out of this job; or an error of carom_plan() for the first layout. */
+ * bits of one call. Returns CAROM_OK; CAROM_ERROR_NULL as in carom_sequence(); CAROM_ERROR_STATE
+ * if the memory has no run-out of this job; or an error of carom_plan() for the first layout. */
 CAROM_API carom_status carom_sequence_continue(const carom_plan_job *job, int *found);
 
 /* Plays the run-outs of numbers `first` to first + n - 1 from the layout, and adds how they end to

@@ -678,7 +678,12 @@ typedef struct carom_plan_stroke {
   double foul, lose;    /* chances that the shot is a foul, and that it loses. */
   int64_t seen;         /* how often the shot was played with errors. 0 if the plan was stopped
                            before that; the value is then that of the shot without errors. */
-  uint64_t reserved[4]; /* 0. */
+  double leave[2];      /* of a push-out and of a pass: the chance to win of the opponent, who
+                           plays from there, and that of the player, to whom the opponent may give a
+                           push-out back; by plans from there. 0 for other kinds, and where it was
+                           not searched, as if the plan was stopped before, or the best stroke is
+                           worth 0.1 more. */
+  uint64_t reserved[2]; /* 0. */
 } carom_plan_stroke;
 
 /* What a stroke is to leave, without a foul. */

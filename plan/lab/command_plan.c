@@ -35,10 +35,11 @@ OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
 OPTION(strength_job, option_players, "players", rating, 0, "A,B", set_ratings, 0,
        "play matches of two players of these ratings, who break in turn; report how many the first "
        "one wins");
-OPTION(strength_job, option_told, "told", told, 0, NULL, set_flag, 0,
-       "with --players: they plan with --shots, see places of balls with errors and never think of "
-       "pots alone; report by kind of stroke the chances to play on, to foul, to lose at once and to "
-       "win that plans predict, beside what came; without --rules, of every game");
+OPTION(
+    strength_job, option_told, "told", told, 0, NULL, set_flag, 0,
+    "with --players: they plan with --shots, see places of balls with errors and never think of "
+    "pots alone; report by kind of stroke the chances to play on, to foul, to lose at once and to "
+    "win that plans predict, beside what came; without --rules, of every game");
 OPTION(strength_job, option_run_out, "run-out", run_out, 0, NULL, set_flag, 0, "plan to run out");
 OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1,
        "number of racks to play (default 100)");
@@ -144,7 +145,8 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
   lab_compare_end(sums->kinds, KINDS);
 }
 
-static void tell_bins(const lab_comparison *bins, int count, const char *const names[], const char *came) {
+static void tell_bins(const lab_comparison *bins, int count, const char *const names[],
+                      const char *came) {
   printf("%spredicted,strokes,%s,standard_error\n", names != NULL ? "kind," : "", came);
   for (int k = 0; k < count; k++) {
     const lab_comparison *b = &bins[k];
@@ -153,8 +155,7 @@ static void tell_bins(const lab_comparison *bins, int count, const char *const n
       continue;
     if (names != NULL)
       printf("%s,", names[k]);
-    printf("%.3f,%ld,%.3f,%.3f\n", b->predicted / n, b->strokes, b->came / n,
-           lab_compare_error(b));
+    printf("%.3f,%ld,%.3f,%.3f\n", b->predicted / n, b->strokes, b->came / n, lab_compare_error(b));
   }
 }
 
@@ -233,9 +234,9 @@ static const command_form form = {
         "to the end, and the predicted chances to win stand beside the share of games won.\n",
     .options =
         (const option_row *const[]){&option_rules, &option_games, &option_players, &option_told,
-                                    &option_run_out, &option_left, &option_target, &option_racks, &option_shots,
-                                    &option_errors, &option_against, &option_unsure, &option_seed,
-                                    &option_threads, NULL},
+                                    &option_run_out, &option_left, &option_target, &option_racks,
+                                    &option_shots, &option_errors, &option_against, &option_unsure,
+                                    &option_seed, &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
     .example = "carom-lab plan --racks 100 --shots 1000",
     .files = NO_FILES,
@@ -244,9 +245,11 @@ static const command_form form = {
 int command_plan(int argc, char **argv) {
   static strength_job job;
   const char *path;
-  job = (strength_job){
-      .shared = {.options = {.threads = 0}}, .rules = -1, .racks = 100, .shots = 2000,
-      .errors = 1.0};
+  job = (strength_job){.shared = {.options = {.threads = 0}},
+                       .rules = -1,
+                       .racks = 100,
+                       .shots = 2000,
+                       .errors = 1.0};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;

@@ -233,10 +233,9 @@ static void print_told(const lab_ratings *wanted, int kind, const lab_comparison
   const int chances_told = is_alone ? WIN : CHANCES; /* who is alone plays for points */
   for (int k = 0; k < chances_told && rows[k].strokes > 0; k++) {
     const double n = (double)rows[k].strokes;
-    printf("%s,%s,%s,%ld,%.3f,%.3f,%+.3f,%.3f\n",
-           carom_word(CAROM_WORDS_RULES, (int)wanted->rules), name, chances[k], rows[k].strokes,
-           rows[k].predicted / n, rows[k].came / n, (rows[k].predicted - rows[k].came) / n,
-           lab_compare_error(&rows[k]));
+    printf("%s,%s,%s,%ld,%.3f,%.3f,%+.3f,%.3f\n", carom_word(CAROM_WORDS_RULES, (int)wanted->rules),
+           name, chances[k], rows[k].strokes, rows[k].predicted / n, rows[k].came / n,
+           (rows[k].predicted - rows[k].came) / n, lab_compare_error(&rows[k]));
   }
 }
 

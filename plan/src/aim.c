@@ -36,8 +36,6 @@ static const double just_before = 1e-6;
 /* rad: a root with more is a jump; neighbours that differ by more are none */
 static const double root_most = 1e-4, step_most = 1.0;
 static const double least_time = 1e-9; /* s */
-/* s: a further contact with the same rail is a hop */
-static const double same_contact = 0.1;
 /* degrees on either side, for each rail before the first ball */
 static const double kick_wide = 20.0;
 static const double speed_most = 15.0, speed_least = 0.05; /* m/s, of the cue */
@@ -85,7 +83,7 @@ static bool is_on(const way *w, const carom_part *link, int rail) {
 
 /* Whether the cue ball meets the first ball right after event k. */
 static bool meets_soon(const int *ball, const carom_brief_event *events, int64_t count, int64_t k) {
-  const double deadline = events[k].time + same_contact;
+  const double deadline = events[k].time + carom_same_contact;
   while (++k < count && events[k].time < deadline)
     if (events[k].type == CAROM_EVENT_BALL_BALL && events[k].a + events[k].b == ball[0] + ball[1] &&
         (events[k].a == ball[0] || events[k].b == ball[0]))
@@ -137,7 +135,7 @@ static bool may_touch_rail(const way *w, const progress *p, const int *ball,
   if (e->type != CAROM_EVENT_RAIL)
     return false;
   if (p->links > 0 && is_on(w, &w->link[p->links - 1], e->b) &&
-      e->time - p->last_contact < same_contact)
+      e->time - p->last_contact < carom_same_contact)
     return true;
   return w->swept && p->links == 0 && meets_soon(ball, events, count, k);
 }

@@ -1,4 +1,4 @@
-/* Cuts, strokes that are ruled, and what they are worth. */
+/* Cuts, and strokes that are ruled. */
 #include "coach.h"
 #include "rules.h"
 
@@ -36,19 +36,4 @@ carom_plan_job carom_job_after(const carom_plan_job *job, const carom_ruling *ru
     next.opponent = job->player;
   }
   return next;
-}
-
-double carom_worth_left(const carom_plan_job *job, const carom_ruling *ruling) {
-  const carom_turn *turn = &ruling->turn;
-  if (turn->outcome == CAROM_TURN_DRAW)
-    return 0.5;
-  if (turn->outcome > CAROM_TURN_PASS)
-    return turn->outcome == CAROM_TURN_WIN;
-  carom_plan_rules rules;
-  const carom_plan_job next = carom_job_after(job, ruling, &rules);
-  double value = 0.0;
-  carom_plan_value(&next, ruling->hand, &value);
-  if (turn->outcome == CAROM_TURN_PASS)
-    return 1.0 - value;
-  return value;
 }

@@ -1,4 +1,5 @@
-/* What the files of the coach share: cuts, strokes that are ruled, and what they are worth. */
+/* What the files of the coach and leaves.c share: cuts, strokes that are ruled, and what they are
+ * worth. */
 #ifndef CAROM_PLAN_COACH_H
 #define CAROM_PLAN_COACH_H
 
@@ -6,14 +7,10 @@
 
 #include <stdbool.h>
 
-/* s: contacts with one rail that follow so soon are one, as a hop along it. */
-static const double carom_same_contact = 0.1;
-
 /* The angle from the way of the cue ball, just before its contact with a ball, to the line of
  * centres, degrees; above 0 to the left of the way. */
 double carom_cut_at(const carom_event *contact, int cue_ball);
-/* What a stroke is worth to its player in a game of two sides: the chance to win, by the value of
- * what it leaves. */
+/* plan.c: what a stroke is worth to its player, as a plan from its layout values what it leaves. */
 double carom_worth_left(const carom_plan_job *job, const carom_ruling *ruling);
 
 /* What a shot writes, in the caller's memory, since shots need most of a small stack. */

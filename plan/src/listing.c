@@ -107,7 +107,8 @@ carom_plan_stroke carom_search_choice(const search *plan, const candidate *c) {
                               .pocket = pot.pocket,
                               .cushions = pot.cushions,
                               .value = value,
-                              .error = chances.error,
+                              .error = hypot(chances.error, (double)c->leave_error),
+                              .leave = {(double)c->leave[0], (double)c->leave[1]},
                               .keep = chances.keep,
                               .foul = chances.foul,
                               .lose = chances.lose};

@@ -21,8 +21,10 @@
 #include "anytime.h"
 #include "candidates.h"
 #include "carom_coach.h"
+#include "coach.h"
 #include "drawn_tables.h"
 #include "goals.h"
+#include "leaves.h"
 #include "listing.h"
 #include "places.h"
 #include "plan_options.h"
@@ -83,14 +85,18 @@ static const carom_plan_options *or_usual(const carom_plan_options *options) {
   return options;
 }
 
+size_t carom_search_memory(const carom_plan_options *options, bool searches_leaves) {
+  const int64_t shots = shots_of(options);
+  const double scan = carom_scan_of(options);
+  return sizeof(search) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
+         (size_t)most_rows(shots, scan) * sizeof(outcome) + carom_leaves_memory(searches_leaves);
+}
+
 size_t carom_plan_memory(const carom_plan_options *options) {
   const carom_plan_options *o = or_usual(options);
   if (check_options(o) != CAROM_OK)
     return 0;
-  const int64_t shots = shots_of(o);
-  const double scan = carom_scan_of(o);
-  size_t bytes = sizeof(search) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
-                 (size_t)most_rows(shots, scan) * sizeof(outcome) + PATH_ROWS * sizeof(carom_trail);
+  size_t bytes = carom_search_memory(o, true);
   if (o->unsure > 0.0)
     bytes += TABLES * sizeof(carom_drawn_table);
   return bytes;
@@ -216,7 +222,8 @@ static void share_memory(search *plan) {
   plan->room = most_rows(shots, scan);
   plan->found = (candidate *)(plan + 1);
   plan->outcome = (outcome *)(plan->found + plan->most);
-  plan->path = (carom_trail *)(plan->outcome + plan->room);
+  plan->leaves = (carom_leaves *)(plan->outcome + plan->room);
+  plan->path = carom_leaves_trails(plan->leaves);
   plan->drawn = NULL;
 }
 
@@ -316,16 +323,23 @@ carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int c
   search *plan = place(job);
   if (plan == NULL)
     return CAROM_ERROR_NULL;
+  const carom_status status = carom_search_make(plan, job, in_hand, choices);
+  if (status == CAROM_OK && plan->options.unsure > 0.0)
+    carom_search_tables(plan,
+                        (carom_drawn_table *)((char *)plan->leaves + carom_leaves_memory(true)));
+  *prepared = plan;
+  return status;
+}
+
+carom_status carom_search_make(search *plan, const carom_plan_job *job, bool in_hand, int choices) {
   const carom_status status = begin(plan, job, in_hand);
   if (status != CAROM_OK)
     return status;
   plan->late = plan->joins = false;
   plan->places = plan->place = 0;
   plan->choices_most = (int)carom_min(choices, LISTED_MOST);
+  plan->fresh_least = 30;
   plan->seconds = plan->options.seconds;
-  if (plan->options.unsure > 0.0)
-    carom_search_tables(plan, (carom_drawn_table *)(plan->path + PATH_ROWS));
-  *prepared = plan;
   return CAROM_OK;
 }
 
@@ -507,4 +521,11 @@ carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *va
   if (job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL)
     *value = carom_search_share(&plan, *value);
   return CAROM_OK;
+}
+
+double carom_worth_left(const carom_plan_job *job, const carom_ruling *ruling) {
+  carom_search plan; /* which plays no shot */
+  if (carom_search_make(&plan, job, false, 1) != CAROM_OK)
+    return 0.0;
+  return carom_search_ruled(&plan, ruling);
 }

@@ -205,6 +205,16 @@ double carom_search_leave(const search *plan, const carom_rules_state *game,
   return worth;
 }
 
+double carom_search_ruled(const search *plan, const carom_ruling *ruling) {
+  double worth;
+  if (has_worth(plan, &ruling->turn, CAROM_OK, &worth))
+    return worth;
+  carom_ball_state layout[CAROM_BALLS_MOST];
+  for (int k = 0; k < plan->view.count; k++)
+    layout[k] = ruling->balls[k].state;
+  return carom_search_leave(plan, &ruling->state, layout, &ruling->turn);
+}
+
 /* The worth of a shot for the player: its turn, and the value of the layout that it leaves.
  * `final` is changed. */
 static outcome judge(const search *plan, const carom_facts *facts, carom_ball_state *final,
@@ -221,7 +231,9 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
   if (!ends)
     leave_layout(plan, &game, c, final, taken_back, &turn);
-  if (carom_has_goal(&plan->job))
+  if (c->kind == CAROM_PLAN_PUSH && c->leave[0] > 0.0f && turn.foul == CAROM_FOUL_NONE)
+    o.worth = (double)c->leave_worth;
+  else if (carom_has_goal(&plan->job))
     o.worth = !taken_back && carom_search_reaches(plan, &game, final, &turn, &o.near);
   else if (!ends)
     o.worth = carom_search_leave(plan, &game, final, &turn);

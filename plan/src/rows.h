@@ -32,10 +32,12 @@ bool carom_search_may_join(const carom_search *plan, const carom_outcome *o);
 /* The work of a shot with facts, in events. */
 uint16_t carom_search_work(const carom_shot *shot);
 /* What a turn leaves, as the player who made it values it: the points of a player who is alone, and
- * the value of the layout to whoever plays next. Plans, fouls, passes and reasons all take it from
- * here. */
+ * the value of the layout to whoever plays next. Plans, fouls, passes, reasons, breaks and reviews
+ * all take it from here. */
 double carom_search_leave(const carom_search *plan, const carom_rules_state *game,
                           const carom_ball_state *layout, const carom_turn *turn);
+/* The worth of a stroke that was ruled: of its turn, or of what it leaves. */
+double carom_search_ruled(const carom_search *plan, const carom_ruling *ruling);
 /* Points as a share of the balls left before the shot. */
 double carom_search_share(const carom_search *plan, double points);
 

@@ -3,6 +3,7 @@
 #include "search.h"
 
 #include "candidates.h"
+#include "leaves.h"
 #include "listing.h"
 #include "miss.h"
 #include "places.h"
@@ -101,32 +102,57 @@ static bool loses(const search *plan) {
   return lost > 0;
 }
 
-/* Adds passing as a candidate: it is worth 1 less the value of the layout to the other player. */
-static void pass(search *plan) {
-  carom_rules_state game = plan->job.rules->state; /* rules change it as they judge */
-  const carom_call call = {CAROM_CALL_PASS, -1};
-  const carom_turn turn =
-      plan->job.rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts, call);
-  const double value = carom_search_leave(plan, &game, plan->state, &turn);
-  carom_search_add(plan, (candidate){.chose = {.sum = value, .squares = value * value, .seen = 1},
-                                     .kind = CAROM_PLAN_PASS,
-                                     .ball = CAROM_CALL_PASS,
-                                     .pocket = -1,
-                                     .round = plan->found[0].round});
-  plan->found[plan->count - 1].order = -1; /* of shots that are worth as much, none is played */
-  carom_search_lead(plan, plan->count - 1);
-}
-
 /* Plays the best again, by shots that choose nothing: its reported chances come from them. */
 static void replay(search *plan) {
-  enum { SHARE = 10, LEAST = 30 };
+  enum { SHARE = 10 };
   plan->next = NEXT_ENDED;
   if (carom_is_stopped(plan))
     return;
-  if (plan->permissions & CAROM_CHOICE_PASS && plan->places == 0)
-    pass(plan);
-  carom_search_stage(plan, 0, 1, carom_max(plan->shots / SHARE, LEAST), DRAW_REPLAY);
+  carom_search_stage(plan, 0, 1, carom_max(plan->shots / SHARE, plan->fresh_least), DRAW_REPLAY);
   plan->next = NEXT_REPLAY;
+}
+
+/* The best is known once the leaves are that the player may hand over. */
+static void hand_over(search *plan) {
+  plan->next = NEXT_ENDED;
+  if (carom_is_stopped(plan))
+    return;
+  if (!carom_leaves_begin(plan)) {
+    replay(plan);
+    return;
+  }
+  carom_search_stage(plan, 0, 0, 1, 0);
+  plan->next = NEXT_LEAVE;
+}
+
+/* Begins the plan from the next leave, or ends with them. */
+static void next_leave(search *plan) {
+  if (carom_is_stopped(plan) || carom_leaves_ended(plan)) {
+    carom_leaves_end(plan);
+    replay(plan);
+    return;
+  }
+  plan->leave = carom_leaves_next(plan);
+  if (plan->leave == NULL)
+    return;
+  carom_search_begin(plan->leave, plan->leave->options.shots);
+  plan->next = NEXT_SEARCH;
+}
+
+/* Goes on with the plan from a leave, whose time and slice are those of this one. */
+static void search_leave(search *plan) {
+  search *leave = plan->leave;
+  leave->crew = plan->crew;
+  leave->end = plan->end;
+  leave->slice = plan->slice;
+  const bool ended = carom_search_run(leave);
+  plan->slice = leave->slice;
+  plan->late |= leave->late;
+  if (!ended)
+    return;
+  if (!carom_is_stopped(plan))
+    carom_leaves_take(plan);
+  plan->next = NEXT_LEAVE;
 }
 
 /* The other choices of the list are looked for. A plan that a greater one follows has no list. */
@@ -176,7 +202,7 @@ static bool duel(search *plan) {
 static void look_again(search *plan) {
   enum { LOOKS = 2 };
   if (plan->look == LOOKS || plan->duels > 0 || carom_is_stopped(plan)) {
-    replay(plan);
+    hand_over(plan);
     return;
   }
   const candidate *best = &plan->found[0];
@@ -192,7 +218,7 @@ static void look_again(search *plan) {
     }
   }
   if (plan->better == 0) {
-    replay(plan);
+    hand_over(plan);
     return;
   }
 
@@ -301,7 +327,10 @@ static void scan(search *plan) {
   }
   if (carom_search_steer(plan)) {
     plan->next = NEXT_STEER;
-  } else if (plan->count == 0) {
+    return;
+  }
+  carom_leaves_collect(plan);
+  if (plan->count == 0) {
     carom_search_add(plan, gentle(plan));
     carom_search_stage(plan, 0, 1, plan->shots / 10, DRAW_ROUND);
     plan->next = NEXT_GENTLE;
@@ -398,6 +427,12 @@ static void go_on(search *plan) {
     carom_search_sort(plan, plan->count);
     look_again(plan);
     break;
+  case NEXT_LEAVE:
+    next_leave(plan);
+    break;
+  case NEXT_SEARCH:
+    search_leave(plan);
+    break;
   case NEXT_REPLAY:
     if (plan->found[0].kind != CAROM_PLAN_PASS)
       carom_search_replayed(plan);
@@ -412,7 +447,7 @@ static void go_on(search *plan) {
     break;
   case NEXT_GENTLE:
     carom_search_add_up(plan);
-    replay(plan);
+    hand_over(plan);
     break;
   case NEXT_ENDED:
     break;

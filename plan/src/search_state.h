@@ -1,7 +1,7 @@
 /* The state of a search for the best shot: all that its sources share. What they do stands in a
- * header of each. A source knows this file and the headers that stand before its own, in this
- * order: goals.h, drawn_tables.h, rows.h, ranking.h, choice_kind.h, listing.h, places.h, miss.h,
- * candidates.h, mirrors.h, steer.h, search.h, anytime.h. */
+ * header of each. A source knows this file, coach.h and the headers that stand before its own, in
+ * this order: goals.h, drawn_tables.h, rows.h, ranking.h, choice_kind.h, listing.h, places.h, miss.h,
+ * candidates.h, mirrors.h, steer.h, leaves.h, search.h, anytime.h. */
 #ifndef CAROM_PLAN_SEARCH_STATE_H
 #define CAROM_PLAN_SEARCH_STATE_H
 
@@ -54,6 +54,8 @@ typedef struct carom_candidate {
   carom_miss lead; /* of a kick: the miss of the first ball with which it is met as it has to be */
   bool turns;      /* it is to be turned before it is played */
   double chance;   /* of the direct pot that it was aimed at */
+  float leave[2];  /* of a push-out or a pass that was searched: carom_plan_stroke.leave, */
+  float leave_worth, leave_error; /* and what it is worth without a foul, with its error */
 } carom_candidate;
 
 /* What one shot tells. */
@@ -80,6 +82,7 @@ typedef struct carom_trail {
 } carom_trail;
 /* The miss of a shot of a candidate without errors, which had so many events. */
 typedef struct carom_search carom_search;
+typedef struct carom_leaves carom_leaves;
 typedef carom_miss carom_measurer(const carom_search *plan, const carom_candidate *c,
                                   carom_trail *path, int64_t count);
 
@@ -106,6 +109,8 @@ typedef enum carom_search_next {
   NEXT_NEAR,   /* it takes these into the round */
   NEXT_DUEL,   /* it sorts the few best, which were played against each other */
   NEXT_LOOK,   /* it compares another pot, which was played again, with the best */
+  NEXT_LEAVE,  /* it searches the leaves of push-outs and of a pass, */
+  NEXT_SEARCH, /* each by a plan of its own, */
   NEXT_REPLAY, /* it takes the shots of the best that have chosen nothing, */
   NEXT_LIST,   /* it looks for other choices among the candidates, */
   NEXT_LISTED, /* and takes their shots that have chosen nothing */
@@ -181,9 +186,12 @@ struct carom_search {
   double end;     /* and when they are over; 0: never */
   carom_stage stage;
   carom_search_next next;
+  int64_t fresh_least;           /* shots of the best that choose nothing, at least */
   int64_t shots;                 /* of all stages, about, */
   double share;                  /* of them that the scan has */
   carom_trail *path;             /* of the rows of a stage that measures misses */
+  carom_leaves *leaves;          /* in their place, after the rounds, */
+  carom_search *leave;           /* and the plan from the one that is searched */
   uint32_t deciding;             /* balls of the shot whose ways reach a goal */
   int cushions;                  /* of a point; -1: pots are the goals */
   int steered;                   /* stages of strokes that were steered */
@@ -201,7 +209,11 @@ struct carom_search {
   carom_candidate best;  /* of the rounds of doubling before */
 };
 
-/* plan.c: prepares a job once for all that is played of it: its plan, in the job's memory, from
+/* plan.c: the bytes of a plan on a known table, which may search leaves; and a plan in them. */
+size_t carom_search_memory(const carom_plan_options *options, bool searches_leaves);
+carom_status carom_search_make(carom_search *plan, const carom_plan_job *job, bool in_hand,
+                               int choices);
+/* Prepares a job once for all that is played of it: its plan, in the job's memory, from
  * which shots can be played. */
 carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int choices,
                                   carom_search **prepared);

@@ -361,13 +361,11 @@ static void begin_stage(run_out *r, stage next) {
   r->is_begun = false;
 }
 
-/* Plans the stroke. */
-static void go_through_plan(run_out *r, carom_sequence_stroke *s) {
-  r->status = plan_stroke(r, &s->choice);
-  if (r->status != CAROM_OK)
-    begin_stage(r, END);
-  else if (!r->is_begun)
-    begin_stage(r, TURN);
+static void begin_stroke(run_out *r) {
+  carom_sequence_stroke *s = &r->strokes[r->stroke];
+  memset(s, 0, sizeof *s);
+  s->turn_ball = s->turn_pocket = -1;
+  begin_stage(r, PLAN);
 }
 
 /* After the last piece of a stroke: the next stroke, or the end. */
@@ -379,9 +377,7 @@ static void end_stroke(run_out *r, const carom_sequence_stroke *s) {
     return;
   }
   go_on(r, &s->ruling);
-  memset(&r->strokes[r->stroke], 0, sizeof *s);
-  r->strokes[r->stroke].turn_ball = r->strokes[r->stroke].turn_pocket = -1;
-  begin_stage(r, PLAN);
+  begin_stroke(r);
 }
 
 /* Goes through the next piece of a stage. Returns about how many events it takes. */
@@ -390,7 +386,9 @@ static int64_t go_through_piece(run_out *r) {
   int64_t events = r->options.slice;
   switch (r->stage) {
   case PLAN:
-    go_through_plan(r, s);
+    r->status = plan_stroke(r, &s->choice);
+    if (!r->is_begun)
+      begin_stage(r, r->status == CAROM_OK ? TURN : END);
     break;
   case TURN:
     if (r->stroke > 0 && plan_stray(r))
@@ -455,8 +453,7 @@ carom_status carom_sequence(const carom_plan_job *job, int in_hand, double withi
   r->strokes = strokes;
   r->strokes_most = (int)carom_min(room, CAROM_SEQUENCE_MOST);
   r->within = within;
-  memset(strokes, 0, sizeof *strokes);
-  strokes->turn_ball = strokes->turn_pocket = -1;
+  begin_stroke(r);
   return play_slice(r, found);
 }
 

@@ -10,6 +10,9 @@
 
 static const double pi = 3.14159265358979323846, degree = 3.14159265358979323846 / 180.0;
 
+/* s: contacts with one rail that follow so soon are one, as a hop along it. */
+static const double carom_same_contact = 0.1;
+
 static inline double carom_within(double x, double least, double most) {
   if (x < least)
     return least;
@@ -230,6 +233,7 @@ enum {
   DRAW_MIND,        /* whether a player thinks of nothing but potting, */
   DRAW_REASONS,     /* the errors of strokes that explain a choice, */
   DRAW_RUN_OUTS,    /* the seeds of the strokes of a run-out, */
+  DRAW_LEAVES,      /* the errors of push-outs whose leaves are searched, */
   DRAW_ROUND = 16   /* and the errors of the rounds, a stage each. */
 };
 /* between 0 and 1, without the ends */

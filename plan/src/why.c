@@ -83,6 +83,8 @@ static carom_status prepare_choice(const carom_plan_job *job, const carom_plan_s
                                      .pocket = (int16_t)choice->pocket};
   if (choice->kind == CAROM_PLAN_PUSH)
     plan->found[0].kind = CAROM_PLAN_PUSH;
+  plan->found[0].leave[0] = (float)choice->leave[0];
+  plan->found[0].leave_worth = (float)choice->value;
   *prepared = plan;
   return CAROM_OK;
 }

@@ -353,6 +353,92 @@ TEST(what_one_may_do) {
     }
 }
 
+/* The chance to win of a side from a match's layout, without the choices that it may have. */
+static double chance_of(const carom_match *match, const carom_player *striker,
+                        const carom_player *opponent) {
+  static carom_match copy;
+  carom_plan_stroke best;
+  int found;
+  copy = *match;
+  copy.rules.state.may = 0;
+  options.shots = 600;
+  job.player = striker;
+  job.opponent = opponent;
+  make_memory();
+  expect_ok(carom_match_plan(&copy, &job, &best, 1, &found));
+  edge_free(&memory);
+  return best.value;
+}
+
+/* What a push-out without errors is worth by plans of both sides from its leave. */
+static double worth_of_push(const carom_cue *stroke, const carom_player *opponent) {
+  static carom_match match;
+  expect_ok(carom_match_begin_at(&match, CAROM_RULES_NINEBALL, &rules, &table, balls, 10, NULL,
+                                 CAROM_LEAVE_AFTER, 0));
+  expect_ok(carom_match_choose(&match, 0, CAROM_CHOICE_PUSH));
+  expect_ok(carom_match_stroke(&match, 0, stroke, NULL, NULL));
+  const double worth = 1.0 - chance_of(&match, opponent, &player);
+  if (match.ruling.turn.foul != 0)
+    return worth;
+  expect_ok(carom_match_choose(&match, 1, CAROM_CHOICE_PASS));
+  return fmin(worth, chance_of(&match, &player, opponent));
+}
+
+/* Push-outs are chosen by what they leave, against an opponent who is as good and one who is not:
+ * they are worth more than push-outs in other directions, and about as much as plans tell, in one
+ * call or in slices. */
+TEST(push_outs_by_their_leaves) {
+  enum { LAYOUTS = 6, OTHERS = 3 };
+  random_source r = {5};
+  double chosen = 0.0, other = 0.0, told = 0.0;
+  int listed = 0;
+  for (uint64_t seed = 1; listed < LAYOUTS; seed++) {
+    make_layout(seed, 1);
+    for (int k = 1; k < 10; k += 2)
+      while (place_ball(k, random_between(&r, 0.05, 1.2), random_between(&r, 0.05, 2.4)) != 0)
+        continue;
+    rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+    rules.state.may = CAROM_CHOICE_PUSH;
+    player = carom_player_of(0.5);
+    const carom_player opponent = carom_player_of(seed % 2 == 0 ? 0.5 : 1.5);
+    job.count = 10;
+    job.opponent = &opponent;
+    carom_plan_stroke whole[4], sliced[4];
+    int push = 0, parts = 0;
+    const int found = plan(false, whole, 4);
+    while (push < found && whole[push].kind != CAROM_PLAN_PUSH)
+      push++;
+    if (push == found)
+      continue;
+
+    /* the same in slices */
+    options.slice = 2000;
+    make_memory();
+    expect_ok(carom_plan(&job, sliced, 4, &parts));
+    while (parts == 0)
+      expect_ok(carom_plan_continue(&job, sliced, 4, &parts));
+    edge_free(&memory);
+    options.slice = 0;
+    ck_assert(parts == found && memcmp(whole, sliced, (size_t)found * sizeof whole[0]) == 0);
+
+    carom_cue stroke = whole[push].cue;
+    ck_assert(whole[push].value <= 1.0 - whole[push].leave[0] + 1e-6 &&
+              whole[push].value <= whole[push].leave[1] + 1e-6);
+    told += whole[push].value;
+    chosen += worth_of_push(&stroke, &opponent);
+    for (int n = 0; n < OTHERS; n++) {
+      stroke.phi = random_between(&r, 0.0, 360.0);
+      stroke.theta = 10.0;
+      other += worth_of_push(&stroke, &opponent) / OTHERS;
+    }
+    listed++;
+  }
+  printf("push-outs told %.3f, came %.3f, others %.3f\n", told / LAYOUTS, chosen / LAYOUTS,
+         other / LAYOUTS);
+  ck_assert_double_gt(chosen, other);
+  ck_assert_double_le(fabs(told - chosen) / LAYOUTS, 0.06);
+}
+
 /* A plan that is stopped at once has a choice still; one without a legal shot says so. */
 TEST(little_to_choose) {
   const volatile int32_t at_once = 1;

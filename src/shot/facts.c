@@ -65,7 +65,7 @@ static void fly_over(carom_facts *facts, const carom_sim *sim) {
 }
 
 /* How the cue ball comes to its first ball. */
-static carom_approach approach_of(const carom_sim *sim, int ball) {
+static int32_t approach_of(const carom_sim *sim, int ball) {
   const uint32_t rails = sim->shot->facts->rails[sim->struck];
   if (rails == 0)
     return CAROM_APPROACH_DIRECT;
@@ -95,7 +95,7 @@ static void meet(carom_facts *facts, const carom_sim *sim, int ball) {
   if (count == 0) {
     const carom_ball_state current = state_now(sim, sim->struck);
     memcpy(facts->first_place, current.r, sizeof facts->first_place);
-    facts->approach = approach_of(sim, ball);
+    facts->approach = (int32_t)approach_of(sim, ball);
   }
   if (count == 0 || sim->time - facts->first_time[0] <= CAROM_RULES_INSTANT)
     facts->first_set |= set_of(ball);

@@ -69,7 +69,7 @@ PYTHON
 grep -c 'class="legend"' ways.svg
 echo "--- less error, more chance"
 chance() { carom ways --cue 0.6,0.8 --balls 0.3,1.9 --pocket foot-left --rails 0 --speed 2 --csv "$@" | sed -n 2p | cut -d , -f 16; }
-awk -v sure="$(chance --errors 0.3)" -v weak="$(chance --errors 4)" -v rated="$(chance --player 700)" 'BEGIN { print (sure > weak + 0.3), (rated > weak) }'
+awk -v sure="$(chance --errors 0.3)" -v weak="$(chance --errors 4)" -v rated="$(chance --player 700)" -v seen="$(chance --errors 0)" -v blurred="$(chance --errors 0 --eye 3mm)" 'BEGIN { print (sure > weak + 0.3), (rated > weak), (seen == 1), (blurred < 0.9) }'
 echo "--- a ball frozen to a rail: along it, and by way of it"
 carom ways --cue 2d,3d --balls frozen-left,5d --ball 1 --speed 1.5,4 --rails 1 --pocket foot-left
 carom shoot --cue 2d,3d --balls frozen-left,5d --pocket 1:foot-left --speed 1.5 | grep -c "falls with aims of 136"

@@ -14,6 +14,7 @@ for rules in eightball nineball; do lab plan --rules $rules --left 2 --run-out -
 echo "--- matches of rated players"
 for threads in 1 2; do lab plan --rules threecushion --target 1 --players 800,500 --racks 18 --threads $threads | sed 's/ and [0-9.]* s a match//' > $threads.txt; done
 cmp 1.txt 2.txt && numbers < 1.txt
+lab plan --told --rules nineball --players 500,500 --racks 2 --shots 100 --seed 1 | grep -E "^game|,all,"
 echo "--- games of points"
 lab plan --rules straight --target 8 --racks 1 --shots 100 | numbers | cut -d' ' -f1-33
 for game in $(sed -n 's/.*--rules \([a-z]*\) --racks.*/\1/p' "$DATA/../plan/src/games.h" | sort -u); do

@@ -10,7 +10,7 @@
  *   expect PATH = VALUE within VALUE  or <, >, or ! for a difference
  *
  * NOTES: `without N`, argument N is NULL; `where N`, the place that a check names; `unchanged`,
- * nothing of the shot is written; `nan PATH`, this object has no numbers.
+ * nothing of the shot or of states is written; `nan PATH`, this object has no numbers.
  *
  * A value is a number, a path or a word of the library. A path is like ball[1].r[0], the place of a
  * ball; event[slate 1] is the second event of a type, and event[slate -1] the last. A vector in the
@@ -431,6 +431,7 @@ static int read_status(void) {
 static uint64_t shot_hash(void) {
   uint64_t hash = hash_of(1, events, 100 * sizeof *events);
   hash = hash_of(hash, final, sizeof final);
+  hash = hash_of(hash, states, sizeof states);
   hash = hash_of(hash, &shot, sizeof shot);
   hash = hash_of(hash, &facts, sizeof facts);
   hash = hash_of(hash, statuses, 1);

@@ -1,5 +1,5 @@
 /* Bad input of a shot beside the rows of refusals.txt: each number out of its range, with its own
- * status and place, and nothing else written. Bounds and the built-in tables, too. */
+ * status and place, and nothing else written. Many times and the built-in tables, too. */
 #include "functions.h"
 
 /* The shot is refused for this reason, at this ball or part. */
@@ -105,12 +105,11 @@ TEST(calls) {
     ck_assert_int_eq(statuses[0], 77);
   }
   expect_ok(carom_shoot_batch(&(carom_shot_job){0}));
+  set_up();
+  expect_ok(carom_shoot(&table, balls, count, NULL, NULL, &shot));
+  ck_assert_int_eq(shot.count, 0);
   ck_assert_ptr_nonnull(strstr(carom_status_string(CAROM_ERROR_BALLS), "count"));
   ck_assert_ptr_nonnull(strstr(carom_status_string(CAROM_ERROR_SHOT_OPTIONS), "reserved"));
-}
-
-static carom_status shoot(const carom_shot_options *with) {
-  return carom_shoot(&table, balls, count, &cue, with, &shot);
 }
 
 static carom_status states_at(const double *looks, size_t many, carom_ball_state *at) {
@@ -119,55 +118,6 @@ static carom_status states_at(const double *looks, size_t many, carom_ball_state
 
 static carom_status state_at(double time, carom_ball_state *at) {
   return carom_shot_at(balls, count, &shot, time, at);
-}
-
-/* What a shot ended with is known up to its end, and nothing after it where balls still move:
- * states are not touched. */
-static void expect_end(void) {
-  carom_ball_state at[10], untouched[10];
-  memset(untouched, 77, sizeof untouched);
-  expect_ok(state_at(shot.time, at));
-  for (int k = 0; k < count; k++)
-    NEAR_EACH(final[k].r, at[k].r, 3, 1e-15);
-  const double later[] = {nextafter(shot.time, INFINITY), shot.time + 1.0, INFINITY, NAN};
-  for (int n = 0; n < 4; n++) {
-    memset(at, 77, sizeof at);
-    ck_assert_int_eq(state_at(later[n], at), CAROM_ERROR_TIME);
-    ck_assert_mem_eq(at, untouched, sizeof at);
-  }
-}
-
-/* A bound ends a shot with its status and a valid state; a shot without a strike is none. */
-TEST(bounded_shots) {
-  set_up();
-  carom_ball_state at[10];
-  shot.room = 40;
-  options.events_most = 30;
-  ck_assert_int_eq(shoot(&options), CAROM_ERROR_TOO_MANY_EVENTS);
-  ck_assert_int_eq(shot.count, 30);
-  ck_assert_double_eq(shot.time, events[29].time);
-  expect_end();
-  options = (carom_shot_options){.time_most = 0.15};
-  ck_assert_int_eq(shoot(&options), CAROM_STOPPED_AT_TIME);
-  ck_assert_double_eq(shot.time, 0.15);
-  expect_end();
-  /* a shot that came to rest is known for ever, but not at no time */
-  shot.room = ROOM;
-  expect_ok(shoot(NULL));
-  expect_ok(state_at(INFINITY, at));
-  ck_assert_mem_eq(at, final, sizeof at);
-  ck_assert_int_eq(state_at(NAN, at), CAROM_ERROR_TIME);
-  /* more events than there is room for: the state is known up to the last one kept */
-  shot.room = 10;
-  expect_ok(shoot(NULL));
-  ck_assert_int_gt(shot.count, 10);
-  expect_ok(state_at(events[9].time, at));
-  ck_assert_int_eq(state_at(shot.time, at), CAROM_ERROR_EVENTS_LOST);
-  cue.speed = 0.0;
-  expect_ok(shoot(NULL));
-  ck_assert_int_eq(shot.count, 0);
-  expect_ok(carom_shoot(&table, balls, 10, NULL, NULL, &shot));
-  ck_assert_int_eq(shot.count, 0);
 }
 
 /* Many times have the bits of one after another, in any order, with drag too; an error leaves
@@ -180,7 +130,7 @@ TEST(many_times) {
     set_up();
     for (int i = 0; i < 10; i++)
       balls[i].kind.drag = 0.02 * drag;
-    expect_ok(shoot(NULL));
+    expect_ok(carom_shoot(&table, balls, count, &cue, NULL, &shot));
     ck_assert(shot.count > 20 && shot.count < ROOM);
     for (int order = 0; order < 3; order++) { /* forwards with every event among them, backwards,
                                                  to and fro */
@@ -256,23 +206,6 @@ TEST(damaged_events) {
       carom_shot_at(other, 2, &shot, 2.0, states);
       carom_shot_orientation(other, 2, &shot, 2.0, turned);
     }
-}
-
-/* A table with a hole in its rails loses a ball: that is told. */
-TEST(lost_ball) {
-  set_up();
-  carom_table_make(CAROM_TABLE_THREECUSHION, &table);
-  table.rail[1] = table.rail[2];
-  table.rail[2] = table.rail[3];
-  table.rails = 3; /* without the rail at x = width */
-  balls[0] = (carom_shot_ball){.kind = carom_ball_kind_of(CAROM_GAME_BILLIARD),
-                               .state = {.r = {0.7, 1.0, 0.03075}}};
-  cue = carom_cue_of(CAROM_GAME_BILLIARD);
-  cue.phi = 0.0;
-  count = 1;
-  ck_assert_int_eq(shoot(NULL), CAROM_ERROR_LEFT_TABLE);
-  ck_assert_double_eq_tol(final[0].r[0], table.width, 1e-9);
-  expect_end();
 }
 
 /* ---- The built-in tables */

@@ -1,6 +1,14 @@
 // Both builds of the package, which take seconds to load: tests of pages alone do without.
 import { afterEach } from "vitest";
-import { type Carom, load, type RackName, type ShotBall, type Table, type Vec2 } from "carom";
+import {
+  type Carom,
+  load,
+  type RackName,
+  type ShotBall,
+  type Table,
+  type TableName,
+  type Vec2,
+} from "carom";
 
 export const builds = await Promise.all(
   (["simd", "plain"] as const).map(async (build) => ({
@@ -25,8 +33,9 @@ export function lay(
   carom: Carom,
   rack: RackName,
   places: Record<number, Vec2>,
+  name: TableName = "9ft",
 ): { table: Table; balls: ShotBall[] } {
-  const table = carom.table("9ft");
+  const table = carom.table(name);
   let balls = allDown(carom.rack(rack, table));
   for (const [k, [x, y]] of Object.entries(places))
     balls = carom.placeBall(table, balls, Number(k), x, y);

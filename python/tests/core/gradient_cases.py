@@ -210,7 +210,9 @@ def test_reach_and_flags_are_those_of_tangents(library):
     many = np.stack([STROKE, np.add(STROKE, 0.01), STROKE])
     for numbers, place in ((STROKE, ()), (many.T, 2)):
         arrays = numbers_of(library, numbers)
-        found = library.final(TABLE, BALLS, CUE, arrays, reach=True, **CLOSED)
+        found = library.compiled(
+            lambda arrays: library.final(TABLE, BALLS, CUE, arrays, reach=True, **CLOSED)
+        )(arrays)
         plain = library.final(TABLE, BALLS, CUE, arrays, **CLOSED)
         reach = [float(np.asarray(found.reach[name])[place]) for name in NAMES]
         assert reach == expected.reach.tolist() and np.array_equal(found.r, plain.r)
@@ -220,12 +222,33 @@ def test_reach_and_flags_are_those_of_tangents(library):
 
 
 def test_a_shot_in_error_says_why(library):
-    wrong = numbers_of(library, (1.5, 79.0, 0.1, 2.0))
-    with pytest.raises(
-        (ValueError, RuntimeError),
-        match=r"cue\.speed = 1\.5, cue\.phi = 79, cue\.a = 0\.1, cue\.b = 2: .*must be -1 to 1",
+    """Compiled too, which can sort the numbers, and where its derivatives are asked for; in a batch
+    it can cost itself.
+    """
+
+    def places(numbers, **errors):
+        return library.final(TABLE, BALLS, CUE, numbers, **CLOSED, **errors).r
+
+    for call in (
+        places,
+        library.compiled(places),
+        *(lambda numbers, j=jacobian: j(places, numbers) for jacobian in library.jacobians),
     ):
-        library.final(TABLE, BALLS, CUE, wrong)
+        with pytest.raises(
+            (ValueError, RuntimeError),
+            match=r"cue\.a = 0\.1, cue\.b = 2[:,].*must be -1 to 1",
+        ):
+            call(numbers_of(library, (1.5, 79.0, 0.1, 2.0)))
+    both = {name: library.array([x, x]) for name, x in zip(NAMES, STROKE)}
+    both["cue.b"] = library.array([0.1, 2.0])
+    slopes = [
+        slope[..., k, 1, :, k]
+        for k in range(2)
+        for slope in library.jacobians[-1](lambda x: places(x, errors="nan"), both).values()
+    ]
+    assert np.isfinite(slopes[:4]).all() and np.isnan(slopes[4:]).all()
+    found = np.asarray(places(both, errors="nan"))
+    assert np.isfinite(found[0]).all() and np.isnan(found[1]).all()
 
 
 @pytest.mark.parametrize(

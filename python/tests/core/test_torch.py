@@ -81,25 +81,6 @@ def test_reach_and_flags_are_outputs_without_gradient():
         assert torch.equal(jacobian, torch.func.jacrev(lambda aim: ends(aim).r[1])(AIM))
 
 
-def test_shots_that_are_refused_say_why():
-    invalid = AIM.clone()
-    invalid[3] = 2.0
-    for numbers in (invalid, invalid.clone().requires_grad_()):
-        with pytest.raises(
-            carom.CaromError,
-            match=r"cue\.speed = 1\.5, cue\.phi = 79, cue\.a = 0\.1, cue\.b = 2: .*must be -1 to 1",
-        ):
-            ends(numbers)
-    both = torch.stack([AIM, invalid]).requires_grad_()
-    found = ends(both, errors="nan").r
-    found[0].sum().backward()
-    assert (
-        torch.isfinite(found[0]).all()
-        and torch.isnan(found[1]).all()
-        and torch.isfinite(both.grad[0]).all()
-    )
-
-
 def test_second_derivatives_are_those_of_hessian():
     goal = torch.tensor(GOAL, dtype=torch.float64)
     miss = lambda aim: ((ends(aim).r[..., 1, :] - goal) ** 2).sum(-1)  # noqa: E731

@@ -4,7 +4,6 @@ import { numbers, options } from "./generated/layout.js";
 import type { PlanOptions as PlanRows } from "./generated/structs.js";
 import type {
   AimOf,
-  BreakOptions,
   GameState,
   Goal,
   Impact,
@@ -81,16 +80,7 @@ export const KEYS = {
   goal: keysOf<Goal>({ kind: 1, ball: 1, balls: 1, place: 1, distance: 1 }),
   plan: [...PLAN, "goal", "best"],
   sequence: PLAN.filter((key) => key !== "safeties"),
-  breaks: keysOf<BreakOptions>({
-    breaks: 1,
-    best: 1,
-    gap: 1,
-    seed: 1,
-    cue: 1,
-    player: 1,
-    opponent: 1,
-    shot: 1,
-  }),
+  breaks: ["breaks", "best", "gap", "seed", "cue", "player", "opponent", "shot"],
   series: ["ratings", "games", "sets", "order", "side", "breakPoints"],
   player: ["errors", "fargo", "rules"],
   rack: ["gap", "seed"],

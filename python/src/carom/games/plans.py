@@ -69,6 +69,7 @@ class Kind(enum.IntEnum):
     CAROM = 10
     SAFETY = 11
     KISS = 12
+    RAIL_FIRST = 13
 
     @property
     def text(self) -> str:

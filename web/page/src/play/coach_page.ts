@@ -14,41 +14,32 @@ const SETS = ["1", "2", "3"];
 /** The odds of a match against a rating, by one's own. */
 function oddsPart(s: Session): { parts: HTMLElement[]; tell(): void } {
   const said = el("p#odds-said", { role: "status" });
-  const against = choice(
-    "odds-against",
-    texts.against,
-    RATINGS.map((r) => [r, r] as const),
-    tell,
-  );
-  const games = choice(
-    "odds-games",
-    texts.race,
-    GAMES_OF_SETS.map((n) => [n, texts.to(n)] as const),
-    tell,
-  );
-  const sets = choice(
-    "odds-sets",
-    texts.setsOfMatch,
-    SETS.map((n) => [n, texts.to(n)] as const),
-    tell,
-  );
+  const pick = (
+    id: string,
+    text: string,
+    values: readonly string[],
+    words: (value: string) => string = String,
+  ) =>
+    choice(
+      id,
+      text,
+      values.map((value) => [value, words(value)] as const),
+      tell,
+    );
+  const against = pick("odds-against", texts.against, RATINGS);
+  const games = pick("odds-games", texts.race, GAMES_OF_SETS, texts.to);
+  const sets = pick("odds-sets", texts.setsOfMatch, SETS, texts.to);
   against.select.value = "500";
   games.select.value = "7";
   function tell(): void {
     const { rating, words } = s.training.rating();
-    const odds = s.carom.odds({
-      ratings: [rating, Number(against.select.value)],
-      games: Number(games.select.value),
-      sets: Number(sets.select.value),
-    });
-    said.textContent = texts.oddsAgainst(
-      words,
-      against.select.value,
-      percent(odds.game),
-      percent(odds.match),
-      odds.fair[0]!,
-      odds.fair[1]!,
-    );
+    const [rival, toGames, toSets] = [against, games, sets].map(({ select }) =>
+      Number(select.value),
+    ) as [number, number, number];
+    const odds = s.carom.odds({ ratings: [rating, rival], games: toGames, sets: toSets });
+    const [mine, theirs] = odds.fair as [number, number];
+    const [game, match] = [odds.game, odds.match].map(percent) as [string, string];
+    said.textContent = texts.oddsAgainst(words, rival, game, match, mine, theirs);
   }
   const fields = el("div.fields", against.root, games.root, sets.root);
   return { parts: [el("h3", texts.oddsOfMatch), fields, said], tell };
@@ -83,8 +74,8 @@ function reviewPart(practise: (row: Reviewed) => void): { parts: HTMLElement[]; 
         const cells = [
           name,
           String(row.strokes),
-          mean(row.kept),
-          row.told > 0 ? mean(row.told) : "–",
+          mean(row.successes),
+          row.expected > 0 ? mean(row.expected) : "–",
           mean(row.missCost),
           mean(row.placeCost),
           button(texts.practiseIt, () => practise(row), "", {
@@ -116,9 +107,9 @@ export function coachPage(s: Session): { root: HTMLDialogElement; open(): void }
   const hidden = asks(texts.askHidden, "ask-hidden", () =>
     question({ goal: { kind: "hidden" } }, texts.leavesItHidden),
   );
-  const on = choice("snooker-on", texts.snookerOn, [], () => undefined);
+  const snookered = choice("snooker-on", texts.snookerOn, [], () => undefined);
   const snooker = asks(texts.askSnooker, "ask-snooker", () => {
-    const ball = Number(on.select.value);
+    const ball = Number(snookered.select.value);
     return question(
       { goal: { kind: "snooker", ball } },
       texts.leavesSnooker(ballOf(s.play.names, ball)),
@@ -140,7 +131,7 @@ export function coachPage(s: Session): { root: HTMLDialogElement; open(): void }
     texts.coach,
     el("h3", texts.askTheCoach),
     el("div.row", safety, hidden, near, best),
-    el("div.row", snooker, on.root),
+    el("div.row", snooker, snookered.root),
     ...review.parts,
     ...odds.parts,
   );
@@ -150,11 +141,11 @@ export function coachPage(s: Session): { root: HTMLDialogElement; open(): void }
     const isAtRest = free(s) && hasPockets && !breaks && s.play.setup.drill === undefined;
     near.hidden = !isAtRest;
     safety.hidden = !isAtRest || practice;
-    for (const control of [hidden, snooker, on.root])
+    for (const control of [hidden, snooker, snookered.root])
       control.hidden = safety.hidden || strikable.length > 1;
     best.hidden = !free(s) || !breaks || practice || s.play.state.opening !== true || !bounds;
     const targets = [...balls.keys()].filter((k) => k > 0 && onTable(balls[k]!.state));
-    on.select.replaceChildren(
+    snookered.select.replaceChildren(
       ...targets.map((ball) => el("option", { value: String(ball) }, ballOf(names, ball))),
     );
   }

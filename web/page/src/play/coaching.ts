@@ -126,13 +126,20 @@ function wordsOfHint(s: Session, choice: PlanStroke, goal: string | undefined): 
   return texts.hintOf(stroke, cue, wordsOfLevel(s), chances, errors);
 }
 
-/** Puts the stroke of a hint on the table: the cue ball in hand, the aim and the call. */
-function setHint(s: Session, choice: PlanStroke): void {
+/** Puts the cue ball in hand where the coach wants it, and aims the stroke. */
+function setAim(s: Session, { cue, place }: { cue: Cue; place: readonly number[] }): void {
   const { play } = s;
-  if (play.bounds) play.put(play.cueBall, ...(choice.place as [number, number]));
-  play.strike(choice.cue.ball);
-  aimAt(s, choice.cue);
+  if (play.bounds) play.put(play.cueBall, place[0]!, place[1]!);
+  play.strike(cue.ball);
+  aimAt(s, cue);
   look(s);
+  s.sequence = [];
+  s.place = undefined;
+  s.hinted = true; // the words of the turn make room for the hint
+}
+/** Puts the stroke of a hint on the table, with its call. */
+function setHint(s: Session, choice: PlanStroke): void {
+  setAim(s, choice);
   const isPotted = choice.ball > 0 && choice.pocket >= 0;
   const otherwise = isSafe(choice) ? SAFETY : -1;
   s.chosen = {
@@ -142,9 +149,6 @@ function setHint(s: Session, choice: PlanStroke): void {
     phi: choice.cue.phi,
   };
   s.special = choice.kind === "push" ? "push" : undefined;
-  s.sequence = [];
-  s.place = undefined;
-  s.hinted = true; // the words of the turn make room for the hint
   s.showing.rest();
 }
 
@@ -229,13 +233,8 @@ const adviseBreak = (s: Session): Promise<void> =>
     const more = { player, opponent, seed, breaks: BREAKS, best: 1, shot: OPTIONS };
     const [found] = await far("bestBreaks", rack, table, balls, more);
     if (!isWanted()) return;
-    const { cue, place, counts, aimCost, speedCost, tipCost } = found!;
-    play.put(play.cueBall, ...place);
-    aimAt(s, cue);
-    look(s);
-    s.sequence = [];
-    s.place = undefined;
-    s.hinted = true;
+    const { cue, counts, aimCost, speedCost, tipCost } = found!;
+    setAim(s, found!);
     s.showing.rest();
     const mean = counts.wins / counts.breaks;
     const error = Math.sqrt((counts.winSquares / counts.breaks - mean ** 2) / counts.breaks);

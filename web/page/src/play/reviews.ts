@@ -9,9 +9,9 @@ const KEY = "carom-reviews";
 /** Sums over the strokes of a kind; chances and costs are shares of a game. */
 export interface Reviewed {
   strokes: number;
-  kept: number;
-  /** Chances to keep the turn, of the strokes that were meant; 0 where no pot was. */
-  told: number;
+  successes: number;
+  /** Chances of the meant strokes to keep the turn; 0 where no pot was meant. */
+  expected: number;
   missCost: number;
   placeCost: number;
   /** The stroke that cost most, as a layout to practise. */
@@ -26,7 +26,7 @@ export function reviewed(): [string, Reviewed][] {
 }
 
 export function countReview(review: Review, setup: Setup, balls: readonly ShotBall[]): void {
-  const { group, kept, told, missCost, placeCost, value, came } = review;
+  const { group, missCost, placeCost, value, came } = review;
   const rows = keptValue<Record<string, Reviewed>>(KEY, {});
   const sums = rows[group];
   const cost = value - came;
@@ -40,8 +40,8 @@ export function countReview(review: Review, setup: Setup, balls: readonly ShotBa
   } as const;
   rows[group] = {
     strokes: (sums?.strokes ?? 0) + 1,
-    kept: (sums?.kept ?? 0) + Number(kept),
-    told: (sums?.told ?? 0) + (told || 0),
+    successes: (sums?.successes ?? 0) + Number(review.kept),
+    expected: (sums?.expected ?? 0) + (review.told || 0),
     missCost: (sums?.missCost ?? 0) + missCost,
     placeCost: (sums?.placeCost ?? 0) + placeCost,
     worst: sums && sums.worst.cost >= cost ? sums.worst : { cost, setup: layout },

@@ -1,0 +1,23 @@
+/* Leaves that a plan searches: what a push-out or a pass hands over. */
+#ifndef CAROM_PLAN_LEAVES_H
+#define CAROM_PLAN_LEAVES_H
+
+#include "search_state.h"
+
+/* Bytes for the leaves of a plan, with room for its trails, of which it has no use later; and for
+ * the plans that search them, or not. */
+size_t carom_leaves_memory(bool searches);
+carom_trail *carom_leaves_trails(carom_leaves *leaves);
+/* Takes push-outs out of the candidates: rounds do not tell what they are worth. */
+void carom_leaves_collect(carom_search *plan);
+/* Begins with the leaves of a plan whose rounds are over. False: it may not push out or pass. */
+bool carom_leaves_begin(carom_search *plan);
+bool carom_leaves_ended(const carom_search *plan);
+/* The plan from the next leave, which has not begun; NULL: it comes later, or none does. */
+carom_search *carom_leaves_next(carom_search *plan);
+/* Takes the value of that plan, which has ended. */
+void carom_leaves_take(carom_search *plan);
+/* Adds the best push-out and the pass as candidates. */
+void carom_leaves_end(carom_search *plan);
+
+#endif
