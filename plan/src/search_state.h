@@ -1,7 +1,7 @@
 /* The state of a search for the best shot: all that its sources share. What they do stands in a
  * header of each. A source knows this file, coach.h and the headers that stand before its own, in
- * this order: goals.h, drawn_tables.h, rows.h, ranking.h, choice_kind.h, listing.h, places.h, miss.h,
- * candidates.h, mirrors.h, steer.h, leaves.h, search.h, anytime.h. */
+ * this order: goals.h, drawn_tables.h, rows.h, ranking.h, choice_kind.h, listing.h, places.h,
+ * miss.h, candidates.h, mirrors.h, steer.h, leaves.h, search.h, anytime.h. */
 #ifndef CAROM_PLAN_SEARCH_STATE_H
 #define CAROM_PLAN_SEARCH_STATE_H
 
