@@ -149,8 +149,11 @@ static void search_leave(search *plan) {
   plan->next = NEXT_LEAVE;
 }
 
-/* The other choices of the list are looked for. A plan that a greater one follows has no list. */
+/* Takes the shots of the best that choose nothing, and looks for the other choices of the list. A
+ * plan that a greater one follows has no list. */
 static void begin_list(search *plan) {
+  if (plan->found[0].kind != CAROM_PLAN_PASS)
+    carom_search_replayed(plan);
   plan->next = NEXT_ENDED;
   if (carom_is_stopped(plan) || plan->choices_most == 1 || plan->rest > 0)
     return;
@@ -428,8 +431,6 @@ static void go_on(search *plan) {
     search_leave(plan);
     break;
   case NEXT_REPLAY:
-    if (plan->found[0].kind != CAROM_PLAN_PASS)
-      carom_search_replayed(plan);
     begin_list(plan);
     break;
   case NEXT_LIST:
