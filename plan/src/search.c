@@ -376,17 +376,22 @@ static void take_pots(search *plan) {
   plan->scan_end = plan->count + plan->scan;
 }
 
+/* Goes on to the pots from the next place, or to a shot of each that was aimed. */
+static void aim_next(search *plan) {
+  carom_search_aimed(plan);
+  if (plan->place + 1 < plan->raced && !carom_is_stopped(plan)) {
+    carom_search_next_place(plan);
+    carom_search_pots(plan, pots_of(plan));
+    return;
+  }
+  carom_search_stage(plan, 0, plan->count, 1, 0);
+  plan->next = NEXT_TAKEN;
+}
+
 static void go_on(search *plan) {
   switch (plan->next) {
   case NEXT_AIMED:
-    carom_search_aimed(plan);
-    if (plan->place + 1 < plan->raced && !carom_is_stopped(plan)) {
-      carom_search_next_place(plan);
-      carom_search_pots(plan, pots_of(plan));
-      break;
-    }
-    carom_search_stage(plan, 0, plan->count, 1, 0);
-    plan->next = NEXT_TAKEN;
+    aim_next(plan);
     break;
   case NEXT_TAKEN:
     take_pots(plan);
