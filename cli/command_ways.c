@@ -293,12 +293,13 @@ static const command_form form = {
              TIPS_TO_LEAVE " with --leave and other balls, " TIPS_TO_SCORE " to score"},
             {0}},
     .usage = "[OPTIONS] LAYOUT.jsonl | --balls X,Y:... [OPTIONS]",
-    .about = "Finds the ways to pot a ball: directly, rail first, or by a bank, kick, kiss, carom or "
-             "combination. On a table without pockets it finds the ways to score in three-cushion: "
-             "the rails and balls that the cue ball meets. For each way carom reports which of the "
-             "given strokes has the best chance for a player: how often it succeeds with errors, "
-             "and between which directions it succeeds without. LAYOUT has shots of one layout; "
-             "carom tries the stroke of each of them in all directions.\n",
+    .about =
+        "Finds the ways to pot a ball: directly, rail first, or by a bank, kick, kiss, carom or "
+        "combination. On a table without pockets it finds the ways to score in three-cushion: "
+        "the rails and balls that the cue ball meets. For each way carom reports which of the "
+        "given strokes has the best chance for a player: how often it succeeds with errors, "
+        "and between which directions it succeeds without. LAYOUT has shots of one layout; "
+        "carom tries the stroke of each of them in all directions.\n",
     .options =
         (const option_row *const[]){
             &option_ball,          &option_to_pocket,  &option_rails,      &option_leave,

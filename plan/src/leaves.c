@@ -11,14 +11,15 @@
  * softest push-out, and each other one is as far as possible from those before it. Each is searched
  * where a stroke with errors leaves it, and the best two again where further ones do.
  *
- * In 30 layouts of nine-ball after dry breaks, plans of 300 shots for ratings of 750 chose push-outs
- * that were worth 0.418 by plans of 800 shots of both sides, where random ones were worth 0.366;
- * 0.052 +- 0.013 more. Chosen by value.c they were worth 0.034 +- 0.014 more. Of 750 against 600 it
- * is 0.051 +- 0.017, and 0.003 +- 0.020 by value.c. */
+ * In 30 layouts of nine-ball after dry breaks, plans of 300 shots for ratings of 750 chose
+ * push-outs that were worth 0.418 by plans of 800 shots of both sides, where random ones were worth
+ * 0.366: 0.052 +- 0.013 more. Chosen by value.c they were worth 0.034 +- 0.014 more. Of 750 against
+ * 600 it is 0.051 +- 0.017, and 0.003 +- 0.020 by value.c. */
 #include "leaves.h"
 
 #include "coach.h"
 #include "listing.h"
+#include "prepare.h"
 #include "ranking.h"
 #include "rows.h"
 #include "rules.h"
@@ -29,71 +30,34 @@
 typedef carom_candidate candidate;
 typedef carom_search search;
 
-/* Shots of a plan from a leave, and those of its best stroke that choose nothing, of which the
- * value comes: where a leave is searched again, they are more. */
-enum { SHOTS = 100, FRESH = 30, FRESH_AGAIN = 100 };
-/* Push-outs whose places are compared; those of them that are searched, one for so many shots of
- * the plan; and the best of these, with so many strokes with errors each. */
-enum { TRIED = 64, SHOTS_A_PLACE = 40, SPREAD_LEAST = 8, SPREAD_MOST = 24, BEST = 2, DRAWS = 4 };
+/* Shots of the best stroke of a plan from a leave that choose nothing, of which the value comes:
+ * where a leave is searched again, they are more. */
+enum { FRESH = 30, FRESH_AGAIN = 100 };
+/* Push-outs that are searched, one for so many shots of the plan; and the best of them, with so
+ * many strokes with errors each. */
+enum { SHOTS_A_PLACE = 40, SPREAD_LEAST = 8, SPREAD_MOST = 24, BEST = 2, DRAWS = 4 };
 /* By how much a push-out or a pass may look worse than the best stroke. */
 static const double worse_most = 0.1;
 static const carom_call pass_call = {CAROM_CALL_PASS, -1};
-
-/* A push-out or a pass, and what its searches have told. */
-typedef struct handed_over {
-  candidate c;
-  double place[2];       /* where the stroke without errors leaves the cue ball, m */
-  double sum[2];         /* of the chances of the opponent and of the player */
-  double worth, squares; /* sums of the worths of leaves, and of their squares */
-  int count;             /* of leaves that have been searched */
-} handed_over;
-
-/* The leaves of a plan: of push-outs; then of the best of them again, and of the pass. */
-struct carom_leaves {
-  handed_over item[TRIED + 1];
-  int count;             /* of items */
-  int placed;            /* of them, whose places are found */
-  bool is_spread;        /* the items are those that are searched; */
-  bool is_again;         /* they are the best, and the pass */
-  int index, draw, side; /* of the next search; side 0: the opponent plays */
-  double chance[2];      /* of both sides, at the leave that is searched */
-  double best;           /* the mean of the best stroke */
-  candidate pass;        /* kind 0: the player may not pass */
-  carom_plan_options options;
-  carom_plan_rules rules;
-  carom_ruling ruling;
-  carom_stroke_room room;
-};
-
-size_t carom_leaves_memory(bool searches) {
-  size_t bytes = PATH_ROWS * sizeof(carom_trail);
-  if (searches)
-    bytes = carom_search_memory(&(carom_plan_options){.shots = SHOTS, .scan = 0.9}, false);
-  return sizeof(struct carom_leaves) + bytes;
-}
-
-carom_trail *carom_leaves_trails(carom_leaves *leaves) {
-  return (carom_trail *)(leaves + 1);
-}
 
 static bool may_hand_over(const search *plan) {
   return (plan->permissions & (CAROM_CHOICE_PASS | CAROM_CHOICE_PUSH)) != 0 && plan->places == 0;
 }
 
 /* Keeps the softest push-outs, whose places err least. */
-static void keep_soft(struct carom_leaves *leaves, const candidate *c) {
+static void keep_soft(carom_leaves *leaves, const candidate *c) {
   int index = leaves->count;
-  if (leaves->count < TRIED)
+  if (leaves->count < LEAVES_TRIED)
     leaves->count++;
   for (; index > 0 && leaves->item[index - 1].c.speed > c->speed; index--)
-    if (index < TRIED)
+    if (index < LEAVES_TRIED)
       leaves->item[index].c = leaves->item[index - 1].c;
-  if (index < TRIED)
+  if (index < LEAVES_TRIED)
     leaves->item[index].c = *c;
 }
 
 void carom_leaves_collect(search *plan) {
-  struct carom_leaves *leaves = plan->leaves;
+  carom_leaves *leaves = plan->leaves;
   if (!may_hand_over(plan))
     return;
   memset(leaves, 0, sizeof *leaves);
@@ -113,7 +77,7 @@ static double mean_of(const candidate *c) {
 }
 
 /* What a push-out or a pass is worth; -1: not known. */
-static double worth_of(const handed_over *h) {
+static double worth_of(const carom_handed_over *h) {
   if (h->count == 0)
     return -1.0;
   return h->worth / h->count;
@@ -136,7 +100,7 @@ static candidate pass_of(const search *plan) {
 bool carom_leaves_begin(search *plan) {
   if (!may_hand_over(plan))
     return false;
-  struct carom_leaves *leaves = plan->leaves;
+  carom_leaves *leaves = plan->leaves;
   if (plan->permissions & CAROM_CHOICE_PASS)
     leaves->pass = pass_of(plan);
 
@@ -152,7 +116,7 @@ bool carom_leaves_begin(search *plan) {
 /* Plays a push-out, with errors for draw 1, 2 and so on, or passes. Returns whether that leaves the
  * opponent a choice: no foul, and no cue ball in hand. */
 static bool hand_over(const search *plan, const candidate *c, int draw) {
-  struct carom_leaves *leaves = plan->leaves;
+  carom_leaves *leaves = plan->leaves;
   const carom_plan_job *job = &plan->job;
   carom_ruling *ruling = &leaves->ruling;
   if (c->kind == CAROM_PLAN_PASS) {
@@ -167,14 +131,14 @@ static bool hand_over(const search *plan, const candidate *c, int draw) {
   return ruling->turn.outcome == CAROM_TURN_PASS && ruling->turn.foul == 0 && !ruling->hand;
 }
 
-static bool is_worth_search(const struct carom_leaves *leaves, const candidate *c) {
+static bool is_worth_search(const carom_leaves *leaves, const candidate *c) {
   return c->chose.seen > 0 && mean_of(c) >= leaves->best - worse_most;
 }
 
 /* Finds the place of the next push-out; one that is not worth a search is dropped. */
 static void find_place(search *plan) {
-  struct carom_leaves *leaves = plan->leaves;
-  handed_over *h = &leaves->item[leaves->placed];
+  carom_leaves *leaves = plan->leaves;
+  carom_handed_over *h = &leaves->item[leaves->placed];
   if (is_worth_search(leaves, &h->c) && hand_over(plan, &h->c, 0)) {
     memcpy(h->place, leaves->ruling.balls[plan->view.cue_ball].state.r, sizeof h->place);
     leaves->placed++;
@@ -184,21 +148,21 @@ static void find_place(search *plan) {
 }
 
 /* The square of the distance from a place to the nearest one of the first n. */
-static double distance_of(const handed_over *item, int n, const double place[2]) {
+static double distance_of(const carom_handed_over *item, int n, const double place[2]) {
   double nearest = INFINITY;
   for (int k = 0; k < n; k++)
     nearest = fmin(nearest, carom_square(item[k].place, place));
   return nearest;
 }
 
-static void swap(handed_over *a, handed_over *b) {
-  const handed_over first = *a;
+static void swap(carom_handed_over *a, carom_handed_over *b) {
+  const carom_handed_over first = *a;
   *a = *b;
   *b = first;
 }
 
 /* Keeps push-outs whose places are far from each other. */
-static void choose_spread(struct carom_leaves *leaves, int64_t shots) {
+static void choose_spread(carom_leaves *leaves, int64_t shots) {
   const int64_t spread = carom_max(carom_min(shots / SHOTS_A_PLACE, SPREAD_MOST), SPREAD_LEAST);
   const int most = (int)carom_min(leaves->count, spread);
   for (int n = 1; n < most; n++) {
@@ -217,22 +181,22 @@ static void choose_spread(struct carom_leaves *leaves, int64_t shots) {
 /* ---- Searches */
 
 /* The items that are searched with errors: the best push-outs, and the pass. */
-static void choose_best(struct carom_leaves *leaves) {
+static void choose_best(carom_leaves *leaves) {
   for (int n = 0; n < leaves->count; n++)
     for (int k = leaves->count - 1; k > n; k--)
       if (worth_of(&leaves->item[k]) > worth_of(&leaves->item[k - 1]))
         swap(&leaves->item[k], &leaves->item[k - 1]);
   leaves->count = (int)carom_min(leaves->count, BEST);
   for (int n = 0; n < leaves->count; n++)
-    leaves->item[n] = (handed_over){.c = leaves->item[n].c};
+    leaves->item[n] = (carom_handed_over){.c = leaves->item[n].c};
   if (leaves->pass.kind == CAROM_PLAN_PASS && is_worth_search(leaves, &leaves->pass))
-    leaves->item[leaves->count++] = (handed_over){.c = leaves->pass};
+    leaves->item[leaves->count++] = (carom_handed_over){.c = leaves->pass};
   leaves->is_again = true;
   leaves->index = 0;
   leaves->draw = 2;
 }
 
-static void next_draw(struct carom_leaves *leaves) {
+static void next_draw(carom_leaves *leaves) {
   leaves->side = 0;
   if (leaves->is_again && leaves->draw <= DRAWS) {
     leaves->draw++;
@@ -244,7 +208,7 @@ static void next_draw(struct carom_leaves *leaves) {
 
 /* Makes the plan of a side from the leave of a ruling. */
 static carom_status make_search(const search *plan) {
-  struct carom_leaves *leaves = plan->leaves;
+  carom_leaves *leaves = plan->leaves;
   carom_plan_rules *rules = &leaves->rules;
   carom_plan_job next = carom_job_after(&plan->job, &leaves->ruling, rules);
   if (leaves->side == 1) {
@@ -254,7 +218,7 @@ static carom_status make_search(const search *plan) {
   }
   rules->state.may = 0;
   leaves->options = plan->options;
-  leaves->options.shots = SHOTS;
+  leaves->options.shots = LEAVE_SHOTS;
   leaves->options.seconds = leaves->options.unsure = 0.0;
   leaves->options.seed += UINT64_C(0x9e3779b97f4a7c15) * (uint64_t)(1 + leaves->draw);
   next.options = &leaves->options;
@@ -268,7 +232,7 @@ static carom_status make_search(const search *plan) {
 
 search *carom_leaves_next(search *plan) {
   enum { COST = 100 }; /* events of a shot that take as long as a plan that begins */
-  struct carom_leaves *leaves = plan->leaves;
+  carom_leaves *leaves = plan->leaves;
   carom_search_spend(plan, COST);
   if (!leaves->is_spread) {
     if (leaves->placed < leaves->count)
@@ -289,15 +253,15 @@ search *carom_leaves_next(search *plan) {
 }
 
 bool carom_leaves_ended(const search *plan) {
-  const struct carom_leaves *leaves = plan->leaves;
+  const carom_leaves *leaves = plan->leaves;
   return leaves->is_again && leaves->index == leaves->count;
 }
 
 void carom_leaves_take(search *plan) {
-  struct carom_leaves *leaves = plan->leaves;
+  carom_leaves *leaves = plan->leaves;
   const search *leave = (search *)(leaves + 1);
   const double value = carom_search_choice(leave, &leave->found[0]).value;
-  handed_over *h = &leaves->item[leaves->index];
+  carom_handed_over *h = &leaves->item[leaves->index];
   leaves->chance[leaves->side] = value;
   if (leaves->side == 0) {
     /* nobody gives a pass back; equal players have the same chance there; and what the opponent
@@ -324,7 +288,7 @@ void carom_leaves_take(search *plan) {
 }
 
 /* Adds an item as a candidate with what its searches have told. */
-static void add(search *plan, const handed_over *h) {
+static void add(search *plan, const carom_handed_over *h) {
   candidate c = h->c;
   if (h->count > 0) {
     const double n = h->count, worth = worth_of(h), seen = (double)c.chose.seen;
@@ -348,10 +312,10 @@ static void add(search *plan, const handed_over *h) {
 }
 
 void carom_leaves_end(search *plan) {
-  const struct carom_leaves *leaves = plan->leaves;
-  const handed_over *best = NULL, *pass = &(handed_over){.c = leaves->pass};
+  const carom_leaves *leaves = plan->leaves;
+  const carom_handed_over *best = NULL, *pass = &(carom_handed_over){.c = leaves->pass};
   for (int k = 0; k < leaves->count; k++) {
-    const handed_over *h = &leaves->item[k];
+    const carom_handed_over *h = &leaves->item[k];
     if (h->c.kind == CAROM_PLAN_PASS)
       pass = h;
     else if (h->count > 0 && (best == NULL || worth_of(h) > worth_of(best)))

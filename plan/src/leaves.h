@@ -4,10 +4,6 @@
 
 #include "search_state.h"
 
-/* Bytes for the leaves of a plan, with room for its trails, of which it has no use later; and for
- * the plans that search them, or not. */
-size_t carom_leaves_memory(bool searches);
-carom_trail *carom_leaves_trails(carom_leaves *leaves);
 /* Takes push-outs out of the candidates: rounds do not tell what they are worth. */
 void carom_leaves_collect(carom_search *plan);
 /* Begins with the leaves of a plan whose rounds are over. False: it may not push out or pass. */

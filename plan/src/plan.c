@@ -24,16 +24,13 @@
 #include "coach.h"
 #include "drawn_tables.h"
 #include "goals.h"
-#include "leaves.h"
 #include "listing.h"
 #include "places.h"
-#include "plan_options.h"
 #include "platform/fingerprint.h"
-#include "platform/ranges.h"
+#include "prepare.h"
 #include "ranking.h"
 #include "rows.h"
 #include "rules.h"
-#include "schema/options.h"
 #include "search.h"
 
 #include <math.h>
@@ -41,60 +38,14 @@
 #include <string.h>
 
 typedef carom_candidate candidate;
-typedef carom_outcome outcome;
 typedef carom_search search;
 
-/* ---- Arguments */
-
-static const carom_plan_options no_options = {0};
-static const carom_shot_options no_shot = {0};
 /* FIRST: of the first round of doubling; IN_HAND_LEAST: of a plan whose places race */
-enum { IN_HAND_LEAST = 600, SHOTS_USUAL = 2000, SHOTS_IN_TIME = 200000, FIRST = 100, SPARE = 400 };
-
-static carom_status check_options(const carom_plan_options *o) {
-  CAROM_PLAN_OPTIONS(CAROM_CHECK_OPTION)
-  if (o->slice < 0 || !CAROM_RESERVED_IS_ZERO(o))
-    return CAROM_ERROR_OPTIONS;
-  return CAROM_OK;
-}
-
-static int64_t shots_of(const carom_plan_options *o) {
-  if (o->shots > 0)
-    return o->shots;
-  if (o->seconds > 0.0)
-    return SHOTS_IN_TIME;
-  return SHOTS_USUAL;
-}
-
-/* A quarter of the shots are strokes of pots, each of which is played once without errors; then
- * those that the scan keeps, half as many again of the block that it tries, and room for the
- * least numbers of both. */
-static int64_t most_candidates(int64_t shots, double scan) {
-  return (int64_t)((1.0 - scan) * (double)shots / 4.0) + (int64_t)(1.5 * scan * (double)shots) +
-         carom_min(shots, SCAN_MORE) + SPARE;
-}
-
-/* Rows of the largest stage; those of reasons are of one candidate. */
-static int64_t most_rows(int64_t shots, double scan) {
-  return carom_max(shots + most_candidates(shots, scan), CAROM_WHY_STROKES);
-}
-
-static const carom_plan_options *or_usual(const carom_plan_options *options) {
-  if (options == NULL)
-    return &no_options;
-  return options;
-}
-
-size_t carom_search_memory(const carom_plan_options *options, bool searches_leaves) {
-  const int64_t shots = shots_of(options);
-  const double scan = carom_scan_of(options);
-  return sizeof(search) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
-         (size_t)most_rows(shots, scan) * sizeof(outcome) + carom_leaves_memory(searches_leaves);
-}
+enum { IN_HAND_LEAST = 600, FIRST = 100 };
 
 size_t carom_plan_memory(const carom_plan_options *options) {
-  const carom_plan_options *o = or_usual(options);
-  if (check_options(o) != CAROM_OK)
+  const carom_plan_options *o = carom_search_options(options);
+  if (carom_search_check_options(o) != CAROM_OK)
     return 0;
   size_t bytes = carom_search_memory(o, true);
   if (o->unsure > 0.0)
@@ -110,33 +61,17 @@ static search *place(const carom_plan_job *job) {
   return job->memory;
 }
 
-/* Checks the cue of a plan with the stroke of another one. A speed of 0 is raised later by the
- * bounds of the player, so the rest of the cue counts. */
-static carom_status check_stroke(const search *plan, const carom_cue *stroke) {
-  carom_cue cue = *plan->job.cue;
-  cue.speed = stroke->speed;
-  if (stroke->speed == 0.0)
-    cue.speed = 1.0;
-  cue.phi = stroke->phi;
-  cue.theta = stroke->theta;
-  cue.a = stroke->a;
-  cue.b = stroke->b;
-  return carom_check_strike(&plan->layout, &cue);
-}
-
-/* Once for all shots of a plan; with_cue: and its cue, whose stroke is not looked at. */
-static carom_status prepare(search *plan, const carom_shot_ball *balls, bool with_cue) {
-  int where;
-  const carom_status status = carom_prepare(plan->job.table, balls, plan->job.count, &plan->shot,
-                                            &plan->features, &plan->layout, &where);
-  if (status != CAROM_OK || !with_cue)
-    return status;
-  return check_stroke(plan, &(carom_cue){0});
-}
-
-static bool is_whole(const carom_plan_job *job) {
-  return job != NULL && job->table != NULL && job->balls != NULL && job->cue != NULL &&
-         job->player != NULL && job->rules != NULL;
+carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int choices,
+                                  search **prepared) {
+  search *plan = place(job);
+  if (plan == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_status status = carom_search_make(plan, job, in_hand, choices);
+  if (status == CAROM_OK && plan->options.unsure > 0.0)
+    carom_search_tables(plan,
+                        (carom_drawn_table *)((char *)plan->leaves + carom_leaves_memory(true)));
+  *prepared = plan;
+  return status;
 }
 
 uint64_t carom_fingerprint_of_job(const carom_plan_job *job) {
@@ -155,194 +90,6 @@ uint64_t carom_fingerprint_of_job(const carom_plan_job *job) {
   return h;
 }
 
-/* Whether rules have their functions, and numbers that this version knows. */
-static bool good_rules(const carom_plan_rules *rules) {
-  if (rules->on == NULL || rules->judge == NULL || rules->left == NULL)
-    return false;
-  return (uint32_t)rules->breaks <= 2 && (uint32_t)rules->race <= CAROM_RACE_SEATS &&
-         (rules->race != CAROM_RACE_SEATS || rules->value != NULL) &&
-         carom_rack_size((carom_rack_kind)rules->rack) > 0 && rules->learned >= 0 &&
-         (uint32_t)rules->own_cue_balls <= 1 && CAROM_RESERVED_IS_ZERO(rules);
-}
-
-/* Checks what a job says of itself; the table and the balls are checked with the layout. */
-static carom_status check_job(const carom_plan_job *job) {
-  if (!is_whole(job))
-    return CAROM_ERROR_NULL;
-  const carom_plan_options *options = or_usual(job->options);
-  const bool good_players =
-      carom_player_is_good(job->player) && carom_player_is_good(carom_opponent_of(job, options));
-  if (check_options(options) != CAROM_OK || !good_players || !good_rules(job->rules) ||
-      (uint64_t)job->leave > CAROM_LEAVE_BAULK || !carom_goal_is_good(job) ||
-      !CAROM_RESERVED_IS_ZERO(job))
-    return CAROM_ERROR_OPTIONS;
-  return CAROM_OK;
-}
-
-/* Takes a job, its options and its player. Shots have the caller's options but for when to stop,
- * which the plan says itself. */
-static void take_job(search *plan, const carom_plan_job *job) {
-  plan->job = *job;
-  plan->options = *or_usual(job->options);
-  plan->player = carom_player_bounded(job->player, job->cue);
-  if (plan->options.shots == 0 && plan->options.seconds == 0.0)
-    plan->options.shots = (int64_t)job->player->shots;
-  plan->shot = no_shot;
-  if (job->shot != NULL)
-    plan->shot = *job->shot;
-  plan->shot.threads = 0;
-  plan->shot.stop_at = 0;
-  plan->shot.first_of = 0;
-  plan->shot.time_most = 0.0;
-}
-
-/* Checks the layout once for all shots of a plan. In hand the cue's ball may be down, and its
- * stroke is checked when it is placed. */
-static carom_status check_layout(search *plan, bool in_hand) {
-  const carom_plan_job *job = &plan->job;
-  const carom_status status = prepare(plan, job->balls, !in_hand);
-  if (status != CAROM_OK)
-    return status;
-  if (job->cue->ball < 0 || job->cue->ball >= job->count)
-    return CAROM_ERROR_CUE_BALL;
-  int moves = -1;
-  if (in_hand)
-    moves = (int)job->cue->ball;
-  if (!carom_is_at_rest(&plan->layout, moves))
-    return CAROM_ERROR_IN_MOTION;
-  return CAROM_OK;
-}
-
-/* Candidates, outcomes and tables stand behind the plan in the caller's memory. */
-static void share_memory(search *plan) {
-  const int64_t shots = shots_of(&plan->options);
-  const double scan = carom_scan_of(&plan->options);
-  plan->count = 0;
-  plan->most = most_candidates(shots, scan);
-  plan->room = most_rows(shots, scan);
-  plan->found = (candidate *)(plan + 1);
-  plan->outcome = (outcome *)(plan->found + plan->most);
-  plan->leaves = (carom_leaves *)(plan->outcome + plan->room);
-  plan->path = carom_leaves_trails(plan->leaves);
-  plan->drawn = NULL;
-}
-
-/* Whether the rack of a soft break is whole: each ball that is on touches two others. */
-static bool is_packed(const search *plan) {
-  enum { BALLS_LEAST = 10, NEIGHBOURS = 2 };
-  static const double apart = 1e-3; /* m */
-  for (int k = 0; k < plan->view.count; k++) {
-    int neighbours = 0;
-    for (int n = 0; n < plan->view.count && (plan->targets >> k & 1); n++) {
-      const double reach = plan->view.radius[k] + plan->view.radius[n] + apart;
-      const bool touches = carom_square(plan->state[k].r, plan->state[n].r) < reach * reach;
-      neighbours += n != k && (plan->targets >> n & 1) && touches;
-    }
-    if ((plan->targets >> k & 1) && neighbours < NEIGHBOURS)
-      return false;
-  }
-  return carom_count_of(plan->targets) >= BALLS_LEAST;
-}
-
-/* Reads the layout by the rules: which balls are in play, which of them may be met first, and what
- * the stroke may do. */
-static carom_status ask_rules(search *plan, bool in_hand) {
-  const carom_plan_rules *rules = plan->job.rules;
-  const uint32_t cue_ball = UINT32_C(1) << plan->view.cue_ball;
-  for (int k = 0; k < plan->job.count; k++)
-    plan->state[k] = plan->job.balls[k].state;
-
-  /* the balls */
-  plan->in_play = carom_in_play(plan->state, plan->view.count);
-  if (in_hand)
-    plan->in_play |= cue_ball;
-  plan->targets = rules->on(&rules->state, plan->in_play) & plan->in_play & ~cue_ball;
-  if (plan->targets == 0)
-    return CAROM_ERROR_GAME_OVER;
-
-  /* the stroke */
-  plan->breaks = rules->breaks && rules->state.opening == 1;
-  if (rules->breaks == 2 && in_hand)
-    plan->breaks |= is_packed(plan);
-  plan->only_safeties = carom_goal_has_safeties(&plan->job, &plan->options) && !plan->breaks;
-  plan->permissions = (uint32_t)rules->state.may;
-  if (plan->only_safeties || carom_has_goal(&plan->job))
-    plan->permissions &= ~(uint32_t)(CAROM_CHOICE_PASS | CAROM_CHOICE_PUSH);
-  plan->pockets = carom_pockets_of(rules, &rules->state);
-  plan->first_decides = rules->first_decides && !(plan->permissions & CAROM_CHOICE_PUSH);
-  carom_search_lay_out(plan, plan->job.balls);
-
-  /* the balls that are left to the player, at least one */
-  int32_t left[2];
-  rules->left(&rules->state, plan->in_play, left);
-  plan->left = (int32_t)carom_max(left[0], 1);
-  return CAROM_OK;
-}
-
-/* The value of a foul at the first contact, which leaves about the layout that there is. */
-static double foul_value_of(const search *plan) {
-  const carom_plan_rules *rules = plan->job.rules;
-  carom_rules_state game = rules->state; /* rules change it as they judge */
-  carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts,
-                                 (carom_call){-1, -1});
-  turn = carom_turn_seen(rules, &game, turn);
-  if (turn.outcome == CAROM_TURN_LOSE || rules->race == CAROM_RACE_ALONE)
-    return 0.0;
-  return carom_search_leave(plan, &game, plan->state, &turn);
-}
-
-/* Checks the arguments, and makes all of a plan but its candidates. */
-static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand) {
-  carom_status status = check_job(job);
-  if (status != CAROM_OK)
-    return status;
-
-  /* The memory is as long as good options ask; no plan is in it from here on. */
-  plan->fingerprint = 0;
-  if (job->count < 2 || job->count > CAROM_BALLS_MOST)
-    return CAROM_ERROR_BALLS;
-  take_job(plan, job);
-  status = check_layout(plan, in_hand);
-  if (status != CAROM_OK)
-    return status;
-  share_memory(plan);
-
-  /* the layout as the player and the rules see it */
-  carom_view_make(&plan->view, &plan->job, &plan->options);
-  status = ask_rules(plan, in_hand);
-  if (status != CAROM_OK)
-    return status;
-  plan->foul_value = foul_value_of(plan);
-  plan->ended = false;
-  plan->slice = INT64_MAX;
-  return CAROM_OK;
-}
-
-carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int choices,
-                                  search **prepared) {
-  search *plan = place(job);
-  if (plan == NULL)
-    return CAROM_ERROR_NULL;
-  const carom_status status = carom_search_make(plan, job, in_hand, choices);
-  if (status == CAROM_OK && plan->options.unsure > 0.0)
-    carom_search_tables(plan,
-                        (carom_drawn_table *)((char *)plan->leaves + carom_leaves_memory(true)));
-  *prepared = plan;
-  return status;
-}
-
-carom_status carom_search_make(search *plan, const carom_plan_job *job, bool in_hand, int choices) {
-  const carom_status status = begin(plan, job, in_hand);
-  if (status != CAROM_OK)
-    return status;
-  plan->late = plan->joins = false;
-  plan->places = plan->place = 0;
-  plan->choices_most = (int)carom_min(choices, LISTED_MOST);
-  plan->fresh_least = 30;
-  plan->seconds = plan->options.seconds;
-  return CAROM_OK;
-}
-
 /* A player who thinks of nothing but potting believes in later pots, and that a turn which ends
  * before is lost. There is nothing to pot in a break, and another goal comes first. */
 static void think(search *plan) {
@@ -357,7 +104,7 @@ static void think(search *plan) {
   plan->options.chance_me = 0.9;
   plan->options.chance_opponent = 1.0;
   carom_view_make(&plan->view, &plan->job, &plan->options);
-  plan->foul_value = foul_value_of(plan);
+  plan->foul_value = carom_search_foul_value(plan);
 }
 
 /* ---- What callers have */
@@ -389,7 +136,8 @@ static void find_places(void *context, carom_crew *crew) {
   if (!carom_search_find_places(plan))
     return;
   plan->go = plan_here;
-  carom_search_begin_doubling(plan, FIRST, carom_max(shots_of(&plan->options), IN_HAND_LEAST));
+  carom_search_begin_doubling(plan, FIRST,
+                              carom_max(carom_search_shots(&plan->options), IN_HAND_LEAST));
   plan_here(context, crew);
 }
 
@@ -397,7 +145,7 @@ static void find_places(void *context, carom_crew *crew) {
 static void try_all(void *context, carom_crew *crew) {
   search *plan = context;
   plan->crew = crew;
-  const int64_t each = shots_of(&plan->options) / carom_max(plan->tries, 1);
+  const int64_t each = carom_search_shots(&plan->options) / carom_max(plan->tries, 1);
   for (int k = 0; k < plan->tries; k++) {
     const carom_cue *cue = &plan->cues[k];
     plan->count = 0;
@@ -447,13 +195,13 @@ carom_status carom_plan(const carom_plan_job *job, carom_plan_stroke *choices, i
   plan->fingerprint = carom_fingerprint_of_job(job);
   think(plan);
   plan->go = plan_here;
-  carom_search_begin_doubling(plan, FIRST, shots_of(&plan->options));
+  carom_search_begin_doubling(plan, FIRST, carom_search_shots(&plan->options));
   return play_slice(plan, choices, room, found);
 }
 
 carom_status carom_plan_continue(const carom_plan_job *job, carom_plan_stroke *choices, int room,
                                  int *found) {
-  if (choices == NULL || found == NULL || room < 1 || !is_whole(job))
+  if (choices == NULL || found == NULL || room < 1 || !carom_search_is_whole(job))
     return CAROM_ERROR_NULL;
   search *plan = place(job);
   if (plan == NULL)
@@ -480,7 +228,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   /* with the cue ball on a place the layout can be checked */
   plan->job.balls = plan->hand;
   carom_search_put(plan, plan->best_place[0].r);
-  status = prepare(plan, plan->hand, true);
+  status = carom_search_check(plan, plan->hand, true);
   if (status != CAROM_OK)
     return status;
   plan->fingerprint = carom_fingerprint_of_job(job);
@@ -500,7 +248,7 @@ carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, in
   search *plan;
   carom_status status = carom_search_prepare(job, false, 1, &plan);
   for (int k = 0; k < n && status == CAROM_OK; k++)
-    status = check_stroke(plan, &cues[k]);
+    status = carom_search_check_stroke(plan, &cues[k]);
   if (status != CAROM_OK)
     return status;
   plan->cues = cues;
@@ -514,7 +262,7 @@ carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *va
   search plan;
   if (value == NULL)
     return CAROM_ERROR_NULL;
-  const carom_status status = begin(&plan, job, in_hand != 0);
+  const carom_status status = carom_search_make(&plan, job, in_hand != 0, 1);
   if (status != CAROM_OK)
     return status;
   *value = carom_value_of(&plan.view, &job->rules->state, plan.state, 0, in_hand != 0);

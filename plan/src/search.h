@@ -10,7 +10,5 @@ void carom_search_begin(carom_search *plan, int64_t shots);
 bool carom_search_run(carom_search *plan);
 /* The fingerprint of a job and of all that it points to but its memory. */
 uint64_t carom_fingerprint_of_job(const carom_plan_job *job);
-/* The share of the shots that the scan has. */
-double carom_scan_of(const carom_plan_options *o);
 
 #endif

@@ -1,11 +1,12 @@
 /* The state of a search for the best shot: all that its sources share. What they do stands in a
  * header of each. A source knows this file, coach.h and the headers that stand before its own, in
- * this order: goals.h, drawn_tables.h, rows.h, ranking.h, choice_kind.h, listing.h, places.h, miss.h,
- * candidates.h, mirrors.h, steer.h, leaves.h, search.h, anytime.h. */
+ * this order: goals.h, drawn_tables.h, rows.h, prepare.h, ranking.h, choice_kind.h, listing.h,
+ * places.h, miss.h, candidates.h, mirrors.h, steer.h, leaves.h, search.h, anytime.h. */
 #ifndef CAROM_PLAN_SEARCH_STATE_H
 #define CAROM_PLAN_SEARCH_STATE_H
 
 #include "carom_match.h"
+#include "coach.h"
 #include "platform/clock.h"
 #include "platform/threads.h"
 #include "shot/shot.h"
@@ -136,6 +137,35 @@ typedef struct carom_drawn_table {
   carom_ball_kind kind[CAROM_BALLS_MOST];
 } carom_drawn_table;
 
+enum { LEAVE_SHOTS = 100 }; /* of a plan from a leave */
+enum { LEAVES_TRIED = 64 }; /* push-outs whose places are compared */
+
+/* A push-out or a pass, and what its searches have told. */
+typedef struct carom_handed_over {
+  carom_candidate c;
+  double place[2];       /* where the stroke without errors leaves the cue ball, m */
+  double sum[2];         /* of the chances of the opponent and of the player */
+  double worth, squares; /* sums of the worths of leaves, and of their squares */
+  int count;             /* of leaves that have been searched */
+} carom_handed_over;
+
+/* The leaves of a plan: of push-outs; then of the best of them again, and of the pass. */
+struct carom_leaves {
+  carom_handed_over item[LEAVES_TRIED + 1];
+  int count;             /* of items */
+  int placed;            /* of them, whose places are found */
+  bool is_spread;        /* the items are those that are searched; */
+  bool is_again;         /* they are the best, and the pass */
+  int index, draw, side; /* of the next search; side 0: the opponent plays */
+  double chance[2];      /* of both sides, at the leave that is searched */
+  double best;           /* the mean of the best stroke */
+  carom_candidate pass;  /* kind 0: the player may not pass */
+  carom_plan_options options;
+  carom_plan_rules rules;
+  carom_ruling ruling;
+  carom_stroke_room room;
+};
+
 /* All of a plan. It is in the caller's memory, since shots need most of a small stack. */
 struct carom_search {
   carom_crew *crew;   /* the threads that play its shots */
@@ -209,11 +239,7 @@ struct carom_search {
   carom_candidate best;  /* of the rounds of doubling before */
 };
 
-/* plan.c: the bytes of a plan on a known table, which may search leaves; and a plan in them. */
-size_t carom_search_memory(const carom_plan_options *options, bool searches_leaves);
-carom_status carom_search_make(carom_search *plan, const carom_plan_job *job, bool in_hand,
-                               int choices);
-/* Prepares a job once for all that is played of it: its plan, in the job's memory, from
+/* plan.c: prepares a job once for all that is played of it: its plan, in the job's memory, from
  * which shots can be played. */
 carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int choices,
                                   carom_search **prepared);

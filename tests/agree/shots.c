@@ -696,6 +696,15 @@ static void meet_cushion(carom_facts *f, const carom_event *e) {
   f->cushions_after += f->first[0] != -1;
 }
 
+static void fall(carom_facts *f, const carom_event *e) {
+  f->down |= 1U << e->a;
+  f->pocket[e->a] = e->b;
+  f->pocket_time[e->a] = e->time;
+  for (int rail = 0; rail < table.rails; rail++)
+    if ((f->rails[e->a] >> rail & 1) && !carom_is_beside(&table, rail, e->b))
+      f->banked |= 1U << e->a;
+}
+
 /* The facts of a shot by a walk over its events. */
 static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
   carom_facts f = {.first = {-1, -1}, .first_time = {INFINITY, INFINITY}, .second_time = INFINITY};
@@ -717,12 +726,7 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
     if (e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW) {
       meet_cushion(&f, e);
     } else if (e->type == CAROM_EVENT_POCKET) {
-      f.down |= 1U << e->a;
-      f.pocket[e->a] = e->b;
-      f.pocket_time[e->a] = e->time;
-      for (int rail = 0; rail < table.rails; rail++)
-        if ((f.rails[e->a] >> rail & 1) && !carom_is_beside(&table, rail, e->b))
-          f.banked |= 1U << e->a;
+      fall(&f, e);
     } else if (e->type == CAROM_EVENT_LEFT_TABLE) {
       f.off |= 1U << e->a;
     } else if (e->type == CAROM_EVENT_BALL_BALL) {

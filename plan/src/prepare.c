@@ -1,0 +1,280 @@
+/* Plans before their searches: arguments are checked, and the layout is read by the rules. */
+#include "prepare.h"
+
+#include "carom_coach.h"
+#include "goals.h"
+#include "plan_options.h"
+#include "platform/ranges.h"
+#include "rows.h"
+#include "rules.h"
+#include "schema/options.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef carom_candidate candidate;
+typedef carom_outcome outcome;
+typedef carom_search search;
+
+static const carom_plan_options no_options = {0};
+static const carom_shot_options no_shot = {0};
+enum { SHOTS_USUAL = 2000, SHOTS_IN_TIME = 200000, SPARE = 400 };
+
+carom_status carom_search_check_options(const carom_plan_options *o) {
+  CAROM_PLAN_OPTIONS(CAROM_CHECK_OPTION)
+  if (o->slice < 0 || !CAROM_RESERVED_IS_ZERO(o))
+    return CAROM_ERROR_OPTIONS;
+  return CAROM_OK;
+}
+
+int64_t carom_search_shots(const carom_plan_options *o) {
+  if (o->shots > 0)
+    return o->shots;
+  if (o->seconds > 0.0)
+    return SHOTS_IN_TIME;
+  return SHOTS_USUAL;
+}
+
+/* A quarter of the shots are strokes of pots, each of which is played once without errors; then
+ * those that the scan keeps, half as many again of the block that it tries, and room for the
+ * least numbers of both. */
+static int64_t most_candidates(int64_t shots, double scan) {
+  return (int64_t)((1.0 - scan) * (double)shots / 4.0) + (int64_t)(1.5 * scan * (double)shots) +
+         carom_min(shots, SCAN_MORE) + SPARE;
+}
+
+/* Rows of the largest stage; those of reasons are of one candidate. */
+static int64_t most_rows(int64_t shots, double scan) {
+  return carom_max(shots + most_candidates(shots, scan), CAROM_WHY_STROKES);
+}
+
+const carom_plan_options *carom_search_options(const carom_plan_options *options) {
+  if (options == NULL)
+    return &no_options;
+  return options;
+}
+
+double carom_scan_of(const carom_plan_options *o) {
+  static const double usual = 0.5;
+  if (o->scan == 0.0)
+    return usual;
+  return fmax(o->scan, 0.0);
+}
+
+size_t carom_leaves_memory(bool searches) {
+  size_t bytes = PATH_ROWS * sizeof(carom_trail);
+  if (searches)
+    bytes = carom_search_memory(&(carom_plan_options){.shots = LEAVE_SHOTS, .scan = 0.9}, false);
+  return sizeof(carom_leaves) + bytes;
+}
+
+size_t carom_search_memory(const carom_plan_options *options, bool searches_leaves) {
+  const int64_t shots = carom_search_shots(options);
+  const double scan = carom_scan_of(options);
+  return sizeof(search) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
+         (size_t)most_rows(shots, scan) * sizeof(outcome) + carom_leaves_memory(searches_leaves);
+}
+
+/* Checks the cue of a plan with the stroke of another one. A speed of 0 is raised later by the
+ * bounds of the player, so the rest of the cue counts. */
+carom_status carom_search_check_stroke(const search *plan, const carom_cue *stroke) {
+  carom_cue cue = *plan->job.cue;
+  cue.speed = stroke->speed;
+  if (stroke->speed == 0.0)
+    cue.speed = 1.0;
+  cue.phi = stroke->phi;
+  cue.theta = stroke->theta;
+  cue.a = stroke->a;
+  cue.b = stroke->b;
+  return carom_check_strike(&plan->layout, &cue);
+}
+
+/* Once for all shots of a plan; with_cue: and its cue, whose stroke is not looked at. */
+carom_status carom_search_check(search *plan, const carom_shot_ball *balls, bool with_cue) {
+  int where;
+  const carom_status status = carom_prepare(plan->job.table, balls, plan->job.count, &plan->shot,
+                                            &plan->features, &plan->layout, &where);
+  if (status != CAROM_OK || !with_cue)
+    return status;
+  return carom_search_check_stroke(plan, &(carom_cue){0});
+}
+
+bool carom_search_is_whole(const carom_plan_job *job) {
+  return job != NULL && job->table != NULL && job->balls != NULL && job->cue != NULL &&
+         job->player != NULL && job->rules != NULL;
+}
+
+/* Whether rules have their functions, and numbers that this version knows. */
+static bool good_rules(const carom_plan_rules *rules) {
+  if (rules->on == NULL || rules->judge == NULL || rules->left == NULL)
+    return false;
+  return (uint32_t)rules->breaks <= 2 && (uint32_t)rules->race <= CAROM_RACE_SEATS &&
+         (rules->race != CAROM_RACE_SEATS || rules->value != NULL) &&
+         carom_rack_size((carom_rack_kind)rules->rack) > 0 && rules->learned >= 0 &&
+         (uint32_t)rules->own_cue_balls <= 1 && CAROM_RESERVED_IS_ZERO(rules);
+}
+
+/* Checks what a job says of itself; the table and the balls are checked with the layout. */
+static carom_status check_job(const carom_plan_job *job) {
+  if (!carom_search_is_whole(job))
+    return CAROM_ERROR_NULL;
+  const carom_plan_options *options = carom_search_options(job->options);
+  const bool good_players =
+      carom_player_is_good(job->player) && carom_player_is_good(carom_opponent_of(job, options));
+  if (carom_search_check_options(options) != CAROM_OK || !good_players || !good_rules(job->rules) ||
+      (uint64_t)job->leave > CAROM_LEAVE_BAULK || !carom_goal_is_good(job) ||
+      !CAROM_RESERVED_IS_ZERO(job))
+    return CAROM_ERROR_OPTIONS;
+  return CAROM_OK;
+}
+
+/* Takes a job, its options and its player. Shots have the caller's options but for when to stop,
+ * which the plan says itself. */
+static void take_job(search *plan, const carom_plan_job *job) {
+  plan->job = *job;
+  plan->options = *carom_search_options(job->options);
+  plan->player = carom_player_bounded(job->player, job->cue);
+  if (plan->options.shots == 0 && plan->options.seconds == 0.0)
+    plan->options.shots = (int64_t)job->player->shots;
+  plan->shot = no_shot;
+  if (job->shot != NULL)
+    plan->shot = *job->shot;
+  plan->shot.threads = 0;
+  plan->shot.stop_at = 0;
+  plan->shot.first_of = 0;
+  plan->shot.time_most = 0.0;
+}
+
+/* Checks the layout once for all shots of a plan. In hand the cue's ball may be down, and its
+ * stroke is checked when it is placed. */
+static carom_status check_layout(search *plan, bool in_hand) {
+  const carom_plan_job *job = &plan->job;
+  const carom_status status = carom_search_check(plan, job->balls, !in_hand);
+  if (status != CAROM_OK)
+    return status;
+  if (job->cue->ball < 0 || job->cue->ball >= job->count)
+    return CAROM_ERROR_CUE_BALL;
+  int moves = -1;
+  if (in_hand)
+    moves = (int)job->cue->ball;
+  if (!carom_is_at_rest(&plan->layout, moves))
+    return CAROM_ERROR_IN_MOTION;
+  return CAROM_OK;
+}
+
+/* Candidates, outcomes and tables stand behind the plan in the caller's memory. */
+static void share_memory(search *plan) {
+  const int64_t shots = carom_search_shots(&plan->options);
+  const double scan = carom_scan_of(&plan->options);
+  plan->count = 0;
+  plan->most = most_candidates(shots, scan);
+  plan->room = most_rows(shots, scan);
+  plan->found = (candidate *)(plan + 1);
+  plan->outcome = (outcome *)(plan->found + plan->most);
+  plan->leaves = (carom_leaves *)(plan->outcome + plan->room);
+  plan->path = (carom_trail *)(plan->leaves + 1);
+  plan->drawn = NULL;
+}
+
+/* Whether the rack of a soft break is whole: each ball that is on touches two others. */
+static bool is_packed(const search *plan) {
+  enum { BALLS_LEAST = 10, NEIGHBOURS = 2 };
+  static const double apart = 1e-3; /* m */
+  for (int k = 0; k < plan->view.count; k++) {
+    int neighbours = 0;
+    for (int n = 0; n < plan->view.count && (plan->targets >> k & 1); n++) {
+      const double reach = plan->view.radius[k] + plan->view.radius[n] + apart;
+      const bool touches = carom_square(plan->state[k].r, plan->state[n].r) < reach * reach;
+      neighbours += n != k && (plan->targets >> n & 1) && touches;
+    }
+    if ((plan->targets >> k & 1) && neighbours < NEIGHBOURS)
+      return false;
+  }
+  return carom_count_of(plan->targets) >= BALLS_LEAST;
+}
+
+/* Reads the layout by the rules: which balls are in play, which of them may be met first, and what
+ * the stroke may do. */
+static carom_status ask_rules(search *plan, bool in_hand) {
+  const carom_plan_rules *rules = plan->job.rules;
+  const uint32_t cue_ball = UINT32_C(1) << plan->view.cue_ball;
+  for (int k = 0; k < plan->job.count; k++)
+    plan->state[k] = plan->job.balls[k].state;
+
+  /* the balls */
+  plan->in_play = carom_in_play(plan->state, plan->view.count);
+  if (in_hand)
+    plan->in_play |= cue_ball;
+  plan->targets = rules->on(&rules->state, plan->in_play) & plan->in_play & ~cue_ball;
+  if (plan->targets == 0)
+    return CAROM_ERROR_GAME_OVER;
+
+  /* the stroke */
+  plan->breaks = rules->breaks && rules->state.opening == 1;
+  if (rules->breaks == 2 && in_hand)
+    plan->breaks |= is_packed(plan);
+  plan->only_safeties = carom_goal_has_safeties(&plan->job, &plan->options) && !plan->breaks;
+  plan->permissions = (uint32_t)rules->state.may;
+  if (plan->only_safeties || carom_has_goal(&plan->job))
+    plan->permissions &= ~(uint32_t)(CAROM_CHOICE_PASS | CAROM_CHOICE_PUSH);
+  plan->pockets = carom_pockets_of(rules, &rules->state);
+  plan->first_decides = rules->first_decides && !(plan->permissions & CAROM_CHOICE_PUSH);
+  carom_search_lay_out(plan, plan->job.balls);
+
+  /* the balls that are left to the player, at least one */
+  int32_t left[2];
+  rules->left(&rules->state, plan->in_play, left);
+  plan->left = (int32_t)carom_max(left[0], 1);
+  return CAROM_OK;
+}
+
+/* The value of a foul at the first contact, which leaves about the layout that there is. */
+double carom_search_foul_value(const search *plan) {
+  const carom_plan_rules *rules = plan->job.rules;
+  carom_rules_state game = rules->state; /* rules change it as they judge */
+  carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts,
+                                 (carom_call){-1, -1});
+  turn = carom_turn_seen(rules, &game, turn);
+  if (turn.outcome == CAROM_TURN_LOSE || rules->race == CAROM_RACE_ALONE)
+    return 0.0;
+  return carom_search_leave(plan, &game, plan->state, &turn);
+}
+
+/* Checks the arguments, and makes all of a plan but its candidates. */
+static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand) {
+  carom_status status = check_job(job);
+  if (status != CAROM_OK)
+    return status;
+
+  /* The memory is as long as good options ask; no plan is in it from here on. */
+  plan->fingerprint = 0;
+  if (job->count < 2 || job->count > CAROM_BALLS_MOST)
+    return CAROM_ERROR_BALLS;
+  take_job(plan, job);
+  status = check_layout(plan, in_hand);
+  if (status != CAROM_OK)
+    return status;
+  share_memory(plan);
+
+  /* the layout as the player and the rules see it */
+  carom_view_make(&plan->view, &plan->job, &plan->options);
+  status = ask_rules(plan, in_hand);
+  if (status != CAROM_OK)
+    return status;
+  plan->foul_value = carom_search_foul_value(plan);
+  plan->ended = false;
+  plan->slice = INT64_MAX;
+  return CAROM_OK;
+}
+
+carom_status carom_search_make(search *plan, const carom_plan_job *job, bool in_hand, int choices) {
+  const carom_status status = begin(plan, job, in_hand);
+  if (status != CAROM_OK)
+    return status;
+  plan->late = plan->joins = false;
+  plan->places = plan->place = 0;
+  plan->choices_most = (int)carom_min(choices, LISTED_MOST);
+  plan->fresh_least = 30;
+  plan->seconds = plan->options.seconds;
+  return CAROM_OK;
+}
