@@ -150,6 +150,14 @@ describePages("by level", () => {
     expect(rungs.slice(0, 3)).toEqual(["200★★★", "300★☆☆", "400☆☆☆"]);
     await page.locator("#ladder button").nth(3).click();
     expect(await valueOf(page, "new-against")).toBe("500");
+    // A card chooses what its select has, and a select marks its card.
+    await page.locator(".card[value=nineball]").click();
+    expect(await valueOf(page, "new-which")).toBe("nineball");
+    await act(page, "#new-which=snooker", "#new-against=person");
+    expect(await page.locator("#menu .card[aria-pressed=true] b").allTextContents()).toEqual([
+      "Snooker",
+      "a person at this page",
+    ]);
     const drills = await page.locator("#drill option").allTextContents();
     for (const drill of ["Draw ☆☆☆", "Side pocket ★★★", "Follow ★☆☆", "Stop shot –"])
       expect(drills).toContain(drill);

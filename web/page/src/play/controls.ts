@@ -153,7 +153,9 @@ export function controls(s: Session): Controls {
       },
     ),
   );
-  const part = button("", () => says(s, texts.overlapMeans(part.ariaLabel!)), "#part");
+  const part = button("", () => says(s, texts.overlapMeans(part.ariaLabel!)), "#part", {
+    "aria-label": texts.theAimMeetsNo,
+  });
 
   return {
     side: el("section.side", { "aria-label": texts.theStroke }, power, part),

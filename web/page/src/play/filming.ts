@@ -113,6 +113,12 @@ function showContact(s: Session): void {
   stroke.showContact(isShown ? first : undefined, translate(play.names[first?.ball ?? 0]!));
 }
 
+/** Shows a button or hides it; one that appears is brought into view. */
+function put(element: HTMLElement, isVisible: boolean): void {
+  const appears = element.hidden && isVisible;
+  element.hidden = !isVisible;
+  if (appears) element.scrollIntoView({ block: "nearest", inline: "nearest" });
+}
 /** Shows the buttons that have a meaning now. */
 function showButtons(s: Session): void {
   const { play, buttons, choices, film, stroke } = s;
@@ -134,11 +140,7 @@ function showButtons(s: Session): void {
     [stroke.shoot, !film.playing],
     [buttons.link, play.setup.against === "link"],
   ];
-  for (const [element, isVisible] of visible) {
-    const appears = element.hidden && isVisible;
-    element.hidden = !isVisible;
-    if (appears) element.scrollIntoView({ block: "nearest", inline: "nearest" });
-  }
+  for (const [element, isVisible] of visible) put(element, isVisible);
 
   // A button without an effect now keeps its place, so that the others keep theirs, and says why
   // when it is pressed.

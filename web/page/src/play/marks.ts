@@ -26,6 +26,11 @@ function picture(side: number, markup: string): HTMLElement {
 export const ballPicture = (name: string, k: number, radius: number): HTMLElement =>
   picture(2, ballMarkup(name, colourOf(name, k, radius)));
 
+function rangeOf(values: readonly number[]): { middle: number; extent: number } {
+  const low = Math.min(...values);
+  const high = Math.max(...values);
+  return { middle: (low + high) / 2, extent: high - low };
+}
 /** The balls of a game as they are racked: those of a triangle from near, others on the table. */
 export function rackPicture(carom: Carom, game: string): HTMLElement {
   const { rack, table, names } = GAMES[PLAYED[game]?.base ?? game]!;
@@ -37,20 +42,16 @@ export function rackPicture(carom: Carom, game: string): HTMLElement {
   );
   // Where there are only three or four balls, each of them is seen.
   const seen = racked.length > 4 ? racked.filter(({ k }) => k > 0) : racked;
-  const [xs, ys] = [seen.map(({ x }) => x), seen.map(({ y }) => y)];
-  const [left, right, low, high] = [
-    Math.min(...xs),
-    Math.max(...xs),
-    Math.min(...ys),
-    Math.max(...ys),
-  ];
-  const extent = Math.max(right - left, high - low);
-  const side = 1.25 * extent + 0.08;
+  const horizontal = rangeOf(seen.map(({ x }) => x));
+  const vertical = rangeOf(seen.map(({ y }) => y));
+  const side = 1.25 * Math.max(horizontal.extent, vertical.extent) + 0.08;
+  const least = (seen.length > 6 ? 0.035 : 0.09) * side;
   const markup = seen.map(({ name, k, radius, x, y }) => {
-    const size = Math.max(radius, (seen.length > 6 ? 0.035 : 0.09) * side);
-    const [px, py] = [x - (left + right) / 2, (low + high) / 2 - y];
+    const right = (x - horizontal.middle).toFixed(3);
+    const down = (vertical.middle - y).toFixed(3);
+    const scale = Math.max(radius, least).toFixed(4);
     const ball = ballMarkup(name, colourOf(name, k, radius), false);
-    return `<g transform="translate(${px.toFixed(3)} ${py.toFixed(3)}) scale(${size.toFixed(4)})">${ball}</g>`;
+    return `<g transform="translate(${right} ${down}) scale(${scale})">${ball}</g>`;
   });
   return picture(side, markup.join(""));
 }

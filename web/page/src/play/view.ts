@@ -213,7 +213,7 @@ function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typ
 /** So long a text is shown, ms: three seconds, or as long as one reads it. */
 const readingTime = (text: string): number => Math.max(3000, 75 * text.length);
 /** What is said, over a part of the stage: it fades when it was read. */
-function wordsOver({ words }: Session, clock: HTMLElement): HTMLElement {
+function fadingWords({ words }: Session, clock: HTMLElement): HTMLElement {
   let timer = 0;
   const show = (): void => {
     words.message.classList.remove("read");
@@ -274,7 +274,7 @@ export function playView(
   const bar = el(
     "section.play-bar",
     { "aria-label": texts.game },
-    wordsOver(s, clock.root),
+    fadingWords(s, clock.root),
     el(
       "div.row.tools",
       buttons.menu,
