@@ -1,7 +1,10 @@
 // The page: the library, the views, the theme.
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
-import "./play/style.css";
+import "./lab/style.css";
+import "./play/stage.css";
+import "./play/plates.css";
+import "./play/dialogs.css";
 import { load } from "carom";
 import { serve } from "./far.js";
 import { collisionView } from "./lab/collision.js";

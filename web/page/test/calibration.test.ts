@@ -27,7 +27,7 @@ describePages("conditions of a table", () => {
 
   test.each(sizes)("three readings become a table to play on: %s", async (_, size) => {
     const page = await open("", size);
-    await act(page, "#new-game", "#open-calibration");
+    await act(page, "#new-game", "#new-more", "#open-calibration");
     await counts(page, "#calibration path", 3);
     expect(await page.locator("#use-calibration").isDisabled()).toBe(true);
     const read = async (...places: number[]) => {

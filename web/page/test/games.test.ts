@@ -217,7 +217,14 @@ describePages("kept games", () => {
     const page = await open("");
     await act(page, "#new-game", "#new-against=person", "#new-which=nineball");
     await shows(page, "#new-equal", false);
-    await act(page, "#new-which=straightrail", "#new-equal=on", "#rate=1000", "#start");
+    await act(
+      page,
+      "#new-which=straightrail",
+      "#new-more",
+      "#new-equal=on",
+      "#rate=1000",
+      "#start",
+    );
     await shoot(page, 3);
     const lines = await keptLines(page);
     expect(lines.filter((line) => line.startsWith('{"game"')).at(0)).toContain('"innings":1');

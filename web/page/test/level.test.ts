@@ -63,9 +63,11 @@ describePages("by level", () => {
         expect(await page.locator("#part").isVisible()).toBe(isNear);
       }
       await seen("full", {});
-      expect(Number((await text(page, "part")).split(" ")[0])).toBeGreaterThan(40);
+      // A tap on the picture says what it shows.
+      await act(page, "#part");
+      const [, share] = /^The aim meets (\d+) % of the 1\./.exec(await text(page, "said"))!;
+      expect(Number(share)).toBeGreaterThan(40);
       const initial = await numberIn(page, "phi");
-      await says(page, "wheel", "↺ 0.02° ↻");
       const box = await boxOf(page, "#wheel");
       await dragMouse(page, [box.x + 20, box.y + 20], [box.x + 70, box.y + 20]);
       expect(await numberIn(page, "phi")).toBeCloseTo(initial - 1, 1);
@@ -136,7 +138,7 @@ describePages("by level", () => {
     expect(await racksOf(last)).toEqual([0, 0]);
   });
 
-  test("the ladder and the stars show what was won and made, and a dash where nothing was", async () => {
+  test("the ladder and the drills show by stars what was won and made", async () => {
     const page = await open("");
     await page.evaluate(() => {
       localStorage.setItem("carom-ladder", '{"200":[3,1],"300":[1,2]}');
@@ -145,9 +147,17 @@ describePages("by level", () => {
     await reload(page);
     await act(page, "#new-game");
     const rungs = await page.locator("#ladder button").allTextContents();
-    expect(rungs.slice(0, 3)).toEqual(["200★", "3001 : 2", "400–"]);
+    expect(rungs.slice(0, 3)).toEqual(["200★★★", "300★☆☆", "400☆☆☆"]);
     await page.locator("#ladder button").nth(3).click();
     expect(await valueOf(page, "new-against")).toBe("500");
+    // A card chooses what its select has, and a select marks its card.
+    await page.locator(".card[value=nineball]").click();
+    expect(await valueOf(page, "new-which")).toBe("nineball");
+    await act(page, "#new-which=snooker", "#new-against=person");
+    expect(await page.locator("#menu .card[aria-pressed=true] b").allTextContents()).toEqual([
+      "Snooker",
+      "a person at this page",
+    ]);
     const drills = await page.locator("#drill option").allTextContents();
     for (const drill of ["Draw ☆☆☆", "Side pocket ★★★", "Follow ★☆☆", "Stop shot –"])
       expect(drills).toContain(drill);

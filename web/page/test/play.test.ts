@@ -58,7 +58,15 @@ describePages("a game", () => {
         expect(box.y + box.height, id).toBeLessThanOrEqual(how.height);
       }
       const box = await boxOf(page, "#table-scene");
-      expect((box.width * box.height) / (how.width * how.height)).toBeGreaterThan(0.48);
+      expect((box.width * box.height) / (how.width * how.height)).toBeGreaterThan(0.58);
+      // Nothing lies over the table but what is said, and the game and both seats say where one is.
+      for (const part of ["#power", "#tip-ball", "#shoot", "#hint", ".plates"]) {
+        const { x, y, width, height } = await boxOf(page, part);
+        const isBeside = x >= box.x + box.width || x + width <= box.x;
+        expect(isBeside || y >= box.y + box.height || y + height <= box.y, part).toBe(true);
+      }
+      expect(await page.locator("h1").allInnerTexts()).toContain("Eight-ball");
+      expect(await page.locator(".plates .name").allInnerTexts()).toEqual(["You", "The 300"]);
     },
   );
 
@@ -136,6 +144,60 @@ describePages("a game", () => {
     await comesToSay(page, "turn", /^(Player 1 fouls.*)?Player [12]'s turn/);
   });
 
+  test.each(sizes)(
+    "a pull of the cue plays as it is let go, or only sets the power: %s",
+    async (_, how) => {
+      const page = await resume(gameOf("nineball", "person"), how);
+      await pace(page, "1000");
+      const box = await boxOf(page, ".pull");
+      const x = box.x + box.width / 2;
+      const start = [x, box.y + 10] as const;
+      const placeOf = (share: number) => [x, box.y + 10 + 0.8 * share * box.height] as const;
+      /** Pulls by shares of the whole way, and lets go. */
+      async function pull(...shares: number[]): Promise<void> {
+        if (!("touch" in how)) {
+          await page.mouse.move(...start);
+          await page.mouse.down();
+          for (const share of shares) await page.mouse.move(...placeOf(share), { steps: 4 });
+          return page.mouse.up();
+        }
+        const touch = await fingersOn(page);
+        await touch("Start", [start]);
+        for (const share of shares) await touch("Move", [placeOf(share)]);
+        await touch("End");
+      }
+      // Pushed back to the ball it plays nothing, and the power is as before.
+      const before = await valueOf(page, "power");
+      await pull(0.3, 0.6, 0);
+      expect(await valueOf(page, "power")).toBe(before);
+      expect(linesOf(await keptGame(page), "shot")).toHaveLength(0);
+      await act(page, "#new-game", "#pull-plays=off", "#menu .close");
+      await pull(0.2, 0.5);
+      const power = await numberIn(page, "power");
+      expect(power).toBeGreaterThan(3.5);
+      expect(power).toBeLessThan(4.3);
+      expect(linesOf(await keptGame(page), "shot")).toHaveLength(0);
+      await act(page, "#new-game", "#pull-plays=on", "#menu .close");
+      await pull(0.4, 1);
+      await expect.poll(async () => linesOf(await keptGame(page), "shot").length).toBe(1);
+      expect(await struck(page, "speed")).toBe(10);
+    },
+  );
+
+  test("what is said fades when it was read, stays for readers of the screen, and a touch shows it again", async () => {
+    const page = await open("", PHONE);
+    const isRead = () =>
+      page.locator("#said").evaluate(({ classList }) => classList.contains("read"));
+    expect(await isRead()).toBe(false);
+    const initial = await text(page, "said");
+    const { height } = await boxOf(page, ".words");
+    await expect.poll(isRead, { timeout: 15_000 }).toBe(true);
+    expect((await boxOf(page, ".words")).height).toBeLessThan(height);
+    await says(page, "said", initial);
+    await page.locator("#turn").tap();
+    expect(await isRead()).toBe(false);
+  });
+
   test.each(sizes)("no button moves while words change: %s", async (_, how) => {
     const page = await resume(gameOf("nineball", "300"), how);
     // All at one moment.
@@ -191,7 +253,7 @@ describePages("a game", () => {
     );
     await pace(page, "1000");
     await turnTo(page, 200);
-    await act(page, ".numbers-of summary", "#right=0.3", "#power=0.4", "#shoot");
+    await act(page, "#more", ".numbers-of summary", "#right=0.3", "#power=0.4", "#shoot");
     await comesToSay(page, "turn", /Player 2's turn/);
     // The cue ball is in hand and lies on the head spot; the 1 is the only ball that may be met.
     expect(await phi(page)).toBeCloseTo((Math.atan2(1.9 - 0.635, 0.3 - 0.635) * 180) / Math.PI, 1);
@@ -263,7 +325,8 @@ describePages("a game", () => {
       await click(page, 0.1, 0.1, touch);
       await comesToSay(page, "turn", /Call: the 1, head-left pocket\./);
       // The cue ball does not follow it.
-      await act(page, ".numbers-of summary", "#up=-0.35", "#power=1.2", "#shoot");
+      await act(page, "#more", ".numbers-of summary", "#up=-0.35", "#more");
+      await act(page, "#power=1.2", "#shoot");
       await comesToSay(page, "turn", /^Player 1's turn, solids/);
       // The aim begins at the only ball that is on. A tap at another one aims there, and calls
       // nothing that is not on.
@@ -392,7 +455,7 @@ describePages("a game", () => {
   });
 
   test.each(sizes)(
-    "each ball has its number beside it, upright; a double tap shows the table larger, and aims at nothing: %s",
+    "each small ball has its number beside it, upright; a double tap shows the table larger, and aims at nothing: %s",
     async (_, how) => {
       const page = await resume(
         gameOf("nineball", "person", "0.635,0.635 0.3,1.9 0.9,1.9 in in in in in in 0.6,1.4"),
@@ -424,7 +487,8 @@ describePages("a game", () => {
           },
           [px, py, reach] as const,
         );
-        expect(box, `${x}, ${y}`).toBeGreaterThan(10);
+        // On a desk the number on the ball itself is read.
+        expect(box > 10, `${x}, ${y}`).toBe(upright);
       }
       if ("touch" in how) {
         const aim = await phi(page);
@@ -697,7 +761,7 @@ describePages("a game", () => {
       } as typeof AudioNode.prototype.connect;
     });
     await pace(page, "4");
-    if ("touch" in how) await act(page, "#sound");
+    if ("touch" in how) await act(page, "#more", "#sound");
     await act(page, "#shoot");
     await comesToShow(page, "#skip", false);
     const heard = await page.evaluate(() => (window as unknown as { heard: number[] }).heard);

@@ -52,7 +52,7 @@ describePages("smoke", () => {
 
   test("the balls are listed in words", async () => {
     const page = await open("");
-    await act(page, "details:has(#ball-list) summary");
+    await act(page, "#more", "details:has(#ball-list) summary");
     await comesToCount(page, "#ball-list li", 16);
     expect(await page.locator("#ball-list li").first().textContent()).toMatch(
       /^cue: \d+ cm from the left cushion, \d+ cm from the head cushion$/,

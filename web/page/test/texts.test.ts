@@ -133,10 +133,16 @@ describe("the texts of the page", () => {
     expect(others.map(([text]) => text)).toEqual([]);
   });
 
-  test("each game of the page has its rules", () => {
+  test("each game of the page has its rules, and a line on its card", () => {
     for (const game of Object.keys(PLAYED))
       for (const texts of Object.values(LANGUAGES))
-        expect(texts.rules[game]?.length, game).toBeGreaterThan(100);
+        for (const [list, least, most] of [
+          [texts.rules, 100, 600],
+          [texts.cards, 10, 45],
+        ] as const) {
+          expect(list[game]?.length, game).toBeGreaterThan(least);
+          expect(list[game]!.length, game).toBeLessThan(most);
+        }
   });
 
   test("labels tell balls of different colours apart in each game and language", () => {

@@ -87,6 +87,8 @@ export function drawWays(s: Session, pen: Pen): void {
   pen.g.setLineDash([]);
 }
 const MARK = "#ffe28a";
+/** From so many pixels on the number on a ball is read. */
+const READABLE = 20;
 /** Marks what is called or the player's own pocket, and the cue ball in hand with its line. */
 export function drawMarks(s: Session, pen: Pen): void {
   const { balls, bounds, cueBall, played, practice, state, table } = s.play;
@@ -109,7 +111,10 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   const { film, play } = s;
   const pen = { g, scale: film.scale, place: film.place };
   const hasLetters = s.settings.numbers;
-  const labels = labelsOf(play.names, hasLetters ? texts.letters : {});
+  // A rack, and balls that are large enough to be read, have labels only where they are asked for.
+  const pixels = 2 * play.balls[0]!.kind.radius * film.scale;
+  const isRead = (play.breaks || pixels > READABLE) && !hasLetters;
+  const labels = isRead ? [] : labelsOf(play.names, hasLetters ? texts.letters : {});
   if (film.time > 0 || film.playing) {
     // Balls that are too small to be read while they roll have their labels beside them.
     const isSmall = play.balls[0]!.kind.radius * film.scale < 8;

@@ -20,11 +20,14 @@ export function shotClock(s: Session): { root: HTMLElement; close(): void } {
     const { clock } = s.play.setup;
     const runs = clock !== undefined && free(s);
     root.hidden = !runs;
+    s.plates.root.style.setProperty("--time-left", "0");
     if (!runs) return;
     const next = `${s.id} ${s.play.strokes}`;
     if (next !== stroke) begun = performance.now();
     stroke = next;
-    const left = Math.max(Math.ceil(clock - (performance.now() - begun) / 1000), 0);
+    const rest = Math.max(clock - (performance.now() - begun) / 1000, 0);
+    const left = Math.ceil(rest);
+    s.plates.root.style.setProperty("--time-left", String(rest / clock));
     root.textContent = texts.secondsLeft(left);
     root.classList.toggle("warned", left <= WARNED);
     if (left === 0) runOut(s);

@@ -1,10 +1,13 @@
 // What a stroke is set by, beside the table: the part of the ball that the aim meets, the tip on a
-// ball that one touches, the power, a fine wheel for the aim, and Shoot. Slider and stick set the
-// power, and a press of Shoot plays it, however long it is; a press that ends beside the button
-// plays nothing.
+// ball that one touches, the power, a fine wheel for the aim, and Shoot. A pull of the cue plays as
+// it is let go, where the settings do not say that it only sets the power. A press of Shoot plays
+// the power that is set, however long it is; a press that ends beside the button plays nothing.
+import { colourOf } from "../../../player/words.js";
 import { strokeControls } from "../table/stroke.js";
 import { button, drags, el, slider } from "../ui.js";
+import { ballMarkup } from "./marks.js";
 import type { Controls, Session } from "./parts.js";
+import { says } from "./session.js";
 import { shoot as play } from "./turns.js";
 import { texts } from "../texts/texts.js";
 
@@ -39,11 +42,12 @@ function shootButton(s: Session): HTMLButtonElement {
 
 /** A wheel that turns the aim as it is dragged; a tap turns it by a step to its side. */
 function wheelOf(turn: (steps: number) => void): HTMLElement {
-  const wheel = el(
-    "div#wheel",
-    { role: "slider", tabindex: "0", "aria-label": texts.fineAim, "aria-valuenow": "0" },
-    el("span", `↺ ${STEP}° ↻`),
-  );
+  const wheel = el("div#wheel", {
+    role: "slider",
+    tabindex: "0",
+    "aria-label": texts.fineAim,
+    "aria-valuenow": "0",
+  });
   let start = 0;
   let last = 0;
   let total = 0;
@@ -72,9 +76,63 @@ function wheelOf(turn: (steps: number) => void): HTMLElement {
   return wheel;
 }
 
+const SLOWEST = 0.1;
+/** A pull that ends within this share of the way plays nothing: the cue is back at the ball. */
+const REST = 0.05;
+/** The power of a pull: fine near the ball. */
+const powerOf = (share: number): number =>
+  Math.max(Math.round(20 * FASTEST * share ** 1.35) / 20, SLOWEST);
+
+/**
+ * A cue beside the table: a pull draws it back, the farther the stronger, and letting go plays the
+ * stroke; pushed back to the start it plays nothing. A tap sets the power of its place.
+ */
+function pullOf(s: Session, speed: () => number, set: (speed: number) => void): HTMLElement {
+  const root = el("div.pull", { "aria-hidden": "true" }, el("i"));
+  let start = 0;
+  let before = 0; // the power before the pull
+  let share = 0;
+  let isPulled = false;
+  const shareOf = (length: number): number =>
+    Math.min(Math.max(length / (0.8 * root.clientHeight), 0), 1);
+  const draw = (): void => root.style.setProperty("--pull", String(share));
+  drags(root, ({ clientY: y }, first) => {
+    if (first) {
+      start = y;
+      before = speed();
+      isPulled = false;
+    }
+    share = shareOf(y - start);
+    isPulled ||= share > REST;
+    if (!isPulled) return;
+    draw();
+    set(powerOf(share));
+  });
+  const release = ({ type, clientY: y }: PointerEvent): void => {
+    const isLong = share > REST;
+    share = 0;
+    draw();
+    if (!isPulled) return set(powerOf(shareOf(y - root.getBoundingClientRect().top)));
+    if (type === "pointercancel" || !isLong) return set(before);
+    if (s.settings.pull) play(s);
+  };
+  root.addEventListener("pointerup", release);
+  root.addEventListener("pointercancel", release);
+  return root;
+}
+
 export function controls(s: Session): Controls {
   const { sliders, tip, set, value } = strokeControls(
-    slider("power", texts.power, 0.1, FASTEST, 0.05, "", s.changed, (x) => `${x.toFixed(1)} m/s`),
+    slider(
+      "power",
+      texts.power,
+      SLOWEST,
+      FASTEST,
+      0.05,
+      "",
+      s.changed,
+      (x) => `${x.toFixed(1)} m/s`,
+    ),
     "tip-ball",
     s.changed,
   );
@@ -84,14 +142,24 @@ export function controls(s: Session): Controls {
     set({ phi: (Math.round((sliders.phi.value - STEP * steps + 360) * 1000) / 1000) % 360 });
     s.changed();
   });
-  const part = el("div#part", { role: "img", "aria-label": texts.theAimMeetsNo });
-  part.innerHTML =
-    '<svg viewBox="-3.1 -1.1 6.2 2.2"><circle r="1" fill="#e8702a" stroke="#000a" stroke-width="0.05"/><circle class="over" r="1" fill="#fbfaf5c0" stroke="#000a" stroke-width="0.05"/></svg>';
-  const share = el("span");
-  part.append(share);
+  const power = sliders.speed.root;
+  power.append(
+    pullOf(
+      s,
+      () => sliders.speed.value,
+      (speed) => {
+        set({ speed });
+        s.changed();
+      },
+    ),
+  );
+  const part = button("", () => says(s, texts.overlapMeans(part.ariaLabel!)), "#part", {
+    "aria-label": texts.theAimMeetsNo,
+  });
 
   return {
-    side: el("section.side", { "aria-label": texts.theStroke }, sliders.speed.root, part, tip),
+    side: el("section.side", { "aria-label": texts.theStroke }, power, part),
+    tip,
     shoot,
     row: [wheel, shoot],
     numbers: el(
@@ -102,13 +170,17 @@ export function controls(s: Session): Controls {
     set,
     value,
     showContact(contact, name = "") {
+      power.style.setProperty("--power", String(sliders.speed.value / FASTEST));
       part.style.visibility = contact ? "visible" : "hidden";
       if (!contact) return;
-      part
-        .querySelector(".over")!
-        .setAttribute("cx", String(2 * contact.side * (1 - contact.share)));
-      share.textContent = `${Math.round(100 * contact.share)} %`;
-      part.setAttribute("aria-label", texts.theAimMeetsOf(share.textContent, name));
+      const { names, balls } = s.play;
+      const { ball } = s.first!;
+      const colour = colourOf(names[ball]!, ball, balls[ball]!.kind.radius);
+      // The cue ball lies over the one that it meets, as whoever aims sees both.
+      const over = 2 * contact.side * (1 - contact.share);
+      part.innerHTML = `<svg viewBox="-3.1 -1.1 6.2 2.2">${ballMarkup(names[ball]!, colour, false)}<circle cx="${over}" r="1" fill="#fbfaf570" stroke="#000a" stroke-width="0.06"/></svg>`;
+      const share = `${Math.round(100 * contact.share)} %`;
+      part.setAttribute("aria-label", texts.theAimMeetsOf(share, name));
     },
   };
 }

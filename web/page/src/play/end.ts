@@ -1,11 +1,11 @@
 // The last view of a game, over the table: who won and why, the score, the best stroke, what the
 // game did to the rating, and what one does next.
-import { colourOf } from "../../../player/words.js";
 import { wordsOfPot } from "../table/words.js";
 import { button, el } from "../ui.js";
 import { type Deed, OPTIONS, type Play } from "./game.js";
 import { isRaceOver, racksOf } from "./keep.js";
 import { levels, wordsOfRung } from "./ladder.js";
+import { ballPicture } from "./marks.js";
 import type { EndView, Session } from "./parts.js";
 import { nameOf, wordsOfEnd, wordsOfScore } from "./state.js";
 import { texts } from "../texts/texts.js";
@@ -35,30 +35,11 @@ function bestOf(play: Play, player: 0 | 1): string {
   return texts.aPotWithRoom(wordsOfPot(play.table, play.names, best), best.room.toFixed(2));
 }
 
-/** The ball that the game ended with, as an emblem; `isWon` puts a wreath of light around it. */
-function emblem({ last, names, balls, winner }: Play, isWon: boolean): HTMLElement {
+/** The ball that the game ended with, as an emblem. */
+function emblem({ last, names, balls, winner }: Play): HTMLElement {
   const fallen = last?.shot?.events.filter(({ type }) => type === "ball_pocket") ?? [];
   const ball = winner === last?.player ? (fallen.at(-1)?.a ?? last?.cue.ball ?? 0) : 0;
-  const name = names[ball] ?? "";
-  const colour = colourOf(name, ball, balls[ball]?.kind.radius ?? 0);
-  const root = el("div.emblem", { "aria-hidden": "true" });
-  root.classList.toggle("won", isWon);
-  const number = Number(name) > 0 ? name : "";
-  const disc = number && '<circle r="17" fill="#fbfaf5"/>';
-  root.innerHTML = `<svg viewBox="-50 -50 100 100">
-    <defs>
-      <radialGradient id="shade" cx="0.36" cy="0.3" r="0.8">
-        <stop offset="0" stop-color="#fff" stop-opacity="0.75"/>
-        <stop offset="0.28" stop-color="#fff" stop-opacity="0.1"/>
-        <stop offset="1" stop-color="#000" stop-opacity="0.6"/>
-      </radialGradient>
-    </defs>
-    <circle r="40" fill="${colour}"/>
-    ${disc}
-    <text y="7.5" text-anchor="middle" font-size="21" font-weight="bold" fill="#16181b">${number}</text>
-    <circle r="40" fill="url(#shade)"/>
-  </svg>`;
-  return root;
+  return el("div.emblem", ballPicture(names[ball]!, ball, balls[ball]!.kind.radius));
 }
 
 /** What a game against the computer did to one's rating, and to one's level. */
@@ -94,8 +75,10 @@ export function endView(s: Session, restart: () => void, list: () => void): EndV
     const best = bestOf(play, player);
     const isRace = play.setup.race !== undefined;
     const reasons = [race, wordsOfEnd(play) && `${wordsOfEnd(play)}.`];
+    // Of points, the score is what decided.
+    const isScoreSaid = race !== "" || (play.played?.points && play.last?.shot);
     const lines = [
-      race === "" ? wordsOfScore(play, seat, racks) : "",
+      isScoreSaid ? "" : wordsOfScore(play, seat, racks),
       best && texts.bestStrokeOf(!isShared, nameOf(play, player, seat), best),
       ...wordsOfRating(s, s.end.rated),
     ];
@@ -106,7 +89,7 @@ export function endView(s: Session, restart: () => void, list: () => void): EndV
     const next = isRace && race === "" ? texts.nextRack : texts.playAgain;
     root.replaceChildren(
       button("×", hide, ".close", { "aria-label": texts.close }),
-      emblem(play, isWon),
+      ...(isWon ? [emblem(play)] : []),
       el("h2", title),
       ...paragraphs(reasons, { class: "why" }),
       ...paragraphs(lines),
@@ -116,6 +99,8 @@ export function endView(s: Session, restart: () => void, list: () => void): EndV
         button(texts.yourGames, list, "#end-games"),
       ),
     );
+    root.classList.toggle("won", isWon);
+    root.classList.toggle("lost", !isWon && !play.isDrawn);
     root.hidden = false;
   }
   return { root, rated: undefined, show, hide };

@@ -102,6 +102,7 @@ function showWords(s: Session): void {
   // A screen reader reads each change aloud, also to the same words.
   if (words.turn.textContent !== turn) words.turn.textContent = turn;
   if (!player) words.score.textContent = wordsOfScore(play, seat, racksOf(play));
+  s.plates.update();
 }
 
 /** The part of the ball that the aim meets, where the lines of the game may show it. */
@@ -112,6 +113,12 @@ function showContact(s: Session): void {
   stroke.showContact(isShown ? first : undefined, translate(play.names[first?.ball ?? 0]!));
 }
 
+/** Shows a button or hides it; one that appears is brought into view. */
+function put(element: HTMLElement, isVisible: boolean): void {
+  const appears = element.hidden && isVisible;
+  element.hidden = !isVisible;
+  if (appears) element.scrollIntoView({ block: "nearest", inline: "nearest" });
+}
 /** Shows the buttons that have a meaning now. */
 function showButtons(s: Session): void {
   const { play, buttons, choices, film, stroke } = s;
@@ -133,7 +140,7 @@ function showButtons(s: Session): void {
     [stroke.shoot, !film.playing],
     [buttons.link, play.setup.against === "link"],
   ];
-  for (const [element, isVisible] of visible) element.hidden = !isVisible;
+  for (const [element, isVisible] of visible) put(element, isVisible);
 
   // A button without an effect now keeps its place, so that the others keep theirs, and says why
   // when it is pressed.

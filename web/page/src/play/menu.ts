@@ -10,6 +10,7 @@ import { keepText, keptValue } from "./keep.js";
 import type { Session, Settings } from "./parts.js";
 import { gamesList } from "./games_list.js";
 import { levels, wordsOfRung } from "./ladder.js";
+import { rackPicture } from "./marks.js";
 import { begin } from "./opening.js";
 import { chooseLanguage, language, LANGUAGE_NAMES, texts, translate } from "../texts/texts.js";
 
@@ -41,9 +42,10 @@ function areSettings(value: unknown): boolean {
     sound = true,
     coach = true,
     numbers = true,
+    pull = true,
   } = value as Partial<Settings>;
   const isKnown = LINES.some(([name]) => name === lines);
-  return isKnown && [sound, coach, numbers].every((flag) => typeof flag === "boolean");
+  return isKnown && [sound, coach, numbers, pull].every((flag) => typeof flag === "boolean");
 }
 /** The settings that the browser has kept. Sound is on after the first touch, unless it was muted. */
 export const settingsOf = (): Settings => ({
@@ -51,6 +53,7 @@ export const settingsOf = (): Settings => ({
   sound: true,
   coach: false,
   numbers: false,
+  pull: true,
   ...keptValue<Partial<Settings>>(KEY, {}, areSettings),
 });
 
@@ -60,29 +63,44 @@ export const keepSettings = ({ settings }: Pick<Session, "settings">): void =>
 /** How many racks a race may go to; the first is no race. */
 const RACES = ["1", "2", "3", "5", "7"];
 
-/** The levels of the ladder, each of which chooses its opponent. */
-function ladderOf(choose: (rating: string) => void): {
-  root: HTMLElement;
-  mark(chosen: string): void;
-} {
-  const root = el("ol#ladder", { "aria-label": texts.ladder });
-  /** Shows how far one has climbed, and which opponent is chosen. */
-  function mark(chosen: string): void {
-    const rungs = levels().map((level) => {
-      const { rating, won, lost, needed } = level;
-      const games = won + lost > 0 ? `${won} : ${lost}` : "–";
-      const stands = needed === 0 ? "★" : games;
-      const rung = button(rating, () => choose(rating), "", {
-        "aria-pressed": String(rating === chosen),
-        title: wordsOfRung(level),
-      });
-      rung.append(el("small", stands));
-      return el("li", rung);
-    });
-    root.replaceChildren(...rungs);
-  }
-  return { root, mark };
+/** A card for an option of a select: a press chooses it. */
+function cardOf(
+  select: HTMLSelectElement,
+  value: string,
+  title: string,
+  more: string,
+  image?: HTMLElement,
+): HTMLButtonElement {
+  const choose = (): void => {
+    select.value = value;
+    select.dispatchEvent(new Event("change"));
+  };
+  const card = button("", choose, ".card", { value });
+  card.append(...(image ? [image] : []), el("span", el("b", title), el("small", more)));
+  return card;
 }
+/** Marks the card of the option that is chosen. */
+const markCard = (cards: HTMLElement, chosen: string): void =>
+  cards
+    .querySelectorAll("button")
+    .forEach((card) => card.setAttribute("aria-pressed", String(card.value === chosen)));
+/** A choice that cards stand for: they are what one sees and what a reader of the screen hears. */
+function hide({ root, select }: ReturnType<typeof choice>): HTMLElement {
+  root.classList.add("behind");
+  root.setAttribute("aria-hidden", "true");
+  select.tabIndex = -1;
+  return root;
+}
+const STARS = 3;
+/** The levels of the ladder: a star for each game won, up to those that climb it. */
+const rungsOf = (select: HTMLSelectElement): HTMLElement[] =>
+  levels().map((level) => {
+    const { rating, needed } = level;
+    const stars = "★".repeat(STARS - needed) + "☆".repeat(needed);
+    const rung = cardOf(select, rating, rating, stars);
+    rung.title = wordsOfRung(level);
+    return el("li", rung);
+  });
 
 /** How an opponent of a rating plays, and how likely one wins by one's own rating. */
 function wordsOfOpponent(s: Session, against: string): string {
@@ -93,14 +111,14 @@ function wordsOfOpponent(s: Session, against: string): string {
 
 export function menu(
   s: Session,
-  ...more: HTMLElement[]
+  ...rest: HTMLElement[]
 ): { root: HTMLDialogElement; calibration: HTMLDialogElement; open(): void } {
   // Practice has every table.
-  const others = Object.entries(GAMES).filter(([key]) => !(key in PLAYED));
+  const tables = Object.entries(GAMES).filter(([key]) => !(key in PLAYED));
   const game = choice(
     "new-which",
     texts.game,
-    [...Object.entries(PLAYED), ...others].map(
+    [...Object.entries(PLAYED), ...tables].map(
       ([key, { text }]) => [key, key in PLAYED ? text : texts.practiceOf(text)] as const,
     ),
     describe,
@@ -129,10 +147,20 @@ export function menu(
     CLOCKS.map((time) => [time, time === "0" ? texts.none : texts.seconds(time)] as const),
     () => undefined,
   );
-  const ladder = ladderOf((rating) => {
-    against.select.value = rating;
-    chooseErrors();
-  });
+  const gameCards = el(
+    "div.cards",
+    ...Array.from(game.select.options, ({ value, text }) =>
+      cardOf(game.select, value, text, texts.cards[value] ?? "", rackPicture(s.carom, value)),
+    ),
+  );
+  const ladder = el("ol#ladder", { "aria-label": texts.ladder });
+  const others = el(
+    "div.cards",
+    ...["practice", "person", "link"].map((value) => {
+      const { text } = Array.from(against.select.options).find((one) => one.value === value)!;
+      return cardOf(against.select, value, text, "");
+    }),
+  );
   const errors = choice(
     "new-own",
     texts.yourStrokes,
@@ -187,12 +215,14 @@ export function menu(
       lines: lines.select.value,
       coach: coach.input.checked,
       numbers: numbers.input.checked,
+      pull: pull.input.checked,
     });
     keepSettings(s);
     s.changed();
   }
   const coach = check("coach", texts.coachShowsTheChances, changeSettings);
   const numbers = check("numbers", texts.lettersOnTheBalls, changeSettings);
+  const pull = check("pull-plays", texts.pullPlays, changeSettings);
   const speech = choice("language", texts.language, LANGUAGE_NAMES, () =>
     chooseLanguage(speech.select.value),
   );
@@ -200,6 +230,7 @@ export function menu(
   lines.select.value = s.settings.lines;
   coach.input.checked = s.settings.coach;
   numbers.input.checked = s.settings.numbers;
+  pull.input.checked = s.settings.pull;
 
   const knowsInnings = (): boolean => {
     const rules = PLAYED[game.select.value]?.rules;
@@ -213,7 +244,8 @@ export function menu(
     const isHere = !["practice", "link"].includes(against.select.value);
     for (const control of [race, clock]) control.root.hidden = !isHere;
     equal.root.hidden = against.select.value === "practice" || !knowsInnings();
-    ladder.mark(against.select.value);
+    markCard(gameCards, game.select.value);
+    for (const cards of [ladder, others]) markCard(cards, against.select.value);
     rules.textContent = texts.rules[game.select.value] ?? "";
     rulesOf.hidden = rules.textContent === "";
     for (const control of ofPool) control.hidden = !isPool();
@@ -256,23 +288,42 @@ export function menu(
     "#start.main",
   );
   const games = gamesList(s, () => root.close());
+  const fold = el(
+    "div.fields.fold",
+    errors.root,
+    race.root,
+    clock.root,
+    equal.root,
+    ...ofPool,
+    rulesOf,
+  );
+  const more = button(
+    texts.more,
+    () => more.setAttribute("aria-expanded", String(fold.classList.toggle("open"))),
+    "#new-more",
+    { "aria-expanded": "false" },
+  );
   const root: HTMLDialogElement = dialog(
     "menu",
     texts.newGame,
-    el("div.fields", game.root, ...ofPool, against.root),
-    ladder.root,
-    el("div.fields", errors.root, race.root, clock.root, equal.root),
+    hide(game),
+    gameCards,
+    el("h3", texts.against),
+    hide(against),
+    ladder,
+    others,
     note,
-    rulesOf,
-    start,
+    fold,
+    el("div.row.begin", more, start),
     games.root,
     el("h3", texts.settings),
     speech.root,
     lines.root,
     coach.root,
     numbers.root,
+    pull.root,
     el("div.row", el("span", texts.speedOfTheFilm), s.film.pace),
-    ...more,
+    ...rest,
   );
   return {
     root,
@@ -288,6 +339,7 @@ export function menu(
       table.select.value = setup.table ?? "9ft";
       cloth.select.value = setup.cloth ?? USUAL;
       listCushions(setup.cushion ?? USUAL);
+      ladder.replaceChildren(...rungsOf(against.select));
       describe();
       void games.refresh();
       root.showModal();

@@ -27,6 +27,8 @@ export interface Settings {
   lines: "level" | Lines;
   sound: boolean;
   coach: boolean;
+  /** Whether a pull of the cue plays when it is let go, or only sets the power. */
+  pull: boolean;
   /** Whether balls without numbers have letters, and balls in three dimensions their labels. */
   numbers: boolean;
 }
@@ -34,6 +36,7 @@ export interface Settings {
 /** What a stroke is set by (controls.ts): its elements, and its values. */
 export interface Controls {
   readonly side: HTMLElement;
+  readonly tip: HTMLElement;
   readonly shoot: HTMLButtonElement;
   readonly row: HTMLElement[];
   readonly numbers: HTMLElement;
@@ -79,6 +82,12 @@ export interface SpaceView {
   toggle(): Promise<void>;
   draw(): void;
   close(): void;
+}
+
+/** Both seats, their points and balls (plates.ts). */
+export interface Plates {
+  readonly root: HTMLElement;
+  update(): void;
 }
 
 /** What is seen of a game (filming.ts). */
@@ -148,6 +157,7 @@ interface Parts {
   readonly stroke: Controls;
   readonly film: ReturnType<typeof filmPlayer>;
   readonly space: SpaceView;
+  readonly plates: Plates;
   readonly link: Link;
   readonly training: Training;
   readonly showing: Showing;

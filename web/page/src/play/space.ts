@@ -153,7 +153,7 @@ export class Space implements SpaceView {
   draw(): void {
     if (!this.isOn || !this.#scene) return;
     if (this.#play !== this.s.play) this.#make();
-    const { clientWidth, clientHeight } = this.s.film.canvas;
+    const { clientWidth, clientHeight } = this.felt;
     const { canvas } = this.#scene;
     if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight)
       this.#scene.size(clientWidth, clientHeight);

@@ -11,7 +11,7 @@ export function nameOf(play: Play, player: 0 | 1, seat: 0 | 1): string {
   if (player === seat) return texts.you;
   return against === "link" ? texts.theOtherPlayer : texts.theRated(against);
 }
-const groupOf = (play: Play, player: 0 | 1): string => {
+export const groupOf = (play: Play, player: 0 | 1): string => {
   const { group } = play.state;
   if (group === "open" || player === play.turn) return group;
   return group === "solids" ? "stripes" : "solids";
@@ -30,7 +30,7 @@ function wordsOfFoul(play: Play, { player, ruling, isLate }: Stroke, seat: 0 | 1
 const fell = ({ shot }: Stroke, ball: number): boolean =>
   shot?.events.some(({ type, a }) => type === "ball_pocket" && a === ball) === true;
 /** The games of two groups, in which the eight comes last. */
-const isEight = ({ setup }: Play): boolean =>
+export const isEight = ({ setup }: Play): boolean =>
   ["eightball", "blackball", "heyball"].includes(setup.game);
 
 /** Why the eight lost the game. */
@@ -67,7 +67,7 @@ function pocketOf(play: Play): string {
   return texts.thePocket(translate(play.carom.pocketNames(play.table)[pocket] ?? "own"));
 }
 /** Of snooker: what is to be met. */
-function onOf(play: Play): string {
+export function onOf(play: Play): string {
   const targets = play.carom.ballsOn(play.state, play.balls);
   if (targets.length === 0) return "nothing";
   if (targets.every((ball) => ball < 16)) return texts.aRed;

@@ -1,5 +1,5 @@
-// The view Play: a game on the table, one bar for all that a stroke needs, and its film where one
-// looks.
+// The view Play: a game on the table that fills the window; around it lie both seats, what a stroke
+// needs, and a drawer for the rest.
 import type { Carom, Choice } from "carom";
 import { player as filmPlayer } from "../../../player/player.js";
 import { drop } from "../far.js";
@@ -19,6 +19,7 @@ import { logPage } from "./log.js";
 import { keepSettings, menu, settingsOf } from "./menu.js";
 import { practice } from "./practice.js";
 import type { Session } from "./parts.js";
+import { plates } from "./plates.js";
 import { cueOf, progressOf, says } from "./session.js";
 import { onTable } from "../table/filmed.js";
 import { Sound } from "./sound.js";
@@ -29,7 +30,7 @@ import { texts, translate } from "../texts/texts.js";
 
 const wordsOf = (): Session["words"] => ({
   turn: el("p#turn", { role: "status" }),
-  score: el("p#score"),
+  score: el("p#score.heard"),
   message: el("p#said", { role: "status" }),
 });
 /** The balls on the table in words, for whoever does not see them; read anew at each opening. */
@@ -133,6 +134,7 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
     link: byLink(s),
     training: practice(carom, (setup) => begin(s, setup)),
     space: new Space(s, felt),
+    plates: plates(s),
   });
   felt.append(film.canvas, session.end.root);
   return session;
@@ -208,27 +210,77 @@ function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typ
   };
 }
 
+/** So long a text is shown, ms: three seconds, or as long as one reads it. */
+const readingTime = (text: string): number => Math.max(3000, 75 * text.length);
+/** What is said, over a part of the stage: it fades when it was read. */
+function fadingWords({ words }: Session, clock: HTMLElement): HTMLElement {
+  let timer = 0;
+  const show = (): void => {
+    words.message.classList.remove("read");
+    window.clearTimeout(timer);
+    timer = window.setTimeout(
+      () => words.message.classList.add("read"),
+      readingTime(words.message.textContent!),
+    );
+  };
+  new MutationObserver(show).observe(words.message, { childList: true });
+  const root = el("div.words", { tabindex: "0" }, words.turn, words.score, clock, words.message);
+  root.addEventListener("pointerdown", show);
+  return root;
+}
+/** What is needed now and then, behind one button: numbers, sound, the other views. */
+function drawerOf({ buttons, stroke }: Session, list: HTMLElement) {
+  const frame = ["header", "footer"].map((tag) => document.querySelector(tag)!);
+  const [header, footer] = frame;
+  const root = el(
+    "aside.drawer",
+    { "aria-label": texts.more, hidden: "" },
+    el("div.row", buttons.sound, header!),
+    stroke.numbers,
+    list,
+    footer!,
+  );
+  const toggle = (isOpen: boolean): void => {
+    root.hidden = !isOpen;
+    opener.setAttribute("aria-expanded", String(isOpen));
+  };
+  const opener = button("☰", () => toggle(root.hidden), "#more", {
+    "aria-label": texts.more,
+    "aria-expanded": "false",
+  });
+  root.addEventListener("keydown", ({ key }) => {
+    if (key !== "Escape") return;
+    toggle(false);
+    opener.focus();
+  });
+  /** Gives the frame of the page back to the other views. */
+  const close = (): void => {
+    document.body.prepend(header!);
+    document.getElementById("main")!.after(footer!);
+  };
+  return { root, opener, toggle, close };
+}
+
 export function playView(
   carom: Carom,
   main: HTMLElement,
 ): { update(): void; theme(): void; close(): void } {
   const felt = el("section.felt", { "aria-label": texts.table });
   const s = sessionOf(carom, felt);
-  const { words, buttons, stroke } = s;
+  const { buttons, stroke } = s;
   aiming(s);
   const { overlays, diagram } = dialogs(s);
   const clock = shotClock(s);
   const bar = el(
     "section.play-bar",
     { "aria-label": texts.game },
-    el("div.words", el("div.row.state", words.turn, words.score, clock.root), words.message),
+    fadingWords(s, clock.root),
     el(
       "div.row.tools",
       buttons.menu,
       buttons.hint,
       buttons.coach,
       buttons.replay,
-      buttons.space,
       buttons.undo,
       buttons.rack,
       buttons.push,
@@ -237,13 +289,15 @@ export function playView(
     ),
     el("div.row.strike", ...stroke.row.slice(0, -1), buttons.skip, ...stroke.row.slice(-1)),
   );
+  const drawer = drawerOf(s, listOfBalls(s));
+  felt.addEventListener("pointerdown", () => drawer.toggle(false));
+  const top = el("div.top", drawer.opener, s.plates.root, buttons.space);
   main.replaceChildren(
-    el("div.play", felt, stroke.side, bar, stroke.numbers, listOfBalls(s), ...overlays),
+    el("div.play", top, drawer.root, felt, stroke.side, stroke.tip, bar, ...overlays),
   );
 
   start(s, s.play, "");
   buttons.sound.setAttribute("aria-pressed", String(s.settings.sound));
-  document.querySelector("header")!.append(buttons.sound);
   s.showing.rest();
   const packed = parameters().get("d");
   const ready = resume(s)
@@ -260,7 +314,7 @@ export function playView(
       s.space.draw();
     },
     close() {
-      buttons.sound.remove();
+      drawer.close();
       clock.close();
       s.space.close();
       s.searchGeneration++;

@@ -158,10 +158,16 @@ export function drawLabels(
   g.textAlign = "center";
   g.textBaseline = "middle";
   g.lineJoin = "round";
-  const write = (text: string, x: number, y: number): void => {
+  /** A letter on its ball has an outline, a label beside its ball a pill behind it. */
+  const write = (text: string, x: number, y: number, isOnBall = false): void => {
+    const half = g.measureText(text).width / 2 + 3;
     g.strokeStyle = "#000c";
     g.lineWidth = 3;
-    g.strokeText(text, x, y);
+    g.fillStyle = "#0009";
+    g.beginPath();
+    if (isOnBall) g.strokeText(text, x, y);
+    else g.roundRect(x - half, y - 7.5, 2 * half, 14, 7);
+    g.fill();
     g.fillStyle = "#fff";
     g.fillText(text, x, y);
   };
@@ -177,7 +183,7 @@ export function drawLabels(
     if (label === "" || !onTable(state)) return;
     const [x, y] = place(state.r[0], state.r[1]);
     const radius = kind.radius * scale;
-    if (!(Number(label) > 0) && radius >= ROOM) return write(label, x, y + 0.5);
+    if (!(Number(label) > 0) && radius >= ROOM) return write(label, x, y + 0.5, true);
     const half = g.measureText(label).width / 2;
     const high = 5;
     const away = radius + 2;

@@ -4,14 +4,14 @@
 // A language is a file with the keys of the English one: `plain` has texts without parts, and
 // `filled` has texts with parts. A call hands the parts over in the order in which the English text
 // names them. "{count}" is a part, and "{count:ball|balls}" is the first word where the part is 1 or
-// true, else the second. `rules` describes each game by the library's word for it, `letters` tells
+// true, else the second. `rules` describes each game by the library's word for it and `cards` does so in a line, `letters` tells
 // the colours of balls apart, and `known` has what the library says in words of the language.
 import { DICTIONARY, translate } from "../../../player/words.js";
 import german from "./de.json" with { type: "json" };
 import english from "./en.json" with { type: "json" };
 
 type Part = string | number | boolean;
-type Lists = Record<"rules" | "letters" | "known", Record<string, string>>;
+type Lists = Record<"rules" | "cards" | "letters" | "known", Record<string, string>>;
 type LanguageFile = Pick<typeof english, "plain" | "filled"> & Lists;
 type Texts = LanguageFile["plain"] &
   Record<keyof LanguageFile["filled"], (...parts: Part[]) => string> &
