@@ -22,6 +22,11 @@ const LINES: readonly (readonly [Settings["lines"], string])[] = [
   ["short", texts.shortTheWayOf],
   ["full", texts.fullBothBalls],
 ];
+const VIEWS: readonly (readonly [Settings["view"], string])[] = [
+  ["device", texts.asTheDeviceAllows],
+  ["scene", texts.litScene],
+  ["drawn", texts.plainDrawing],
+];
 /** Conditions of a pool table, each with what it does; the usual one, which a game does not keep. */
 const USUAL = "";
 const conditionsOf = (part: string): (readonly [string, string])[] =>
@@ -41,8 +46,9 @@ function areSettings(value: unknown): boolean {
     sound = true,
     coach = true,
     numbers = true,
+    view = "device",
   } = value as Partial<Settings>;
-  const isKnown = LINES.some(([name]) => name === lines);
+  const isKnown = LINES.some(([name]) => name === lines) && VIEWS.some(([name]) => name === view);
   return isKnown && [sound, coach, numbers].every((flag) => typeof flag === "boolean");
 }
 /** The settings that the browser has kept. Sound is on after the first touch, unless it was muted. */
@@ -51,6 +57,7 @@ export const settingsOf = (): Settings => ({
   sound: true,
   coach: false,
   numbers: false,
+  view: "device",
   ...keptValue<Partial<Settings>>(KEY, {}, areSettings),
 });
 
@@ -187,10 +194,13 @@ export function menu(
       lines: lines.select.value,
       coach: coach.input.checked,
       numbers: numbers.input.checked,
+      view: view.select.value,
     });
     keepSettings(s);
+    void s.space.prepare();
     s.changed();
   }
+  const view = choice("table-view", texts.viewOfTheTable, VIEWS, changeSettings);
   const coach = check("coach", texts.coachShowsTheChances, changeSettings);
   const numbers = check("numbers", texts.lettersOnTheBalls, changeSettings);
   const speech = choice("language", texts.language, LANGUAGE_NAMES, () =>
@@ -200,6 +210,7 @@ export function menu(
   lines.select.value = s.settings.lines;
   coach.input.checked = s.settings.coach;
   numbers.input.checked = s.settings.numbers;
+  view.select.value = s.settings.view;
 
   const knowsInnings = (): boolean => {
     const rules = PLAYED[game.select.value]?.rules;
@@ -271,6 +282,7 @@ export function menu(
     lines.root,
     coach.root,
     numbers.root,
+    view.root,
     el("div.row", el("span", texts.speedOfTheFilm), s.film.pace),
     ...more,
   );
