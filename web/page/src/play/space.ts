@@ -30,13 +30,16 @@ async function load(): Promise<typeof import("./scene.js")> {
   }
 }
 const isStill = (): boolean => window.matchMedia("(prefers-reduced-motion: reduce)").matches;
-/**
- * Whether the device draws by a graphics processor: a browser that would have to draw by its own
- * program says so.
- */
-const hasGraphics = (): boolean =>
-  document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true }) !==
-  null;
+/** How drivers are named that draw by the processor. */
+const BY_PROCESSOR = /swiftshader|llvmpipe|software|basic render/i;
+/** Whether the device has a graphics processor, by the name of its driver. */
+function hasGraphics(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const names = gl?.getExtension("WEBGL_debug_renderer_info");
+  const driver = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return gl !== null && !BY_PROCESSOR.test(driver);
+}
 /** How long a cue is drawn back, how long it then takes to its ball, ms, and how far back it goes, m. */
 const BACK = 220;
 const FORTH = 130;
@@ -64,6 +67,7 @@ export class Space implements SpaceView {
   /** Whether the flat view has the scene below it. */
   #isBelow = false;
   #isClosed = false;
+  readonly #hasGraphics = hasGraphics();
   /** Whether the cue ball is being moved. */
   #moves = false;
   /** The cue that strikes; `next` follows its contact. */
@@ -94,7 +98,7 @@ export class Space implements SpaceView {
     const { view } = settings;
     this.#isBelow = false;
     try {
-      if (view === "scene" || (view === "device" && hasGraphics())) {
+      if (view === "scene" || (view === "device" && this.#hasGraphics)) {
         await this.#start();
         this.#isBelow = settings.view === view && !this.#isClosed;
         film.draw();
@@ -147,6 +151,7 @@ export class Space implements SpaceView {
     const scene = new this.#module!.Scene(play.table, balls);
     this.#scene = scene;
     this.#parts = parts;
+    if (this.s.settings.view !== "scene" && !this.#hasGraphics) scene.coarsen();
     const { canvas } = scene;
     canvas.id = "scene";
     this.#name();
