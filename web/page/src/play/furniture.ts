@@ -144,7 +144,7 @@ function addPockets(
     envMapIntensity: 0.3,
   });
   const castings = new THREE.MeshStandardMaterial({
-    color: metal,
+    color: metal ?? leather,
     roughness: 0.32,
     metalness: 0.85,
     envMapIntensity: 0.95,
@@ -203,11 +203,16 @@ function sightsOf({ width, length, pockets }: Table): THREE.BufferGeometry[] {
 // ---- All of it
 
 /** Puts a table into a scene. */
-export function furnish(scene: THREE.Object3D, table: Table, style: Style): void {
+export function furnish(scene: THREE.Object3D, table: Table, style: Style, isFine: boolean): void {
   const { width, length, pockets } = table;
   const threads = weave();
   // Cloth has no gloss, and covers most of the picture: it is lit in the cheap way.
-  const cloth = { color: style.cloth, map: threads, bumpMap: threads, bumpScale: 0.6 };
+  const cloth = {
+    color: style.cloth,
+    map: threads,
+    bumpMap: isFine ? threads : null,
+    bumpScale: 0.6,
+  };
   const green = new THREE.MeshLambertMaterial(cloth);
   const covered = new THREE.MeshLambertMaterial({
     ...cloth,
@@ -218,7 +223,7 @@ export function furnish(scene: THREE.Object3D, table: Table, style: Style): void
   const brown = new THREE.MeshStandardMaterial({
     color: style.wood,
     map: fibres,
-    bumpMap: fibres,
+    bumpMap: isFine ? fibres : null,
     bumpScale: 0.4,
     roughness: 0.48,
     envMapIntensity: 0.5,

@@ -46,9 +46,10 @@ export class Scene {
   #isFlat = true;
   #pixel = LINE;
 
-  constructor(table: Table, balls: readonly PaintedBall[]) {
+  /** `isFine`: for a graphics processor, with smooth edges, shadows of the lamp, and threads. */
+  constructor(table: Table, balls: readonly PaintedBall[], isFine: boolean) {
     const renderer = new THREE.WebGLRenderer({
-      antialias: true,
+      antialias: isFine,
       powerPreference: "high-performance",
     });
     this.#renderer = renderer;
@@ -67,10 +68,11 @@ export class Scene {
     scene.fog = this.#fog;
     scene.environment = surroundings(renderer, style.cloth);
     this.#lamp = light(scene, table);
-    furnish(scene, table, style);
+    furnish(scene, table, style, isFine);
     this.#balls = new Balls(balls);
     this.#balls.lampShadows = false;
     scene.add(...roomOf(table), this.#balls.group, this.#stick, this.#ribbons.mesh);
+    if (!isFine) this.coarsen();
   }
 
   size(width: number, height: number): void {

@@ -148,10 +148,10 @@ export class Space implements SpaceView {
     const parts = JSON.stringify([play.table, balls]);
     if (this.#scene && parts === this.#parts) return this.#scene;
     this.#end();
-    const scene = new this.#module!.Scene(play.table, balls);
+    const isFine = this.s.settings.view === "scene" || this.#hasGraphics;
+    const scene = new this.#module!.Scene(play.table, balls, isFine);
     this.#scene = scene;
     this.#parts = parts;
-    if (this.s.settings.view !== "scene" && !this.#hasGraphics) scene.coarsen();
     const { canvas } = scene;
     canvas.id = "scene";
     this.#name();
