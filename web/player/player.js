@@ -122,17 +122,20 @@ function listEvents(widgets, clock, go) {
  * What draws the film at the time of its clock. @param {Parts} widgets @param {Clock} clock @param
  * {ReturnType<typeof viewOf>} view @param {Hooks} hooks
  */
-function drawing({ canvas }, clock, view, { over, hidden, sharp = 1 }) {
+function drawing({ canvas }, clock, view, { over, hidden, backdrop, sharp = 1 }) {
   const clothOf = clothFor(view, canvas);
   return () => {
     if (!clock.film || hidden?.()) return;
     const [width, height, dpr] = fitTable(view, canvas, clock.film.table, sharp);
-    const cloth = clothOf(clock.film.table, [width, height, dpr]);
-    const g = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
+    const g = /** @type {CanvasRenderingContext2D} */ (
+      canvas.getContext("2d", { alpha: backdrop !== undefined })
+    );
     g.setTransform(dpr, 0, 0, dpr, 0, 0);
-    g.drawImage(cloth, 0, 0, width, height);
+    const isSeenThrough = backdrop?.(view) ?? false;
+    if (isSeenThrough) g.clearRect(0, 0, width, height);
+    else g.drawImage(clothOf(clock.film.table, [width, height, dpr]), 0, 0, width, height);
     drawTrails(g, view, clock.film);
-    drawBalls(g, view, clock.film, clock.time);
+    if (!isSeenThrough) drawBalls(g, view, clock.film, clock.time);
     over?.(g);
   };
 }
@@ -199,7 +202,8 @@ function winding(widgets, clock, { ended, moved, still = () => false }, draw) {
 
 /**
  * @param {Hooks} hooks `hidden` tells that nothing is seen of the table, `still` that the clock is
- * not the reader's now;
+ * not the reader's now; `backdrop` may draw table and balls below the canvas, and tells whether it
+ * has;
  * `sharp` is how many pixels of the picture there are at least for one of the page. */
 export function player(hooks = {}) {
   const widgets = parts();

@@ -3,8 +3,11 @@
 /** @import { Point, Table } from "./words.js" */
 /** @typedef {ReturnType<typeof viewOf>} View */
 
-/** Wood around the noses of the cushions, m. */
-export const WOOD = 0.1;
+/** How wide a cushion is from its nose to the wood, and how far the wood reaches, m. */
+export const CUSHION = 0.05;
+export const WOOD = CUSHION + 0.127;
+/** Rails longer than this are cushions, the others facings of pockets, m. */
+export const FACING = 0.3;
 
 /**
  * Where a table lies on a canvas: pixels for each m, where its corner is, and whether it stands. A
@@ -112,11 +115,6 @@ export const disc = (g, view, [x, y], radius) => {
   g.arc(...view.place(x, y), radius, 0, 7);
   g.fill();
 };
-
-/** How wide a cushion is from its nose to the wood, m. */
-const CUSHION = 0.05;
-/** Rails longer than this are cushions, the others facings of pockets, m. */
-const FACING = 0.3;
 
 /**
  * The outline of a rectangle around the noses, farther out by `more`, m.
@@ -282,7 +280,7 @@ function drawDiamonds(g, view, table) {
   if (table.length > 3) return;
   g.fillStyle = "#e8dcc0";
   for (const side of [0, 1]) {
-    const out = side === 0 ? -0.8 * WOOD : 0.8 * WOOD;
+    const out = ((side === 0 ? -1 : 1) * (CUSHION + WOOD)) / 2;
     for (let k = 1; k < 8; k++)
       if (k !== 4 || table.pockets.length === 0)
         disc(g, view, [side * table.width + out, (table.length * k) / 8], 0.008 * view.scale);

@@ -27,7 +27,11 @@
  * boolean }} Film
  */
 /** @typedef {{ over?(g: CanvasRenderingContext2D): void, ended?(): void, moved?(): void,
- *   still?(): boolean, hidden?(): boolean, sharp?: number }} Hooks */
+ *   still?(): boolean, hidden?(): boolean, sharp?: number, backdrop?(view: FlatView): boolean }} Hooks */
+/**
+ * Where a table is seen from above: pixels of a place, pixels for each m, and whether it stands.
+ * @typedef {{ place(x: number, y: number): [number, number], scale: number, upright: boolean }} FlatView
+ */
 
 /**
  * The product of two rotations, w, x, y, z: first b, then a. @param {ArrayLike<number>} a @param

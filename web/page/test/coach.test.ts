@@ -15,6 +15,7 @@ import {
   numberIn,
   pages,
   PHONE,
+  pictureOf,
   says,
   shows,
   violations,
@@ -170,24 +171,7 @@ describePages("beside the game", () => {
     await act(page, "#new-game", "#numbers=on", "#menu .close", "#space");
     await page.locator("#scene").waitFor();
     expect(await violations(page)).toEqual([]);
-    const png = (await page.locator("#scene").screenshot()).toString("base64");
-    const { width, height, letters } = await page.evaluate(async (png) => {
-      const image = new Image();
-      image.src = `data:image/png;base64,${png}`;
-      await image.decode();
-      const copy = document.createElement("canvas");
-      [copy.width, copy.height] = [image.width, image.height];
-      const g = copy.getContext("2d")!;
-      g.drawImage(image, 0, 0);
-      return {
-        width: image.width,
-        height: image.height,
-        letters: Array.from(g.getImageData(0, 0, image.width, image.height).data, (byte) =>
-          String.fromCharCode(byte),
-        ).join(""),
-      };
-    }, png);
-    const bytes = Buffer.from(letters, "latin1");
+    const { width, height, bytes } = await pictureOf(page, "#scene");
     /** The places in a rectangle whose colour is so. */
     const where = (
       [x0, y0, x1, y1]: readonly number[],
@@ -268,19 +252,17 @@ describePages("beside the game", () => {
     await page.locator("#scene").waitFor();
     const box = await boxOf(page, "#scene");
     /** Where the view has marks: what is called, or in hand. */
-    const marks = () =>
-      page.locator(".over-scene").evaluate((over: HTMLCanvasElement) => {
-        const copy = document.createElement("canvas");
-        [copy.width, copy.height] = [over.width, over.height];
-        copy.getContext("2d")!.drawImage(over, 0, 0);
-        const { data } = copy.getContext("2d")!.getImageData(0, 0, over.width, over.height);
-        return Array.from({ length: over.width * over.height }, (_, k) => k)
-          .filter(
-            (k) =>
-              data[4 * k]! > 240 && data[4 * k + 3]! > 240 && Math.abs(data[4 * k + 2]! - 138) < 20,
-          )
-          .map((k) => `${k % over.width},${Math.floor(k / over.width)}`);
-      });
+    const marks = async () => {
+      const { width, height, bytes } = await pictureOf(page, "#scene");
+      return Array.from({ length: width * height }, (_, k) => k)
+        .filter(
+          (k) =>
+            bytes[4 * k]! > 247 &&
+            Math.abs(bytes[4 * k + 1]! - 226) < 9 &&
+            Math.abs(bytes[4 * k + 2]! - 138) < 14,
+        )
+        .map((k) => `${k % width},${Math.floor(k / width)}`);
+    };
     const middle = (marks: string[]) =>
       [0, 1].map(
         (c) => marks.reduce((sum, mark) => sum + Number(mark.split(",")[c]), 0) / marks.length,

@@ -4,6 +4,7 @@ import { tmpdir } from "node:os";
 import { deflateRawSync, inflateRawSync } from "node:zlib";
 import { expect, test } from "vitest";
 import type { Page } from "playwright-core";
+import { WOOD } from "../../player/table.js";
 import {
   act,
   boxOf,
@@ -86,7 +87,7 @@ describePages("a diagram", () => {
       const box = await boxOf(page, "#diagram-scene");
       const long = Math.max(box.width, box.height);
       const short = Math.min(box.width, box.height);
-      expect(long / short).toBeCloseTo((2.54 + 0.2) / (1.27 + 0.2), 1);
+      expect(long / short).toBeCloseTo((2.54 + 2 * WOOD) / (1.27 + 2 * WOOD), 1);
       const pdf = `${tmpdir()}/carom-diagram-${process.pid}.pdf`;
       await page.pdf({ path: pdf });
       expect(readFileSync(pdf, "latin1").match(/\/Type \/Page\b/g)).toHaveLength(1);

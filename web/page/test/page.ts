@@ -4,6 +4,7 @@ import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { afterAll, afterEach, beforeAll, describe, expect } from "vitest";
 import { type Browser, chromium, type Page } from "playwright-core";
+import { WOOD } from "../../player/table.js";
 import { root } from "../../test/support.js";
 
 export const browserPath =
@@ -90,10 +91,10 @@ async function pixelOf(
 ): Promise<[number, number]> {
   const box = await boxOf(page, "#table-scene");
   const upright = box.height > box.width;
-  const scale = box.width / ((upright ? w : l) + 0.2);
+  const scale = box.width / ((upright ? w : l) + 2 * WOOD);
   return upright
-    ? [box.x + (x + 0.1) * scale, box.y + (l + 0.1 - y) * scale]
-    : [box.x + (y + 0.1) * scale, box.y + (x + 0.1) * scale];
+    ? [box.x + (x + WOOD) * scale, box.y + (l + WOOD - y) * scale]
+    : [box.x + (y + WOOD) * scale, box.y + (x + WOOD) * scale];
 }
 /** Fingers on a page: each call is one event, with the places of all and its time where that counts. */
 export async function fingersOn(page: Page) {
@@ -216,6 +217,26 @@ async function bright(
   for (let k = 0; k < data.length; k += 4)
     if (Math.min(data[k]!, data[k + 1]!, data[k + 2]!) > 140) count++;
   return count;
+}
+/** What is seen of a part of the page: red, green, blue and opacity of each pixel, row by row. */
+export async function pictureOf(
+  page: Page,
+  selector: string,
+): Promise<{ width: number; height: number; bytes: Buffer }> {
+  const png = (await page.locator(selector).screenshot()).toString("base64");
+  const { width, height, letters } = await page.evaluate(async (png) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${png}`;
+    await image.decode();
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [image.width, image.height];
+    const g = copy.getContext("2d")!;
+    g.drawImage(image, 0, 0);
+    const { data } = g.getImageData(0, 0, image.width, image.height);
+    const letters = Array.from(data, (byte) => String.fromCharCode(byte)).join("");
+    return { width: image.width, height: image.height, letters };
+  }, png);
+  return { width, height, bytes: Buffer.from(letters, "latin1") };
 }
 /** Waits until the page has drawn so many frames: what was asked for before them is seen. */
 const frames = (page: Page, count = 2) =>

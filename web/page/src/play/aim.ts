@@ -3,15 +3,13 @@
 // chooses it; two fingers, a double tap, or the wheel show a part of the table larger.
 import type { Vec3 } from "carom";
 import {
-  circle,
+  circleOf,
   drawLabels,
+  drawLine,
   drawStick,
   drawZones,
   labelsOf,
-  path,
-  type Pen,
-  ring,
-  stroke,
+  type Line,
 } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 import {
@@ -66,11 +64,16 @@ interface Hand {
   tapped: { when: number; place: Point; phi: number; struck: number } | undefined;
 }
 
+const WHITE = "#ffffff";
+const MARK = "#ffe28a";
+/** How high a ring around a pocket lies, over its castings, m. */
+const RIM = 0.057;
+
 /**
  * The way of the ball that is met, and of the cue ball after it, as far as the lines of the game
  * show them.
  */
-export function drawWays(s: Session, pen: Pen): void {
+function waysOf(s: Session): Line[] {
   const { ball, start, way, ways } = s.first!;
   if (
     ball < 0 ||
@@ -78,47 +81,63 @@ export function drawWays(s: Session, pen: Pen): void {
     (s.play.practice && !s.play.setup.drill) ||
     linesOf(s) === "none"
   )
-    return;
+    return [];
   const speed = Math.hypot(way[0]!, way[1]!) || 1;
-  pen.g.setLineDash([5, 4]);
   const lines =
     ways.length > 0 ? ways : [[start, [0, 1].map((c) => start[c]! + (0.3 * way[c]!) / speed)]];
-  for (const line of lines) path(pen, line, 1.4, "#ffffffd0");
-  pen.g.setLineDash([]);
+  return lines.map((points) => ({ points, colour: WHITE, width: 1.4, isDashed: true }));
 }
-const MARK = "#ffe28a";
-/** From so many pixels on the number on a ball is read. */
-const READABLE = 20;
-/** Marks what is called or the player's own pocket, and the cue ball in hand with its line. */
-export function drawMarks(s: Session, pen: Pen): void {
+/** Rings around what is called or the player's own pocket, and around the ball in hand; its line. */
+function marksOf(s: Session): Line[] {
   const { balls, bounds, cueBall, played, practice, state, table } = s.play;
-  if (!free(s)) return;
+  if (!free(s)) return [];
+  const lines: Line[] = [];
   const call = needsCall(s.play) ? called(s) : undefined;
+  const mark = (place: readonly number[], radius: number, width: number, height?: number): void => {
+    const line = { points: circleOf(place, radius), colour: MARK, width };
+    lines.push(height === undefined ? line : { ...line, height });
+  };
   const pocket =
     table.pockets[call?.pocket ?? (played?.pockets && !practice ? (state.pocket?.[0] ?? 5) : -1)];
-  if (pocket) circle(pen, pocket.centre, pocket.radius + 0.008, 3, MARK);
-  if (call) circle(pen, balls[call.ball]!.state.r, balls[call.ball]!.kind.radius + 0.008, 3, MARK);
+  if (pocket) mark(pocket.centre, pocket.radius + 0.008, 3, RIM);
+  if (call) mark(balls[call.ball]!.state.r, balls[call.ball]!.kind.radius + 0.008, 3);
+  if (s.hinted && s.place) mark(s.place, NEAR, 2);
   const { kind, state: inHand } = balls[cueBall]!;
-  if (!bounds || !onTable(inHand)) return;
-  circle(pen, inHand.r, kind.radius + 0.02, 2, MARK);
-  pen.g.setLineDash([6, 6]);
+  if (!bounds || !onTable(inHand)) return lines;
+  mark(inHand.r, kind.radius + 0.02, 2);
   const { low, high } = bounds;
-  if (high[1] < table.length / 2) stroke(pen, [low[0], high[1]], high, 1, MARK);
-  pen.g.setLineDash([]);
+  if (high[1] < table.length / 2)
+    lines.push({ points: [[low[0], high[1]], high], colour: MARK, width: 1, isDashed: true });
+  return lines;
 }
-/** Draws what is aimed, called and in hand over the table. */
+/** All lines of what is aimed, called and in hand. */
+export function linesOfAim(s: Session): Line[] {
+  const { film, first, play } = s;
+  if (film.time > 0 || film.playing) return [];
+  const cueBall = play.balls[play.cueBall]!;
+  const lines = marksOf(s);
+  if (!first || !aimed(s) || !onTable(cueBall.state)) return lines;
+  return [
+    ...lines,
+    { points: [cueBall.state.r, first.place], colour: WHITE, width: 1.4 },
+    { points: circleOf(first.place, cueBall.kind.radius), colour: WHITE, width: 1.4 },
+    ...waysOf(s),
+  ];
+}
+/** A number on a ball of this radius can be read, pixels. */
+const READABLE = 10;
+/** Draws what is aimed, called and in hand over the table; of the scene, which has that, less. */
 export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
-  const { film, play } = s;
+  const { film, play, space } = s;
   const pen = { g, scale: film.scale, place: film.place };
   const hasLetters = s.settings.numbers;
+  const radius = play.balls[0]!.kind.radius * film.scale;
   // A rack, and balls that are large enough to be read, have labels only where they are asked for.
-  const pixels = 2 * play.balls[0]!.kind.radius * film.scale;
-  const isRead = (play.breaks || pixels > READABLE) && !hasLetters;
+  const isRead = (play.breaks || radius > READABLE) && !hasLetters;
   const labels = isRead ? [] : labelsOf(play.names, hasLetters ? texts.letters : {});
   if (film.time > 0 || film.playing) {
     // Balls that are too small to be read while they roll have their labels beside them.
-    const isSmall = play.balls[0]!.kind.radius * film.scale < 8;
-    const poses = isSmall || hasLetters ? s.filmed!.shots[0]!.poses(film.time) : [];
+    const poses = radius < 8 || hasLetters ? s.filmed!.shots[0]!.poses(film.time) : [];
     return drawLabels(
       pen,
       poses.map(({ r, seen }, k) => ({
@@ -128,19 +147,12 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
       labels,
     );
   }
-  const cueBall = play.balls[play.cueBall]!;
-  const cue = aimed(s);
-  g.setLineDash([]);
-  drawMarks(s, pen);
   if (s.hinted) drawZones(pen, s.sequence);
-  if (s.hinted && s.place) circle(pen, s.place, NEAR, 2, MARK);
-  if (cue && onTable(cueBall.state)) {
-    if (s.first) {
-      stroke(pen, cueBall.state.r, s.first.place, 1.4, "#ffffffd0");
-      ring(pen, s.first.place, cueBall.kind.radius, 0);
-      drawWays(s, pen);
-    }
-    drawStick(pen, cueBall, cue);
+  if (!space.isLive) {
+    for (const line of linesOfAim(s)) drawLine(pen, line);
+    const cueBall = play.balls[play.cueBall]!;
+    const cue = aimed(s);
+    if (cue && onTable(cueBall.state)) drawStick(pen, cueBall, cue);
   }
   drawLabels(pen, play.balls, labels);
 }
@@ -246,7 +258,7 @@ function pinch(s: Session, hand: Hand): void {
 function down(s: Session, hand: Hand, event: PointerEvent): void {
   const { film, play } = s;
   if (event.button > 0) return;
-  if (film.playing) return s.showing.skip();
+  if (film.playing || s.space.isStriking) return s.showing.skip();
   hand.pointers.set(event.pointerId, pixelsOf(film.canvas, event));
   film.canvas.setPointerCapture(event.pointerId);
   if (hand.pointers.size === 2) return pinch(s, hand);
@@ -330,7 +342,7 @@ function strikeNext(s: Session): void {
 /** Does what a key means now, and returns whether it means anything. */
 function pressed(s: Session, event: KeyboardEvent): boolean {
   const ends = event.key === "Enter" || event.key === "Escape";
-  if (s.film.playing && ends) s.showing.skip();
+  if ((s.film.playing || s.space.isStriking) && ends) s.showing.skip();
   else if (event.key === "Enter" && s.asksPlace && s.first)
     void s.coach.leaveNear([s.first.place[0]!, s.first.place[1]!]);
   else if (event.key === "Enter") shoot(s);

@@ -128,6 +128,7 @@ function showButtons(s: Session): void {
   const isOver = play.isOver && s.continuation === undefined;
   const hasSafety = play.played?.calls === true && !play.practice;
   const hasPockets = play.table.pockets.length > 0;
+  const isRolling = film.playing || s.space.isStriking;
   const spotText = hasPockets ? texts.spotTheNearestBall : texts.spotTheTouchingBalls;
   for (const [act, button] of choices) if (act === "spot") button.textContent = spotText;
   const visible: (readonly [HTMLElement, boolean])[] = [
@@ -136,8 +137,8 @@ function showButtons(s: Session): void {
     [buttons.rack, isFreePractice || isOver],
     [buttons.push, (mayAim && mayPush) || hasSafety],
     ...choices.map(([act, button]) => [button, mayAim && play.acts.includes(act)] as const),
-    [buttons.skip, film.playing],
-    [stroke.shoot, !film.playing],
+    [buttons.skip, isRolling],
+    [stroke.shoot, !isRolling],
     [buttons.link, play.setup.against === "link"],
   ];
   for (const [element, isVisible] of visible) put(element, isVisible);
@@ -173,7 +174,8 @@ function perform(s: Session, stroke: Stroke, next: () => void): void {
   s.film.look(1);
   const { table, names } = s.play;
   show(s, filmOf({ table, balls: stroke.balls, names, turned: s.turned }, stroke.shot, []));
-  s.film.start();
+  const { cue, balls } = stroke;
+  s.space.strike(cue, balls[cue.ball]!.state.r, () => s.film.start());
   update(s);
 }
 export function finish(s: Pick<Session, "continuation" | "shown" | "turned">): void {
@@ -186,7 +188,8 @@ export function finish(s: Pick<Session, "continuation" | "shown" | "turned">): v
   next?.();
 }
 function skip(s: Session): void {
-  if (!s.film.playing) return;
+  if (!s.film.playing && !s.space.isStriking) return;
+  s.space.putAway();
   s.film.stop();
   finish(s);
 }

@@ -23,6 +23,11 @@ const LINES: readonly (readonly [Settings["lines"], string])[] = [
   ["short", texts.shortTheWayOf],
   ["full", texts.fullBothBalls],
 ];
+const VIEWS: readonly (readonly [Settings["view"], string])[] = [
+  ["device", texts.asTheDeviceAllows],
+  ["scene", texts.litScene],
+  ["drawn", texts.plainDrawing],
+];
 /** Conditions of a pool table, each with what it does; the usual one, which a game does not keep. */
 const USUAL = "";
 const conditionsOf = (part: string): (readonly [string, string])[] =>
@@ -43,8 +48,9 @@ function areSettings(value: unknown): boolean {
     coach = true,
     numbers = true,
     pull = true,
+    view = "device",
   } = value as Partial<Settings>;
-  const isKnown = LINES.some(([name]) => name === lines);
+  const isKnown = LINES.some(([name]) => name === lines) && VIEWS.some(([name]) => name === view);
   return isKnown && [sound, coach, numbers, pull].every((flag) => typeof flag === "boolean");
 }
 /** The settings that the browser has kept. Sound is on after the first touch, unless it was muted. */
@@ -54,6 +60,7 @@ export const settingsOf = (): Settings => ({
   coach: false,
   numbers: false,
   pull: true,
+  view: "device",
   ...keptValue<Partial<Settings>>(KEY, {}, areSettings),
 });
 
@@ -216,10 +223,13 @@ export function menu(
       coach: coach.input.checked,
       numbers: numbers.input.checked,
       pull: pull.input.checked,
+      view: view.select.value,
     });
     keepSettings(s);
+    void s.space.prepare();
     s.changed();
   }
+  const view = choice("table-view", texts.viewOfTheTable, VIEWS, changeSettings);
   const coach = check("coach", texts.coachShowsTheChances, changeSettings);
   const numbers = check("numbers", texts.lettersOnTheBalls, changeSettings);
   const pull = check("pull-plays", texts.pullPlays, changeSettings);
@@ -231,6 +241,7 @@ export function menu(
   coach.input.checked = s.settings.coach;
   numbers.input.checked = s.settings.numbers;
   pull.input.checked = s.settings.pull;
+  view.select.value = s.settings.view;
 
   const knowsInnings = (): boolean => {
     const rules = PLAYED[game.select.value]?.rules;
@@ -322,6 +333,7 @@ export function menu(
     coach.root,
     numbers.root,
     pull.root,
+    view.root,
     el("div.row", el("span", texts.speedOfTheFilm), s.film.pace),
     ...rest,
   );

@@ -2,6 +2,7 @@
 // files of its parts share.
 import type { Call, Carom, Choice, Cue, PlanOptions, SequenceStroke, Vec2 } from "carom";
 import type { player as filmPlayer } from "../../../player/player.js";
+import type { FlatView } from "../../../player/words.js";
 import type { filmOf, Quaternion } from "../table/filmed.js";
 import type { Stroke as StrokeValues } from "../table/stroke.js";
 import type { Drill } from "./drills.js";
@@ -31,6 +32,8 @@ export interface Settings {
   pull: boolean;
   /** Whether balls without numbers have letters, and balls in three dimensions their labels. */
   numbers: boolean;
+  /** How the table is shown: drawn, as a scene, or as a scene where the device is fast enough. */
+  view: "device" | "scene" | "drawn";
 }
 
 /** What a stroke is set by (controls.ts): its elements, and its values. */
@@ -75,10 +78,23 @@ export interface Training {
   plan(): string;
 }
 
-/** The view from behind the cue (space.ts). */
+/** The table as a scene (space.ts): below the flat view, or from behind the cue. */
 export interface SpaceView {
+  /** Whether one looks from behind the cue. */
   readonly isOn: boolean;
-  /** Shows it, or the flat view again. */
+  /** Whether there is a scene. */
+  readonly isLive: boolean;
+  /** Whether a cue is on its way to its ball. */
+  readonly isStriking: boolean;
+  /** Draws the table below the flat view, and returns whether it has. */
+  backdrop(view: FlatView): boolean;
+  /** Moves a cue to its ball, and then calls `next`. */
+  strike(cue: Cue, place: readonly number[], next: () => void): void;
+  /** Puts away the cue that strikes. */
+  putAway(): void;
+  /** Makes the scene or ends it, as the settings and the device have it. */
+  prepare(): Promise<void>;
+  /** Looks from behind the cue, or from above again. */
   toggle(): Promise<void>;
   draw(): void;
   close(): void;

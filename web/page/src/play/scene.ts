@@ -1,263 +1,241 @@
-// The table from behind the cue, by three.js: the table in its room (furniture.ts), the cue, and
-// balls with stripes and numbers that turn as the library computed. A module by itself: the page has it
-// compressed and starts it when it is asked for.
-import type { Cue } from "carom";
+// The table by three.js, seen from above, from behind the cue and as on television: furniture.ts and
+// room.ts have what stands still, balls.ts and stick.ts what moves, ribbons.ts the lines on the
+// cloth. A module by itself: the page has it compressed, and starts it behind its first view.
 import * as THREE from "three";
 import { WOOD } from "../../../player/table.js";
+import type { FlatView, Pose, Table } from "../../../player/words.js";
+import type { Line } from "../table/drawing.js";
+import { Balls, type PaintedBall } from "./balls.js";
 import { furnish } from "./furniture.js";
-import { IVORY, type Pose, type Table } from "../../../player/words.js";
+import { light, roomOf, surroundings } from "./room.js";
+import { Ribbons } from "./ribbons.js";
+import { layStick, type Stick, stickMesh } from "./stick.js";
+import { styleOf } from "./surfaces.js";
 
-interface SceneOf {
-  table: Table;
-  balls: { name: string; radius: number; colour: string }[];
-  cloth: string;
-  wood: string;
+/** A camera: its place, what it looks at, and how much it sees, degrees from top to bottom. */
+interface Shot {
+  eye: THREE.Vector3;
+  target: THREE.Vector3;
+  angle: number;
 }
-/**
- * The cue, how far its tip is from the cue ball's middle, and where the cue ball first meets
- * something, m.
- */
-interface Stick {
-  cue: Cue;
-  gap: number;
-  first: readonly number[] | undefined;
-}
-
 const DEGREES = 180 / Math.PI;
-/** The colour of numbers. */
-const NUMBER = [22, 24, 27];
-
-/**
- * The surface of a ball, around its z: white caps at both ends of x of a stripe, numbers at both
- * ends of z, or six dots of a cue ball.
- */
-function surface({ name, colour }: SceneOf["balls"][number]): THREE.CanvasTexture {
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [512, 256];
-  const g = canvas.getContext("2d")!;
-  const number = Number(name);
-  // How much ink of the number there is in a square.
-  g.font = `bold ${name.length > 1 ? 72 : 88}px sans-serif`;
-  g.textAlign = "center";
-  g.textBaseline = "middle";
-  g.fillText(name, 64, 68);
-  const ink = g.getImageData(0, 0, 128, 128).data;
-  const pixels = g.createImageData(512, 256);
-  const rgb = (hex: string): number[] => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
-  const base = rgb(colour);
-  const ivory = rgb(IVORY);
-  const dot = colour === IVORY ? [200, 16, 46] : [255, 255, 255];
-  for (let row = 0; row < 256; row++)
-    for (let column = 0; column < 512; column++) {
-      // three's sphere: u around its y, v from the top; z of the ball is y of the sphere.
-      const around = (2 * Math.PI * (column + 0.5)) / 512;
-      const down = (Math.PI * (row + 0.5)) / 256;
-      const x = -Math.cos(around) * Math.sin(down);
-      const y = -Math.sin(around) * Math.sin(down);
-      const z = Math.cos(down);
-      let colour = base;
-      if (number > 8 && Math.abs(x) > Math.cos(0.9)) colour = ivory;
-      if (number > 0 && Math.abs(z) > Math.cos(0.52)) {
-        // The square on the ball: whoever sees the lower end has x to the left.
-        const [u, v] = [64 + 160 * x * Math.sign(z), 64 - 160 * y].map(Math.floor) as [
-          number,
-          number,
-        ];
-        const black = (ink[4 * (128 * v + u) + 3] ?? 0) / 255;
-        colour = ivory.map((part, k) => part + black * (NUMBER[k]! - part));
-      }
-      if (!(number > 0) && Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) > Math.cos(0.2))
-        colour = dot;
-      pixels.data.set([...colour, 255], 4 * (512 * row + column));
-    }
-  g.putImageData(pixels, 0, 0);
-  return Object.assign(new THREE.CanvasTexture(canvas), {
-    colorSpace: THREE.SRGBColorSpace,
-    anisotropy: 4,
-  });
-}
-
-/** What a ball reflects: a dark room with a lamp above. */
-function surroundings(): THREE.CubeTexture {
-  const faces = ["px", "nx", "py", "ny", "pz", "nz"].map((name) => {
-    const canvas = document.createElement("canvas");
-    [canvas.width, canvas.height] = [64, 64];
-    const g = canvas.getContext("2d")!;
-    g.fillStyle = name === "nz" ? "#0d2a20" : "#0a0b0d";
-    g.fillRect(0, 0, 64, 64);
-    g.fillStyle = "#fff4dd";
-    if (name === "pz") g.fillRect(28, 20, 8, 24);
-    return canvas;
-  });
-  const cube = new THREE.CubeTexture(faces);
-  cube.colorSpace = THREE.SRGBColorSpace;
-  cube.needsUpdate = true;
-  return cube;
-}
-/** A cue, its tip at the origin, and its butt towards -y: tip, ferrule, shaft, butt. */
-function cueOf(): THREE.Group {
-  const cue = new THREE.Group();
-  const parts = [
-    [0, 0.006, 0.0058, 0.006, "#3f7fbf"],
-    [0.006, 0.026, 0.006, 0.0062, "#f6f2e6"],
-    [0.026, 0.75, 0.0062, 0.0105, "#dcb783"],
-    [0.75, 0.79, 0.0105, 0.011, "#1a1a1c"],
-    [0.79, 1.42, 0.011, 0.0148, "#5a2a1c"],
-  ] as const;
-  for (const [start, end, thin, thick, colour] of parts) {
-    const part = new THREE.Mesh(
-      new THREE.CylinderGeometry(thin, thick, end - start, 20),
-      new THREE.MeshPhongMaterial({ color: colour, shininess: 50, specular: "#444444" }),
-    );
-    part.position.y = -(start + end) / 2;
-    part.castShadow = true;
-    cue.add(part);
-  }
-  return cue;
-}
-/** A ball: a sphere whose y is the ball's z. */
-function ballOf(ball: SceneOf["balls"][number], envMap: THREE.CubeTexture): THREE.Group {
-  const sphere = new THREE.Mesh(
-    new THREE.SphereGeometry(ball.radius, 40, 28),
-    new THREE.MeshPhongMaterial({
-      map: surface(ball),
-      shininess: 140,
-      specular: "#333333",
-      envMap,
-      combine: THREE.AddOperation,
-      reflectivity: 0.15,
-    }),
-  );
-  sphere.rotation.x = Math.PI / 2;
-  sphere.castShadow = true;
-  return new THREE.Group().add(sphere);
-}
+/** How high the camera of the view from above hangs: so high that its picture is nearly flat. */
+const CEILING = 5;
+/** How fast a camera glides to another place: the share of its way that is left falls by e^-1 in this, s. */
+const GLIDE = 0.18;
+/** Behind the cue ball, m. */
+const BEHIND = 0.8;
+/** The width of a line's pixel in the views from behind, m. */
+const LINE = 0.0035;
+/** How many pictures are drawn before one is timed: the first ones make programs and shadows. */
+const WARM = 2;
 
 export class Scene {
   readonly canvas: HTMLCanvasElement;
   readonly #renderer: THREE.WebGLRenderer;
   readonly #scene = new THREE.Scene();
-  readonly #camera = new THREE.PerspectiveCamera(40, 1, 0.02, 12);
-  readonly #balls: THREE.Group[];
-  readonly #stick: THREE.Group;
-  readonly #aim: THREE.Mesh;
-  readonly #ghost: THREE.Mesh;
-  readonly #within: readonly [number, number];
+  readonly #camera = new THREE.PerspectiveCamera(40, 1, 0.02, 30);
+  readonly #fog = new THREE.Fog("#050506", 3.2, 9);
+  readonly #lamp: THREE.SpotLight;
+  readonly #balls: Balls;
+  readonly #stick = stickMesh();
+  readonly #ribbons = new Ribbons();
+  readonly #table: Table;
+  #shot: Shot | undefined;
+  #goal: Shot | undefined;
+  #isFlat = true;
+  #pixel = LINE;
 
-  constructor(parts: SceneOf) {
-    this.#renderer = new THREE.WebGLRenderer({ antialias: true });
-    this.canvas = this.#renderer.domElement;
-    this.#renderer.shadowMap.enabled = true;
-    this.#renderer.shadowMap.type = THREE.PCFSoftShadowMap;
-    this.#renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
-    const { width, length } = parts.table;
-    const scene = this.#scene;
-    const around = surroundings();
-    this.#camera.up.set(0, 0, 1);
-    scene.background = new THREE.Color("#0e0f11");
-
-    furnish(scene, parts);
-    this.#balls = parts.balls.map((ball) => ballOf(ball, around));
-    scene.add(...this.#balls);
-    this.#stick = cueOf();
-    // The aim on the cloth: a line to the place of the cue ball at its first contact, and a ring
-    // there.
-    const light = new THREE.MeshBasicMaterial({
-      color: "#ffffff",
-      transparent: true,
-      opacity: 0.7,
+  /** `isFine`: for a graphics processor, with smooth edges, shadows of the lamp, and threads. */
+  constructor(table: Table, balls: readonly PaintedBall[], isFine: boolean) {
+    const renderer = new THREE.WebGLRenderer({
+      antialias: isFine,
+      powerPreference: "high-performance",
     });
-    const R = parts.balls[0]!.radius;
-    this.#aim = new THREE.Mesh(new THREE.BoxGeometry(1, 0.007, 0.001), light);
-    this.#ghost = new THREE.Mesh(new THREE.RingGeometry(0.88 * R, R, 32), light);
-    this.#within = [width, length];
-    scene.add(this.#stick, this.#aim, this.#ghost);
+    this.#renderer = renderer;
+    this.canvas = renderer.domElement;
+    renderer.shadowMap.enabled = true;
+    renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    // Neutral: others make yellow and orange balls pastel.
+    renderer.toneMapping = THREE.NeutralToneMapping;
+    renderer.toneMappingExposure = 1.02;
+    renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    const style = styleOf(table);
+    const scene = this.#scene;
+    this.#table = table;
+    this.#camera.up.set(0, 0, 1);
+    scene.background = this.#fog.color;
+    scene.fog = this.#fog;
+    scene.environment = surroundings(renderer, style.cloth);
+    this.#lamp = light(scene, table);
+    furnish(scene, table, style, isFine);
+    this.#balls = new Balls(balls);
+    this.#balls.lampShadows = false;
+    scene.add(...roomOf(table), this.#balls.group, this.#stick, this.#ribbons.mesh);
+    if (!isFine) this.coarsen();
   }
 
   size(width: number, height: number): void {
     this.#renderer.setSize(width, height);
     this.#camera.aspect = width / height;
-    // On a tall screen the table stays as wide as it is on a wide one.
-    this.#camera.fov = width > height ? 38 : 58;
-    this.#camera.updateProjectionMatrix();
   }
 
-  /** Looks along the cue from behind a place, m. */
-  look(target: readonly number[], phi: number): void {
-    const along = [Math.cos(phi / DEGREES), Math.sin(phi / DEGREES)] as const;
-    // A tall screen sees the table from higher, or it would show the room above it.
-    const high = this.#camera.aspect > 1 ? 0.48 : 0.95;
-    // How far off the outer wood is where the cue points, and behind the cue ball, where the camera
-    // stays near it.
-    const wood = (sign: number): number =>
-      Math.min(
-        ...along.map((d, c) =>
-          Math.abs(d) < 1e-9
-            ? Infinity
-            : ((sign * d > 0 ? this.#within[c]! + WOOD : -WOOD) - target[c]!) / (sign * d),
-        ),
-      );
-    const far = wood(1);
-    const back = Math.min(wood(-1) + 0.5, 1.15);
-    // That wood is seen below the upper edge, but the cue ball never near it.
-    const half = this.#camera.fov / 2;
+  // ---- Cameras
+
+  /**
+   * From above, as the flat view has the table, whose picture lies so many pixels from the corner of
+   * this one. A place at the height of the balls' middles is where the flat view has it.
+   */
+  lookDown(view: FlatView, [x, y]: readonly [number, number]): void {
+    const { width, length } = this.#table;
+    const middle = [width / 2, length / 2] as const;
+    const { scale, upright } = view;
+    const [px, py] = view.place(...middle);
+    const camera = this.#camera;
+    this.#isFlat = true;
+    this.#shot = undefined;
+    this.#pixel = 1 / scale;
+    Object.assign(this.#fog, { near: 9, far: 30 });
+    // From above, wood and metal would show nothing but the lamps.
+    this.#scene.environmentIntensity = 0.4;
+    camera.up.set(upright ? 0 : -1, upright ? 1 : 0, 0);
+    camera.position.set(...middle, CEILING);
+    camera.lookAt(...middle, 0);
+    camera.updateMatrixWorld();
+    camera.up.set(0, 0, 1);
+    // The middle of the table need not be in the middle of the picture.
+    const near = 0.1;
+    const share = near / (CEILING - 0.0286) / scale;
+    const left = -(px + x) * share;
+    const top = (py + y) * share;
+    const right = left + this.canvas.clientWidth * share;
+    const bottom = top - this.canvas.clientHeight * share;
+    camera.projectionMatrix.makePerspective(left, right, top, bottom, near, 30);
+    camera.projectionMatrixInverse.copy(camera.projectionMatrix).invert();
+  }
+  /**
+   * Looks along the cue from behind a place, from a height, m; and a little aside, so that a pocket
+   * is seen too.
+   */
+  lookAlong(
+    place: readonly number[],
+    phi: number,
+    height: number,
+    pocket?: readonly number[],
+  ): void {
+    const { aspect } = this.#camera;
+    const isTall = aspect < 1;
+    const angle = isTall ? 56 : 40;
+    const half = angle / 2;
+    const direction = phi / DEGREES;
+    const along = [Math.cos(direction), Math.sin(direction)] as const;
+    const back = Math.min(this.#wayToWood(place, along, -1) + 0.55, BEHIND);
+    const eye = new THREE.Vector3(place[0]! - back * along[0], place[1]! - back * along[1], height);
+    // The cue ball stays in the picture as well as the pocket.
+    const aside = Math.atan(aspect * Math.tan(half / DEGREES));
+    const seen = pocket ? Math.atan2(pocket[1]! - eye.y, pocket[0]! - eye.x) - direction : 0;
+    const turn = Math.atan2(Math.sin(seen), Math.cos(seen)) / 2;
+    const gaze = direction + Math.min(Math.max(turn, -0.75 * aside), 0.75 * aside);
+    // The far wood is near the upper edge, and the cue ball not above the middle by much.
+    const far = back + this.#wayToWood(place, along, 1);
     const down =
       Math.min(
-        half - 2.2 + Math.atan2(high, back + far) * DEGREES,
-        0.5 * half + Math.atan2(high, back) * DEGREES,
+        0.7 * half + Math.atan2(height, far) * DEGREES,
+        Math.atan2(height, back) * DEGREES - 0.1 * half,
       ) / DEGREES;
-    const x = target[0]! - back * along[0];
-    const y = target[1]! - back * along[1];
-    this.#camera.position.set(x, y, high);
-    this.#camera.lookAt(
-      x + along[0] * Math.cos(down),
-      y + along[1] * Math.cos(down),
-      high - Math.sin(down),
+    const target = new THREE.Vector3(
+      Math.cos(gaze) * Math.cos(down),
+      Math.sin(gaze) * Math.cos(down),
+      -Math.sin(down),
     );
+    this.#aim({ eye, target: target.add(eye), angle });
+  }
+  /** How far the outer wood is off a place, along a direction or against it. */
+  #wayToWood(place: readonly number[], along: readonly [number, number], sign: 1 | -1): number {
+    const sizes = [this.#table.width, this.#table.length];
+    const ways = along.map((share, axis) => {
+      if (Math.abs(share) < 1e-9) return Infinity;
+      const edge = sign * share > 0 ? sizes[axis]! + WOOD : -WOOD;
+      return (edge - place[axis]!) / (sign * share);
+    });
+    return Math.min(...ways);
+  }
+  /** As on television: from high behind the end of the table from which the stroke was played. */
+  lookAcross(phi: number): void {
+    const { width, length } = this.#table;
+    const isTall = this.#camera.aspect < 1;
+    const end = Math.sin(phi / DEGREES) >= 0 ? -1 : 1;
+    const back = (isTall ? 1.02 : 0.98) * length;
+    const height = (isTall ? 0.82 : 0.5) * length;
+    this.#aim({
+      eye: new THREE.Vector3(width / 2, length / 2 + end * back, height),
+      target: new THREE.Vector3(width / 2, length / 2 + 0.1 * end * length, 0),
+      angle: isTall ? 50 : 34,
+    });
+  }
+  #aim(goal: Shot): void {
+    this.#goal = goal;
+    this.#pixel = LINE;
+    Object.assign(this.#fog, { near: 3.2, far: 9 });
+    this.#scene.environmentIntensity = 1;
+    if (this.#isFlat || !this.#shot)
+      this.#shot = { eye: goal.eye.clone(), target: goal.target.clone(), angle: goal.angle };
+    this.#isFlat = false;
+  }
+  /** Moves the camera towards its goal for so many s, and returns whether it has come there. */
+  glide(seconds: number): boolean {
+    const shot = this.#shot;
+    const goal = this.#goal;
+    if (this.#isFlat || !shot || !goal) return true;
+    const share = 1 - Math.exp(-seconds / GLIDE);
+    shot.eye.lerp(goal.eye, share);
+    shot.target.lerp(goal.target, share);
+    shot.angle += (goal.angle - shot.angle) * share;
+    if (shot.eye.distanceTo(goal.eye) + shot.target.distanceTo(goal.target) > 2e-3) return false;
+    shot.eye.copy(goal.eye);
+    shot.target.copy(goal.target);
+    return true;
   }
 
-  draw(poses: readonly Pose[], stick: Stick | undefined): void {
-    poses.forEach(({ r, q, seen }, k) => {
-      const ball = this.#balls[k]!;
-      ball.visible = seen;
-      ball.position.set(r[0]!, r[1]!, r[2]!);
-      ball.quaternion.set(q[1]!, q[2]!, q[3]!, q[0]!);
-    });
-    const tip = stick?.first;
-    const { r } = poses[stick?.cue.ball ?? 0]!;
+  // ---- Pictures
+
+  draw(poses: readonly Pose[], stick: Stick | undefined, lines: readonly Line[]): void {
+    this.#balls.pose(poses);
+    this.#ribbons.lay(lines, this.#pixel);
     this.#stick.visible = stick !== undefined;
-    this.#aim.visible = tip !== undefined;
-    this.#ghost.visible = tip !== undefined;
-    if (tip) {
-      const dx = tip[0]! - r[0]!;
-      const dy = tip[1]! - r[1]!;
-      const gone = Math.hypot(dx, dy);
-      this.#aim.scale.x = Math.max(gone, 1e-3);
-      this.#aim.rotation.z = Math.atan2(dy, dx);
-      this.#aim.position.set(r[0]! + dx / 2, r[1]! + dy / 2, 0.001);
-      this.#ghost.position.set(tip[0]!, tip[1]!, 0.002);
+    if (stick) layStick(this.#stick, stick, this.#table);
+    const camera = this.#camera;
+    if (!this.#isFlat && this.#shot) {
+      camera.fov = this.#shot.angle;
+      camera.updateProjectionMatrix();
+      camera.position.copy(this.#shot.eye);
+      camera.lookAt(this.#shot.target);
     }
-    if (stick) {
-      const R = r[2]!;
-      const { a, b } = stick.cue;
-      const phi = stick.cue.phi / DEGREES;
-      const theta = Math.max(stick.cue.theta, 3) / DEGREES;
-      // From the butt to the tip, and what is to the right of it and above.
-      const along = new THREE.Vector3(
-        Math.cos(phi) * Math.cos(theta),
-        Math.sin(phi) * Math.cos(theta),
-        -Math.sin(theta),
-      );
-      const right = new THREE.Vector3(Math.sin(phi), -Math.cos(phi), 0);
-      const up = new THREE.Vector3().crossVectors(right, along);
-      this.#stick.position
-        .set(r[0]!, r[1]!, R)
-        .addScaledVector(right, -a * R)
-        .addScaledVector(up, b * R)
-        .addScaledVector(along, -stick.gap);
-      this.#stick.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along);
+    this.#renderer.render(this.#scene, camera);
+  }
+  /** Fewer pixels, and for the shadows of the lamp pictures of them below the balls. */
+  coarsen(): void {
+    this.#renderer.setPixelRatio(1);
+    this.#lamp.castShadow = false;
+    this.#balls.lampShadows = true;
+  }
+  /** How long a picture takes, ms. */
+  measure(): number {
+    const gl = this.#renderer.getContext();
+    const pixel = new Uint8Array(4);
+    let start = 0;
+    for (let k = 0; k < WARM; k++) {
+      start = performance.now();
+      this.#renderer.render(this.#scene, this.#camera);
+      // Only what is read is certain to be drawn.
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     }
-    this.#renderer.render(this.#scene, this.#camera);
+    return performance.now() - start;
+  }
+  /** What the last picture cost. */
+  get counts(): { calls: number; triangles: number } {
+    const { calls, triangles } = this.#renderer.info.render;
+    return { calls, triangles };
   }
 
   /** Where a place is seen, pixels of the page; NaN: behind the camera. */

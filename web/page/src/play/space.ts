@@ -1,16 +1,19 @@
-// The view from behind the cue, over the flat one: its module is in the page as compressed text,
-// and starts when it is asked for.
+// The table as a scene, below the flat view or in its stead, from behind the cue. Its module is in the
+// page as compressed text, and starts behind the first view. A browser without WebGL, and a device
+// that is too slow for it, keep the drawn table.
+import type { Cue } from "carom";
 import { colourOf } from "../../../player/words.js";
-import type { Pose } from "../../../player/words.js";
-import { drawLabels, labelsOf, stickEnd } from "../table/drawing.js";
+import type { FlatView, Pose } from "../../../player/words.js";
+import { drawLabels, drawZones, labelsOf, stickEnd } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 import { type Grip, pixelsOf, type Point } from "../table/grip.js";
-import { color, drags, el } from "../ui.js";
-import { drawMarks, drawWays, move, movable, tap } from "./aim.js";
-import type { Play } from "./game.js";
+import { drags, el, wrong } from "../ui.js";
+import { linesOfAim, move, movable, tap } from "./aim.js";
+import { guessOf } from "./look.js";
 import type { Scene } from "./scene.js";
 import type { Session, SpaceView } from "./parts.js";
-import { aimed, free } from "./session.js";
+import { aimed, called, free, says } from "./session.js";
+import type { Stick } from "./stick.js";
 import { texts } from "../texts/texts.js";
 
 async function load(): Promise<typeof import("./scene.js")> {
@@ -26,57 +29,132 @@ async function load(): Promise<typeof import("./scene.js")> {
     URL.revokeObjectURL(url);
   }
 }
+const isStill = (): boolean => window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+/** How drivers are named that draw by the processor. */
+const BY_PROCESSOR = /swiftshader|llvmpipe|software|basic render/i;
+/** Whether the device has a graphics processor, by the name of its driver. */
+function hasGraphics(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const names = gl?.getExtension("WEBGL_debug_renderer_info");
+  const driver = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return gl !== null && !BY_PROCESSOR.test(driver);
+}
+/** How long a cue is drawn back, how long it then takes to its ball, ms, and how far back it goes, m. */
+const BACK = 220;
+const FORTH = 130;
+const SWING = 0.09;
+/** How long it follows the ball, s, and how far, m. */
+const FOLLOW = 0.35;
+const FOLLOWS = 0.12;
+/** A picture from above that takes longer leaves the table drawn, ms. */
+const TOO_SLOW = 70;
+/** So many pictures of a film that take longer than this on average make the scene coarser, ms. */
+const PICTURES = 40;
+const SLOW = 30;
+/** How high the eye may be behind the cue, m. */
+const LOW = 0.16;
+const HIGH = 1.3;
 
 export class Space implements SpaceView {
   #module: typeof import("./scene.js") | undefined;
   #scene: Scene | undefined;
-  #play: Play | undefined;
-  /** What is drawn over the scene: lines, and the numbers of balls. */
+  /** What the scene was made of. */
+  #parts = "";
+  /** What is drawn over the scene: zones, and the labels of balls. */
   readonly #over = el("canvas.over-scene");
   isOn = false;
+  /** Whether the flat view has the scene below it. */
+  #isBelow = false;
+  #isClosed = false;
+  readonly #hasGraphics = hasGraphics();
   /** Whether the cue ball is being moved. */
   #moves = false;
+  /** The cue that strikes; `next` follows its contact. */
+  #strike: (Omit<Stick, "gap"> & { start: number; next?: () => void }) | undefined;
+  /** How high the eye is behind the cue, m; 0: as the screen's shape has it. */
+  #height = 0;
+  #lastPicture = 0;
+  #wasAiming = false;
+  #isGliding = false;
+  #film = { count: 0, sum: 0, last: 0 };
 
   constructor(
     readonly s: Session,
     readonly felt: HTMLElement,
   ) {}
 
-  /** Rejects where the browser has no WebGL: the flat view stays. */
-  async toggle(): Promise<void> {
-    if (this.isOn) return this.#hide();
-    if (!document.createElement("canvas").getContext("webgl2")) throw new Error(texts.itHasNoWebgl);
-    this.#module ??= await load();
-    this.#make();
-    this.isOn = true;
-    this.s.film.canvas.classList.add("behind");
-    this.draw();
+  get isLive(): boolean {
+    return this.#isBelow || this.isOn;
+  }
+  get isStriking(): boolean {
+    return this.#strike?.next !== undefined;
   }
 
-  #make(): void {
-    const play = this.s.play;
-    this.close();
+  // ---- Beginning and end
+
+  async prepare(): Promise<void> {
+    const { film, settings } = this.s;
+    const { view } = settings;
+    this.#isBelow = false;
+    try {
+      if (view === "scene" || (view === "device" && this.#hasGraphics)) {
+        await this.#start();
+        this.#isBelow = settings.view === view && !this.#isClosed;
+        film.draw();
+        if (view === "device" && this.#scene!.measure() > TOO_SLOW) this.#isBelow = false;
+      }
+    } catch (error) {
+      if (view === "scene") says(this.s, texts.thisBrowserDoesNotShow(wrong(error)));
+    }
+    if (!this.isLive) this.#end();
+    film.draw();
+  }
+  async toggle(): Promise<void> {
+    if (!this.isOn) await this.#start();
+    this.isOn = !this.isOn;
+    this.s.film.canvas.classList.toggle("behind", this.isOn);
+    this.#name();
+    if (!this.isLive) this.#end();
+    this.draw();
+    this.s.film.draw();
+  }
+  /** Rejects where the browser has no WebGL. */
+  async #start(): Promise<void> {
+    if (this.#scene) return;
+    if (!document.createElement("canvas").getContext("webgl2")) throw new Error(texts.itHasNoWebgl);
+    this.#module ??= await load();
+    if (!this.#isClosed) this.#current();
+  }
+  #end(): void {
+    this.#scene?.close();
+    this.#scene?.canvas.remove();
+    this.#over.remove();
+    this.#scene = undefined;
+  }
+  close(): void {
+    this.#isClosed = true;
+    this.#end();
+  }
+
+  /** The scene of the game that is played. */
+  #current(): Scene {
+    const { play } = this.s;
     const balls = play.balls.map(({ kind }, k) => ({
       name: play.names[k]!,
       radius: kind.radius,
       colour: colourOf(play.names[k]!, k, kind.radius),
     }));
-    const scene = new this.#module!.Scene({
-      table: play.table,
-      balls,
-      cloth: color("cloth"),
-      wood: color("rail"),
-    });
+    const parts = JSON.stringify([play.table, balls]);
+    if (this.#scene && parts === this.#parts) return this.#scene;
+    this.#end();
+    const isFine = this.s.settings.view === "scene" || this.#hasGraphics;
+    const scene = new this.#module!.Scene(play.table, balls, isFine);
     this.#scene = scene;
-    this.#play = play;
+    this.#parts = parts;
     const { canvas } = scene;
-    for (const [name, value] of Object.entries({
-      id: "scene",
-      role: "img",
-      tabindex: "0",
-      "aria-label": texts.theTableFromBehind,
-    }))
-      canvas.setAttribute(name, value);
+    canvas.id = "scene";
+    this.#name();
     this.#handle(scene);
     canvas.addEventListener("keydown", (event) => {
       if (event.key === "Tab") return;
@@ -86,12 +164,25 @@ export class Space implements SpaceView {
         new KeyboardEvent("keydown", { key, altKey, shiftKey, ctrlKey, metaKey }),
       );
     });
-    this.felt.append(canvas, this.#over);
+    this.felt.prepend(canvas);
+    this.felt.append(this.#over);
+    return scene;
+  }
+  /** Below the flat view, which has a name, the scene is a picture without one. */
+  #name(): void {
+    const { canvas } = this.#scene!;
+    const named = { role: "img", tabindex: "0", "aria-label": texts.theTableFromBehind };
+    for (const [name, value] of Object.entries(named))
+      if (this.isOn) canvas.setAttribute(name, value);
+      else canvas.removeAttribute(name);
+    canvas.toggleAttribute("inert", !this.isOn);
+    canvas.ariaHidden = String(!this.isOn);
+    this.#over.hidden = !this.isOn;
   }
 
   /**
-   * A drag turns the aim, or moves the cue ball that is in hand; a tap aims at a ball or a place,
-   * or calls.
+   * A drag turns the aim and raises the eye, or moves the cue ball that is in hand; a tap aims at a
+   * ball or a place, or calls.
    */
   #handle(scene: Scene): void {
     const { s } = this;
@@ -105,7 +196,7 @@ export class Space implements SpaceView {
     drags(canvas, (event, first) => {
       const pixel = pixelsOf(canvas, event);
       if (first) {
-        taps = !s.film.playing;
+        taps = !s.film.playing && !this.isStriking;
         if (!taps) s.showing.skip();
         start = pixel;
         grip = this.#under(scene, pixel);
@@ -116,6 +207,7 @@ export class Space implements SpaceView {
           !taps && grip.kind === "ball" && grip.ball === s.play.cueBall && movable(s, grip.ball);
         if (this.#moves && target) move(s, s.play.cueBall, target);
         else if (!this.#moves && !taps) {
+          this.#raise(pixel[1] - last[1]);
           s.stroke.set({ phi: (s.stroke.value().phi + (last[0] - pixel[0]) * 0.08 + 360) % 360 });
           s.changed();
         }
@@ -150,48 +242,143 @@ export class Space implements SpaceView {
     return grips[0]?.grip ?? { kind: "cloth" };
   }
 
-  draw(): void {
-    if (!this.isOn || !this.#scene) return;
-    if (this.#play !== this.s.play) this.#make();
+  #raise(pixels: number): void {
+    const height = this.#heightOfEye() + 0.002 * pixels;
+    this.#height = Math.min(Math.max(height, LOW), HIGH);
+  }
+  #heightOfEye(): number {
     const { clientWidth, clientHeight } = this.felt;
-    const { canvas } = this.#scene;
-    if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight)
-      this.#scene.size(clientWidth, clientHeight);
-    const poses = this.s.filmed!.shots[0]!.poses(this.s.film.time);
+    return this.#height || (clientWidth < clientHeight ? 0.45 : 0.3);
+  }
+
+  // ---- A stroke
+
+  strike(cue: Cue, place: readonly number[], next: () => void): void {
+    const isInstant = this.s.film.pace.value === "1000";
+    if (!this.isLive || isStill() || isInstant) return next();
+    const strike = { cue, place, start: performance.now(), next };
+    this.#strike = strike;
+    const step = (): void => {
+      if (this.#strike !== strike) return;
+      if (performance.now() - strike.start < BACK + FORTH) {
+        this.#redraw();
+        return void requestAnimationFrame(step);
+      }
+      this.#strike = { cue, place, start: strike.start };
+      next();
+    };
+    requestAnimationFrame(step);
+  }
+  putAway(): void {
+    this.#strike = undefined;
+  }
+  /** The cue as it is aimed, on its way to its ball, or behind that for a moment. */
+  #stick(): Stick | undefined {
+    const { film, play } = this.s;
+    const R = play.balls[0]!.kind.radius;
+    const strike = this.#strike;
+    if (strike?.next) {
+      const elapsed = performance.now() - strike.start;
+      const back = Math.min(elapsed / BACK, 1);
+      const forth = Math.max((elapsed - BACK) / FORTH, 0);
+      const far = stickEnd(R, strike.cue.speed) + SWING * Math.sin((back * Math.PI) / 2);
+      return { ...strike, gap: far + (R - far) * Math.min(forth, 1) ** 2 };
+    }
+    if (strike && film.playing && film.time < FOLLOW)
+      return { ...strike, gap: R - FOLLOWS * (1 - Math.exp(-14 * film.time)) };
+    if (strike && film.time > 0) this.#strike = undefined;
     const cue = aimed(this.s);
-    // The camera stays where it was while the balls roll, or the cue ball is moved.
-    if (cue && !this.#moves) this.#scene.look(poses[cue.ball]!.r, cue.phi);
-    this.#scene.draw(
-      poses,
-      cue && {
-        cue,
-        gap: stickEnd(this.#play!.balls[0]!.kind.radius, cue.speed),
-        first: this.s.first?.place,
-      },
-    );
-    this.#label(poses, cue !== undefined);
+    const { state } = play.balls[play.cueBall]!;
+    if (!cue || !onTable(state)) return undefined;
+    return { cue, place: state.r, gap: stickEnd(R, cue.speed) };
+  }
+
+  // ---- Pictures
+
+  #redraw(): void {
+    this.draw();
+    this.s.film.draw();
+  }
+  #size(scene: Scene): void {
+    const { clientWidth, clientHeight } = this.felt;
+    const { canvas } = scene;
+    if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight)
+      scene.size(clientWidth, clientHeight);
+  }
+  #poses(): Pose[] {
+    return this.s.filmed!.shots[0]!.poses(this.s.film.time);
+  }
+  backdrop(view: FlatView): boolean {
+    if (!this.#isBelow || this.isOn || !this.s.filmed) return false;
+    const scene = this.#current();
+    this.#size(scene);
+    const felt = this.felt.getBoundingClientRect();
+    const flat = this.s.film.canvas.getBoundingClientRect();
+    scene.lookDown(view, [flat.left - felt.left, flat.top - felt.top]);
+    scene.draw(this.#poses(), this.#stick(), linesOfAim(this.s));
+    this.#time();
+    return true;
+  }
+  draw(): void {
+    if (!this.isOn) return;
+    const scene = this.#current();
+    this.#size(scene);
+    const { film, continuation, shown } = this.s;
+    const stick = this.#stick();
+    const isFilm = film.playing || continuation !== undefined;
+    const isAiming = stick !== undefined && !isFilm;
+    if (isAiming && !this.#moves) {
+      const { cue, place } = stick;
+      scene.lookAlong(place, cue.phi, this.#heightOfEye(), this.#pocket());
+    } else if (film.playing && shown) scene.lookAcross(shown.cue.phi);
+    const time = performance.now();
+    const seconds = Math.min((time - this.#lastPicture) / 1000, 0.1);
+    this.#lastPicture = time;
+    // An aim that turns takes the camera along; other views are glided to.
+    const cuts = isStill() || (isAiming && this.#wasAiming && !this.#isGliding);
+    const isThere = scene.glide(cuts ? Infinity : seconds);
+    this.#isGliding = !isThere;
+    this.#wasAiming = isAiming;
+    if (!isThere && !film.playing && !this.isStriking) requestAnimationFrame(() => this.draw());
+    const poses = this.#poses();
+    scene.draw(poses, stick, linesOfAim(this.s));
+    this.#label(scene, poses);
+    this.#time();
+  }
+  /** Where the pocket is that the aim is for. */
+  #pocket(): readonly number[] | undefined {
+    const { first, play } = this.s;
+    const pocket = called(this.s)?.pocket ?? guessOf(play.table, first, [first?.ball ?? -1]).pocket;
+    return play.table.pockets[pocket]?.centre;
+  }
+  /** A device that is too slow for a film gets a coarser scene. */
+  #time(): void {
+    const film = this.#film;
+    const time = this.s.film.playing ? performance.now() : 0;
+    const elapsed = time - film.last;
+    if (film.last > 0 && time > 0 && elapsed < 400) {
+      film.sum += elapsed;
+      if (++film.count === PICTURES && film.sum > PICTURES * SLOW) this.#scene?.coarsen();
+    }
+    film.last = time;
   }
   /**
-   * Draws the way of a ball that is aimed at; and, if the settings ask for it, the label of each
-   * ball where it lies over no other one.
+   * Draws the zones of a run-out; and, if the settings ask for it, the label of each ball where it
+   * lies over no other one.
    */
-  #label(poses: readonly Pose[], aims: boolean): void {
+  #label(scene: Scene, poses: readonly Pose[]): void {
+    const { play, hinted, sequence, settings, film } = this.s;
     const over = this.#over;
-    const scene = this.#scene!;
-    const balls = this.#play!.balls;
+    const { balls, names } = play;
     const { clientWidth: width, clientHeight: height } = scene.canvas;
     const sharp = Math.min(window.devicePixelRatio || 1, 2);
     Object.assign(over, { width: width * sharp, height: height * sharp });
     Object.assign(over.style, { width: `${width}px`, height: `${height}px` });
     const g = over.getContext("2d")!;
     g.scale(sharp, sharp);
-    const pen = {
-      g,
-      scale: 1,
-      place: (x: number, y: number) => scene.place(x, y, balls[0]!.kind.radius),
-    };
-    if (aims && this.s.first) drawWays(this.s, pen);
-    drawMarks(this.s, pen);
+    const onCloth = { g, scale: 1, place: (x: number, y: number) => scene.place(x, y, 0.002) };
+    if (hinted && film.time === 0) drawZones(onCloth, sequence);
+    if (!settings.numbers) return;
     const seen = poses.map(({ r, seen }, k) => {
       const { kind } = balls[k]!;
       const [x, y] = scene.place(r[0]!, r[1]!, r[2]!);
@@ -204,21 +391,7 @@ export class Space implements SpaceView {
         },
       };
     });
-    if (!this.s.settings.numbers) return;
-    const labels = labelsOf(this.#play!.names, texts.letters);
+    const labels = labelsOf(names, texts.letters);
     drawLabels({ g, scale: 1, place: (x, y) => [x, y] }, seen, labels);
-  }
-
-  #hide(): void {
-    this.isOn = false;
-    this.s.film.canvas.classList.remove("behind");
-    this.s.film.draw();
-    this.close();
-  }
-  close(): void {
-    this.#scene?.close();
-    this.#scene?.canvas.remove();
-    this.#over.remove();
-    this.#scene = undefined;
   }
 }

@@ -105,6 +105,7 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
   });
   const film = filmPlayer({
     hidden: () => s.space?.isOn,
+    backdrop: (view) => s.space?.backdrop(view) ?? false,
     over: (g) => drawAim(s, g),
     moved: () => moved(s),
     ended: () => finish(s),
@@ -299,6 +300,8 @@ export function playView(
   start(s, s.play, "");
   buttons.sound.setAttribute("aria-pressed", String(s.settings.sound));
   s.showing.rest();
+  // The drawn view is there at once; the scene comes below it.
+  void s.space.prepare();
   const packed = parameters().get("d");
   const ready = resume(s)
     .then(() => (packed ? diagram.read(packed) : undefined))

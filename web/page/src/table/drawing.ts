@@ -34,6 +34,23 @@ export const stroke = (
   style: string,
 ): void => path(pen, [start, end], width, style);
 
+/**
+ * A line on the table, m: its colour, its width in pixels, and how high it lies where that counts,
+ * m.
+ */
+export interface Line {
+  points: readonly (readonly number[])[];
+  colour: string;
+  width: number;
+  isDashed?: boolean;
+  height?: number;
+}
+export function drawLine(pen: Pen, { points, colour, width, isDashed = false }: Line): void {
+  pen.g.setLineDash(isDashed ? [5, 4] : []);
+  path(pen, points, width, colour);
+  pen.g.setLineDash([]);
+}
+
 /** A circle of a radius, m, and some pixels more. */
 export function ring(
   { g, scale, place }: Pen,
@@ -46,23 +63,12 @@ export function ring(
   g.stroke();
 }
 
-/** A circle on the cloth of a radius, m, as it is seen from anywhere. */
-export const circle = (
-  pen: Pen,
-  place: readonly number[],
-  radius: number,
-  width: number,
-  style: string,
-): void =>
-  path(
-    pen,
-    Array.from({ length: 33 }, (_, k) => (k * Math.PI) / 16).map((turn) => [
-      place[0]! + radius * Math.cos(turn),
-      place[1]! + radius * Math.sin(turn),
-    ]),
-    width,
-    style,
-  );
+/** Points of a circle on the cloth of a radius, m. */
+export const circleOf = (place: readonly number[], radius: number): [number, number][] =>
+  Array.from({ length: 41 }, (_, k) => (k * Math.PI) / 20).map((turn) => [
+    place[0]! + radius * Math.cos(turn),
+    place[1]! + radius * Math.sin(turn),
+  ]);
 
 /**
  * The ghost ball of a contact, the line of the ball that is met, and the tangent line, to the side
