@@ -38,6 +38,7 @@ import {
   needsCall,
   cueOf,
   free,
+  isHinted,
   linesOf,
   look,
   NONE,
@@ -127,8 +128,8 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   const cue = aimed(s);
   g.setLineDash([]);
   drawMarks(s, pen);
-  if (s.hinted) drawZones(pen, s.sequence);
-  if (s.hinted && s.place) circle(pen, s.place, NEAR, 2, MARK);
+  if (isHinted(s)) drawZones(pen, s.sequence);
+  if (isHinted(s) && s.place) circle(pen, s.place, NEAR, 2, MARK);
   if (cue && onTable(cueBall.state)) {
     if (s.first) {
       stroke(pen, cueBall.state.r, s.first.place, 1.4, "#ffffffd0");
@@ -194,10 +195,9 @@ function choose(s: Session, target: { ball: number } | { pocket: number }): void
   }
   s.changed();
 }
-/** Chooses the ball that is struck, and aims it at the nearest one; a hint of before has ended. */
+/** Chooses the ball that is struck, and aims it at the nearest one. */
 function strike(s: Session, ball: number): void {
   s.play.strike(ball);
-  s.hinted = false;
   says(s, "");
   aimAtNearest(s);
   s.changed();

@@ -63,12 +63,12 @@ const RACES = ["1", "2", "3", "5", "7"];
 /** The levels of the ladder, each of which chooses its opponent. */
 function ladderOf(choose: (rating: string) => void): {
   root: HTMLElement;
-  mark(chosen: string): void;
+  mark(chosen: string, game: string): void;
 } {
   const root = el("ol#ladder", { "aria-label": texts.ladder });
   /** Shows how far one has climbed, and which opponent is chosen. */
-  function mark(chosen: string): void {
-    const rungs = levels().map((level) => {
+  function mark(chosen: string, game: string): void {
+    const rungs = levels(game).map((level) => {
       const { rating, won, lost, needed } = level;
       const games = won + lost > 0 ? `${won} : ${lost}` : "–";
       const stands = needed === 0 ? "★" : games;
@@ -85,8 +85,8 @@ function ladderOf(choose: (rating: string) => void): {
 }
 
 /** How an opponent of a rating plays, and how likely one wins by one's own rating. */
-function wordsOfOpponent(s: Session, against: string): string {
-  const { rating, words } = s.training.rating();
+function wordsOfOpponent(s: Session, against: string, kind: string): string {
+  const { rating, words } = s.training.rating(kind);
   const { game, match } = s.carom.odds({ ratings: [rating, Number(against)], games: RACE });
   return `${texts.theComputerPlaysLike(against, words)} ${texts.youWinOf(percent(game), percent(match), RACE)}`;
 }
@@ -213,7 +213,7 @@ export function menu(
     const isHere = !["practice", "link"].includes(against.select.value);
     for (const control of [race, clock]) control.root.hidden = !isHere;
     equal.root.hidden = against.select.value === "practice" || !knowsInnings();
-    ladder.mark(against.select.value);
+    ladder.mark(against.select.value, game.select.value);
     rules.textContent = texts.rules[game.select.value] ?? "";
     rulesOf.hidden = rules.textContent === "";
     for (const control of ofPool) control.hidden = !isPool();
@@ -227,7 +227,8 @@ export function menu(
       person: texts.bothOfYouPlay,
       link: texts.youBreakSendThe,
     };
-    note.textContent = notes[against.select.value] ?? wordsOfOpponent(s, against.select.value);
+    const rival = against.select.value;
+    note.textContent = notes[rival] ?? wordsOfOpponent(s, rival, game.select.value);
   }
   const chosenTable = (): ReturnType<typeof tableOf> =>
     tableOf({
