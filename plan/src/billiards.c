@@ -132,14 +132,13 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball_
   for (int k = HAZARDS; k <= WAS_OFF; k++)
     game->user[k] = 0;
   game->group = 1 + (cue_ball == 1);
-  carom_give(game, turn);
-  if (turn.foul == CAROM_FOUL_NONE)
-    return turn;
-  carom_add(&game->score[0], FOUL_POINTS);
-  game->may = CAROM_CHOICE_RACK;
-  if (game->score[0] >= game->target)
-    turn.outcome = CAROM_TURN_LOSE;
-  return turn;
+  if (turn.foul != CAROM_FOUL_NONE) {
+    carom_add(&game->score[1], FOUL_POINTS);
+    game->may = CAROM_CHOICE_RACK;
+    if (game->score[1] >= game->target)
+      turn.outcome = CAROM_TURN_LOSE;
+  }
+  return carom_end_turn(game, turn);
 }
 
 /* ---- Where balls lie */

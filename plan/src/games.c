@@ -98,6 +98,11 @@ int64_t carom_seat_points(carom_rules_kind kind, uint64_t word) {
   return balls;
 }
 
+bool carom_owes_points(carom_rules_kind kind) {
+  const bool has_score = !is_game(kind) || (games[kind].members & SCORE) != 0;
+  return has_score && kind != CAROM_RULES_COWBOY; /* whose `lost` are points of this visit */
+}
+
 int carom_usual_seats(carom_rules_kind kind) {
   if (kind == CAROM_RULES_CUTTHROAT)
     return 3;

@@ -73,7 +73,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
       turn.outcome = CAROM_TURN_LOSE;
     if (foul == CAROM_FOUL_BREAK)
       game->may = CAROM_CHOICE_RACK;
-    return carom_give(game, turn);
+    return carom_end_turn(game, turn);
   }
   if (fell == 0)
     return carom_give(game, carom_pass);

@@ -266,7 +266,7 @@ carom_status carom_match_standing(const carom_match *match, carom_standing *stan
     else {
       const bool other = k != record->player;
       standing->points[k] = (int64_t)state->score[other];
-      if (record->rules != CAROM_RULES_NINEBALL)
+      if (carom_owes_points((carom_rules_kind)record->rules))
         standing->points[k] -= state->lost[other];
     }
     standing->won[k] = record->set.won[k] + (record->set.race > 0 && match->winner == 1 + k);

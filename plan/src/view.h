@@ -208,6 +208,8 @@ bool carom_has_opening(carom_rules_kind kind);
 int64_t carom_handicap_most(carom_rules_kind kind);
 int carom_usual_seats(carom_rules_kind kind);
 int64_t carom_seat_points(carom_rules_kind kind, uint64_t word);
+/* Whether `lost` of a state counts what a player owes, which the points of a standing lack. */
+bool carom_owes_points(carom_rules_kind kind);
 /* The balls without which a game of this kind cannot be played, as a set. */
 uint32_t carom_needed_balls(carom_rules_kind kind);
 

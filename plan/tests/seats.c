@@ -460,6 +460,68 @@ TEST(handicaps) {
   }
 }
 
+/* ---- Points */
+
+/* A random stroke, of a cue ball in hand from a random place. */
+static void play_stroke(random_source *r, carom_rules_kind kind) {
+  const int player = match.seat;
+  const carom_bounds *b = &match.bounds;
+  while (match.phase == CAROM_MATCH_PLACE) {
+    const double x = random_between(r, b->low[0], b->high[0]);
+    carom_match_place(&match, player, x, random_between(r, b->low[1], b->high[1]));
+  }
+  carom_cue cue = cue_of(kind);
+  cue.phi = random_between(r, 0.0, 360.0);
+  cue.speed = random_between(r, 1.0, 6.0);
+  expect_ok(carom_match_stroke(&match, player, &cue, NULL, NULL));
+}
+
+/* Both sides lack a point or two. The points of a stroke are those of who played it, at once, and
+ * at the end the winner has no fewer, also where a foul of the other ends the game. */
+TEST(points_are_those_of_who_made_them) {
+  static const struct {
+    carom_rules_kind kind;
+    int64_t handicap;
+    int ends; /* of 20 games, at least */
+  } rows[] = {{CAROM_RULES_PYRAMID, 5, 20},     {CAROM_RULES_BILLIARDS, 96, 20},
+              {CAROM_RULES_ROTATION, 60, 15},   {CAROM_RULES_FOURBALL, 9, 1},
+              {CAROM_RULES_STRAIGHTRAIL, 99, 1}, {CAROM_RULES_COWBOY, 0, 0}};
+  int scored = 0;
+  for (size_t k = 0; k < COUNT_OF(rows); k++) {
+    int ends = 0;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+      random_source r = {seed};
+      begin_seats(rows[k].kind, 2);
+      for (int side = 0; side < 2; side++)
+        seating.seat[side].handicap = rows[k].handicap;
+      setup.seed = seed;
+      begin_match();
+      carom_standing earlier, later;
+      for (int n = 0; n < 60 && match.phase != CAROM_MATCH_OVER; n++) {
+        const int64_t side = match.record.player;
+        expect_ok(carom_match_standing(&match, &earlier));
+        play_stroke(&r, rows[k].kind);
+        expect_ok(carom_match_standing(&match, &later));
+        const carom_turn *turn = &match.ruling.turn;
+        scored += turn->points > 0.0;
+        if (turn->foul == CAROM_FOUL_NONE)
+          ck_assert_msg((double)(later.points[side] - earlier.points[side]) == turn->points,
+                        "game %d, seed %d: %d, then %d, by %g", (int)k, (int)seed,
+                        (int)earlier.points[side], (int)later.points[side], turn->points);
+      }
+      if (match.phase != CAROM_MATCH_OVER)
+        continue;
+      ends++;
+      ck_assert_msg(later.points[match.winner - 1] >= later.points[2 - match.winner],
+                    "game %d, seed %d: %d has won at %d : %d", (int)k, (int)seed,
+                    (int)match.winner, (int)later.points[0], (int)later.points[1]);
+    }
+    printf("%s: %d of 20 games ended\n", carom_rules_about_of(rows[k].kind)->name, ends);
+    ck_assert(ends >= rows[k].ends);
+  }
+  ck_assert(scored > 20);
+}
+
 TEST(beginnings_that_are_refused) {
   static const struct {
     const char *words;

@@ -200,10 +200,13 @@ function drawLight(g, view, table) {
   }
 }
 
+/** The length of the table of pyramid, m, which is hardly shorter than that of snooker. */
+const PYRAMID_LENGTH = 3.55;
 /**
  * Where lines and spots are drawn on the cloth, m. Snooker's are those of the WPBSA's rules: the
  * baulk line 29 in from the baulk cushion, a D of 11 1/2 in, the pyramid spot halfway from the
- * middle to the top cushion, the black one 12 3/4 in from it. Pool has a head and a foot spot.
+ * middle to the top cushion, the black one 12 3/4 in from it. Pool has a head and a foot spot, pyramid
+ * also its middle and a head string.
  * @param {Table} table
  * @returns {{ lines: Point[][], spots: Point[] }}
  */
@@ -213,6 +216,14 @@ export function markingsOf({ width, length, pockets }) {
   const pointsOf = (/** @type {number[]} */ ...heights) =>
     heights.map((y) => /** @type {Point} */ ([middle, y]));
   if (length < 3) return { lines: [], spots: pointsOf(length / 4, (3 * length) / 4) };
+  if (length === PYRAMID_LENGTH) {
+    const head = length / 4;
+    const string = /** @type {Point[]} */ ([
+      [0, head],
+      [width, head],
+    ]);
+    return { lines: [string], spots: pointsOf(head, length / 2, 3 * head) };
+  }
   const baulk = 0.7366;
   const radius = 0.2921;
   const d = Array.from({ length: 25 }, (_, k) => {

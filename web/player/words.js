@@ -97,7 +97,8 @@ export function pocketName({ width, length, pockets }, pocket) {
  */
 export const DICTIONARY = {};
 /** A word in the reader's language; one that is not known stays English. @param {string} word */
-export const translate = (word) => DICTIONARY[word] ?? word;
+export const translate = (word) =>
+  DICTIONARY[word] ?? word.replace(/^\w+(?= \d)/, (colour) => DICTIONARY[colour] ?? colour);
 
 /** @type {Record<string, string>} */
 const EVENTS = {

@@ -136,7 +136,7 @@ describePages("kept games", () => {
     const lost = () => page.evaluate(() => localStorage.getItem("carom-ladder"));
     expect(await lost()).toBe(null);
     await remove.click();
-    await expect.poll(lost).toBe('{"300":[0,1]}');
+    await expect.poll(lost).toBe('{"nineball/300":[0,1]}');
     await comesToCount(page, "#saved-games li", 1);
   });
 

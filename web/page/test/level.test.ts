@@ -78,26 +78,22 @@ describePages("by level", () => {
     },
   );
 
-  test("a game that is won against the page's player counts, and a stroke with a hint errs like one's rating", async () => {
-    // The nine hangs in the corner.
-    const page = await open(
-      "",
-      {},
-      gameOf("nineball", "500", "0.4,0.4 in in in in in in in in 0.06,0.06", "800"),
-    );
+  /** The nine hangs in the corner, against a 500. */
+  const HANGS = "0.4,0.4 in in in in in in in in 0.06,0.06";
+  const ladder = (page: Page) => page.evaluate(() => localStorage.getItem("carom-ladder"));
+
+  test("a game that is won against the page's player counts on the scale of its game", async () => {
+    const page = await open("", {}, gameOf("nineball", "500", HANGS, "800"));
     await act(page, "#new-game");
     await says(
       page,
       "new-note",
       /You are unrated until your first game\. Hints are those for a 426, the mean of all players\./,
     );
-    await act(page, "#rate=1000", "#menu .close", "#hint");
-    await comesToSay(page, "said", /^Hint: .* This stroke errs like his\.$/);
-    const meant = await numberIn(page, "phi");
+    await act(page, "#rate=1000", "#menu .close");
+    await turnTo(page, 225);
     await act(page, "#shoot");
     await comesToSay(page, "turn", /have won: the 9 fell\.$/);
-    // The errors of an 800 are below 0.2 degrees.
-    expect(Math.abs((await struck(page, "phi")) - meant)).toBeGreaterThan(0.2);
     // A normal distribution, 400 and 150 wide, from 200 to 850, times 1 / (1 + 2^(5 - r / 100)):
     // summed at 200,000 ratings.
     await says(
@@ -109,16 +105,80 @@ describePages("by level", () => {
       /You have won\s+The 9 fell\.[^]*Your best stroke: ball 9 into the head-left pocket; its aim had a room of \d+\.\d\d°\.\s+Your first rating is 487\.\s+Won at the level 500: 1 of 3\./,
     );
     expect(await violations(page)).toEqual([]);
+    expect(await ladder(page)).toBe('{"nineball/500":[1,0]}');
     await act(page, "#play-again");
     await shows(page, "#end", false);
     await says(page, "turn", /You break/);
+    // The ladder of another game has not been climbed.
+    for (const [game, stands] of [
+      ["nineball", "5001 : 0"],
+      ["snooker", "500–"],
+    ] as const) {
+      await act(page, "#new-game", `#new-which=${game}`);
+      expect(await page.locator("#ladder button").nth(3).textContent()).toBe(stands);
+      await act(page, "#menu .close");
+    }
+  });
+
+  test.each([
+    ["as it is", 0, "hint"],
+    ["turned by 1 degree", 1, "hint"],
+    ["turned by 3 degrees", 3, "player"],
+  ])(
+    "a stroke of a hint errs like one's rating and counts for nothing: %s",
+    async (_, by, aimer) => {
+      const page = await open("", {}, gameOf("nineball", "500", HANGS, "800"));
+      await act(page, "#new-game", "#rate=1000", "#coach=on", "#menu .close", "#hint");
+      await comesToSay(
+        page,
+        "said",
+        /^Hint: .* This stroke errs like his\. If you play it, this game does not count/,
+      );
+      const meant = await numberIn(page, "phi");
+      await turnTo(page, meant + by);
+      await act(page, "#shoot");
+      await comesToSay(page, "turn", /won: the 9 fell\.$/);
+      const { aims } = await keptSetup<{ aims: string }>(page);
+      expect(aims[0]).toBe(aimer[0]);
+      const isOwn = aimer === "player";
+      // The errors of an 800 are below 0.2 degrees.
+      const error = Math.abs((await struck(page, "phi")) - meant - by);
+      expect(error > 0.2).toBe(!isOwn);
+      expect((await ladder(page)) !== null).toBe(isOwn);
+      const words = await page.locator("#end").innerText();
+      expect(words.includes("A hint aimed one of your strokes, so this game")).toBe(!isOwn);
+      await act(page, "#end .close");
+      if (!isOwn) expect(await page.evaluate(() => localStorage.getItem("carom-log"))).toBeNull();
+    },
+  );
+
+  test("a drill that a hint makes counts for nothing", async () => {
+    const page = await open("", {});
+    await act(
+      page,
+      "#new-game",
+      "#rate=1000",
+      "#drill=Short straight pot",
+      "#start-drill",
+      "#hint",
+    );
+    await comesToSay(page, "said", /^Hint: the stroke that is aimed/);
+    await act(page, "#shoot");
+    await comesToSay(page, "said", /A hint aimed this try, so it does not count\.$/);
+    const kept = await page.evaluate(() => [
+      localStorage.getItem("carom-drills"),
+      localStorage.getItem("carom-log"),
+    ]);
+    expect(kept).toEqual([null, null]);
+    // The next try is one's own.
+    await turnTo(page, 45);
+    await act(page, "#power=1.5", "#shoot");
+    await comesToSay(page, "said", /^Made: 1 of 1\./);
   });
 
   test.each(sizes)("a race ends where one has won its racks: %s", async (_, how) => {
-    const HANGS = gameOf("nineball", "person");
     const win = async (racks: [number, number]) => {
-      const places = "0.4,0.4 in in in in in in in in 0.06,0.06";
-      const page = await open("", how, { ...HANGS, at: places, race: 2, racks });
+      const page = await open("", how, { ...gameOf("nineball", "person", HANGS), race: 2, racks });
       await turnTo(page, 225);
       await act(page, "#shoot", "#skip");
       await page.locator("#end").waitFor();

@@ -36,6 +36,7 @@ import {
   needsCall,
   cueOf,
   free,
+  isHinted,
   linesOf,
   look,
   NONE,
@@ -101,7 +102,7 @@ function marksOf(s: Session): Line[] {
     table.pockets[call?.pocket ?? (played?.pockets && !practice ? (state.pocket?.[0] ?? 5) : -1)];
   if (pocket) mark(pocket.centre, pocket.radius + 0.008, 3, RIM);
   if (call) mark(balls[call.ball]!.state.r, balls[call.ball]!.kind.radius + 0.008, 3);
-  if (s.hinted && s.place) mark(s.place, NEAR, 2);
+  if (isHinted(s) && s.place) mark(s.place, NEAR, 2);
   const { kind, state: inHand } = balls[cueBall]!;
   if (!bounds || !onTable(inHand)) return lines;
   mark(inHand.r, kind.radius + 0.02, 2);
@@ -147,7 +148,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
       labels,
     );
   }
-  if (s.hinted) drawZones(pen, s.sequence);
+  if (isHinted(s)) drawZones(pen, s.sequence);
   if (!space.isLive) {
     for (const line of linesOfAim(s)) drawLine(pen, line);
     const cueBall = play.balls[play.cueBall]!;
@@ -211,10 +212,9 @@ function choose(s: Session, target: { ball: number } | { pocket: number }): void
   }
   s.changed();
 }
-/** Chooses the ball that is struck, and aims it at the nearest one; a hint of before has ended. */
+/** Chooses the ball that is struck, and aims it at the nearest one. */
 function strike(s: Session, ball: number): void {
   s.play.strike(ball);
-  s.hinted = false;
   says(s, "");
   aimAtNearest(s);
   s.changed();

@@ -32,7 +32,7 @@ function oddsPart(s: Session): { parts: HTMLElement[]; tell(): void } {
   against.select.value = "500";
   games.select.value = "7";
   function tell(): void {
-    const { rating, words } = s.training.rating();
+    const { rating, words } = s.training.rating(s.play.setup.game);
     const [rival, toGames, toSets] = [against, games, sets].map(({ select }) =>
       Number(select.value),
     ) as [number, number, number];

@@ -1,12 +1,23 @@
 // The coach at the table: the hint and the chances of the stroke that is aimed, and what a stroke
 // cost once it was played.
-import type { AimOf, Call, Carom, PlanStroke, Cue, PlanOptions, ShotBall, Table } from "carom";
+import type {
+  AimOf,
+  Call,
+  Carom,
+  Cue,
+  PlanOptions,
+  PlanStroke,
+  Review,
+  ShotBall,
+  Table,
+} from "carom";
 import { drop, far } from "../far.js";
 import { onTable } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
-import { isSafe, percent, wordsOfChances, wordsOfPlan } from "../table/words.js";
+import { isSafe, namesBall, percent, wordsOfChances, wordsOfPlan } from "../table/words.js";
 import { wrong } from "../ui.js";
-import { isComputer, OPTIONS, type Play, type Setup } from "./game.js";
+import { type Aimer, isComputer, OPTIONS, type Play } from "./game.js";
+import { isRated } from "./ladder.js";
 import { costOf, keepRow, type Row } from "./log.js";
 import type { Coach, Question, Session } from "./parts.js";
 import { countReview } from "./reviews.js";
@@ -14,12 +25,13 @@ import {
   aimAt,
   cueOf,
   free,
+  isHinted,
   levelOf,
   look,
   playerOf,
-  rivalOf,
   SAFETY,
   says,
+  seatPlayer,
   wantedOf,
   why,
   wordsOfLevel,
@@ -29,6 +41,8 @@ import { texts } from "../texts/texts.js";
 /** Shots of a plan, and of the chances of one stroke. */
 const PLAN = 1000;
 const TRY = 200;
+/** How many strokes of a plan are compared. */
+const LISTED = 6;
 /** Shots of the plans of a run-out, and how often it is played. */
 const RUN_OUT = { shots: 300, plays: 40 };
 /** Breaks of each break that is compared. */
@@ -62,19 +76,26 @@ function requestOf(play: Play, level: number): Request {
     strikable: play.strikable,
     options: {
       ...wantedOf(play),
-      player: { ...playerOf(play.carom, rating), onlyPots: 0 },
-      opponent: isComputer(against) ? rivalOf(play, against) : playerOf(play.carom, rating),
+      player: { ...seatPlayer(play, rating), onlyPots: 0 },
+      opponent: seatPlayer(play, isComputer(against) ? against : rating),
       seed: seed + play.strokes,
     },
   };
 }
 
+/** The best stroke. Among strokes of equal worth, within their errors, it is one that scores. */
 async function best(
   { table, balls, options }: Request,
   more: PlanOptions = {},
 ): Promise<PlanStroke> {
-  const [choice] = await far("plan", table, balls, { ...options, ...more, best: 1, shots: PLAN });
-  return choice!;
+  const isFree = more.goal === undefined && !more.safeties;
+  const wanted = { ...options, ...more, best: isFree ? LISTED : 1, shots: PLAN };
+  const [first, ...others] = await far("plan", table, balls, wanted);
+  const scores = (choice: PlanStroke): boolean => namesBall(table, choice);
+  if (scores(first!) || first!.kind !== "safety") return first!;
+  const isAsGood = ({ value, error }: PlanStroke): boolean =>
+    first!.value - value <= Math.hypot(first!.error, error);
+  return others.find((choice) => scores(choice) && isAsGood(choice)) ?? first!;
 }
 async function chancesOf({ table, balls, options }: Request, cue: Cue): Promise<PlanStroke> {
   const struck = { ...options, cue: { ball: cue.ball }, shots: TRY };
@@ -122,7 +143,8 @@ function wordsOfHint(s: Session, choice: PlanStroke, goal: string | undefined): 
     goal === undefined
       ? wordsOfChances(choice, !play.hasPockets)
       : texts.chancesOfGoal(goal, percent(choice.value), percent(choice.foul));
-  const errors = play.practice ? "" : texts.thisStrokeErrsLike;
+  const counts = isRated(play) ? texts.hintEndsCounting : "";
+  const errors = play.practice ? "" : texts.thisStrokeErrsLike + counts;
   return texts.hintOf(stroke, cue, wordsOfLevel(s), chances, errors);
 }
 
@@ -135,13 +157,13 @@ function setAim(s: Session, { cue, place }: { cue: Cue; place: readonly number[]
   look(s);
   s.sequence = [];
   s.place = undefined;
-  s.hinted = true; // the words of the turn make room for the hint
+  s.hint = cue; // the words of the turn make room for the hint
 }
 /** Puts the stroke of a hint on the table, with its call. */
 function setHint(s: Session, choice: PlanStroke): void {
   setAim(s, choice);
-  const isPotted = choice.ball > 0 && choice.pocket >= 0;
-  const otherwise = isSafe(choice) ? SAFETY : -1;
+  const isPotted = choice.pocket >= 0 && namesBall(s.play.table, choice);
+  const otherwise = isSafe(s.play.table, choice) ? SAFETY : -1;
   s.chosen = {
     ball: isPotted ? choice.ball : -1,
     pocket: isPotted ? choice.pocket : otherwise,
@@ -162,7 +184,7 @@ async function adviseDrill(s: Session, name: string, isWanted: () => boolean): P
   if (!isWanted()) return;
   if (!found) return says(s, texts.theSearchFoundNo);
   aimAt(s, found.cue);
-  s.hinted = true;
+  s.hint = found.cue;
   s.showing.rest();
   const share = texts.makesItInOf(percent(found.chance), found.plays);
   says(s, texts.hintTheStrokeThat(wordsOfCue(found.cue), wordsOfLevel(s), share));
@@ -181,7 +203,7 @@ async function tellRunOut(
   const more = { ...options, ...RUN_OUT, inHand: "no" as const };
   const { strokes, chance } = await far("sequence", table, balls, more);
   // One that begins with another ball than the hint would contradict it.
-  if (!isWanted() || !s.hinted || strokes.length < 2 || strokes[0]!.choice.ball !== ball) return;
+  if (!isWanted() || !isHinted(s) || strokes.length < 2 || strokes[0]!.choice.ball !== ball) return;
   s.sequence = strokes;
   s.showing.rest();
   if (generation !== s.chancesGeneration) return;
@@ -282,12 +304,16 @@ function intentionOf(request: Request, choice: PlanStroke, call: Call | undefine
   const meant = isPot(call) ? { ...choice, ...call } : { ...choice, kind };
   return wordsOfPlan(request, meant);
 }
-/** Looks back at a stroke: its chances beside those of the best one, for the log and in words. */
+/**
+ * Looks back at a stroke: its chances beside those of the best one, in words, and for the log where
+ * the player aimed it.
+ */
 async function lookBack(
   carom: Carom,
   request: Request,
   cue: Cue,
   call: Call | undefined,
+  aimer: Aimer,
 ): Promise<string> {
   try {
     // Both plans play as the same player, with the cue ball where it was put.
@@ -304,7 +330,7 @@ async function lookBack(
       best: wordsOfPlan(request, found),
       bestValue: found.value,
     };
-    keepRow(row);
+    if (aimer === "player") keepRow(row);
     const cost = costOf(row)!;
     const verdict = cost < 0.02 ? texts.youChoseWell : texts.itCost(percent(cost));
     return texts.thatStrokeWinsIn(percent(chances.value), row.best, percent(found.value), verdict);
@@ -313,20 +339,25 @@ async function lookBack(
   }
 }
 
-/** Counts what a stroke cost by its kind, for the coach's page. */
-async function keepReview(
+/** What a stroke was worth before it, and what came; of games that have reviews. */
+async function reviewOf(
   { table, balls, options }: Request,
-  setup: Setup,
   cue: Cue,
   call: Call | undefined,
-): Promise<void> {
-  if (typeof call === "string") return; // a push-out or a pass is meant as no pot
+): Promise<Review | undefined> {
+  // A push-out or a pass is meant as no pot.
+  if (table.pockets.length === 0 || typeof call === "string") return undefined;
   try {
-    const review = await far("review", table, balls, cue, options, call);
-    countReview(review, setup, balls);
+    return await far("review", table, balls, cue, options, call);
   } catch (error) {
     console.info("A stroke of this game has no review:", error);
+    return undefined;
   }
+}
+function wordsOfReview({ value, came }: Review): string {
+  const cost = value - came;
+  const words = cost < 0 ? texts.itWon(percent(-cost)) : texts.itCost(percent(cost));
+  return ` ${texts.whatCame(percent(value), percent(came), words)}`;
 }
 
 export const coaching = (s: Session): Coach => ({
@@ -336,12 +367,18 @@ export const coaching = (s: Session): Coach => ({
   chances: () => chances(s),
   review() {
     const request = requestOf(s.play, levelOf(s));
-    return async (cue, call, isTold) => {
-      if (s.play.hasPockets) void keepReview(request, s.play.setup, cue, call);
+    return async (cue, call, aimer, isTold) => {
+      const { setup } = s.play;
+      const reviewed = reviewOf(request, cue, call).then((review) => {
+        // The coach's page sums up what the player aimed.
+        if (review && aimer === "player") countReview(review, setup, request.balls);
+        return review ? wordsOfReview(review) : "";
+      });
       if (!isTold) return;
       s.chancesGeneration++; // chances of this stroke that come later do not hide its review
       const { play } = s;
-      const verdict = await lookBack(s.carom, request, cue, call);
+      const advice = await lookBack(s.carom, request, cue, call, aimer);
+      const verdict = advice + (await reviewed);
       if (play !== s.play) return; // another game is on the table
       s.verdict = verdict;
       says(s, verdict);

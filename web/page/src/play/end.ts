@@ -4,7 +4,7 @@ import { wordsOfPot } from "../table/words.js";
 import { button, el } from "../ui.js";
 import { type Deed, OPTIONS, type Play } from "./game.js";
 import { isRaceOver, racksOf } from "./keep.js";
-import { levels, wordsOfRung } from "./ladder.js";
+import { levels, mayCount, wordsOfRung } from "./ladder.js";
 import { ballPicture } from "./marks.js";
 import type { EndView, Session } from "./parts.js";
 import { nameOf, wordsOfEnd, wordsOfScore } from "./state.js";
@@ -44,13 +44,14 @@ function emblem({ last, names, balls, winner }: Play): HTMLElement {
 
 /** What a game against the computer did to one's rating, and to one's level. */
 function wordsOfRating(s: Session, previous: EndView["rated"]): string[] {
-  if (!previous) return [];
-  const current = s.training.rating();
+  const hints = s.play.aims.filter((aimer) => aimer === "hint").length;
+  if (!previous) return hints > 0 && mayCount(s.play.setup) ? [texts.hintedGame(hints)] : [];
+  const { against, game } = s.play.setup;
+  const current = s.training.rating(game);
   const changed = previous.isGuess
     ? texts.firstRating(current.rating)
     : texts.ratingChanged(previous.rating, current.rating);
-  const { against } = s.play.setup;
-  const level = levels().find(({ rating }) => rating === against);
+  const level = levels(game).find(({ rating }) => rating === against);
   return level ? [changed, wordsOfRung(level)] : [changed];
 }
 

@@ -12,6 +12,7 @@ import {
   called,
   cueOf,
   free,
+  isHinted,
   isSafety,
   linesOf,
   look,
@@ -98,7 +99,7 @@ function showWords(s: Session): void {
   const player = playerOnFilm(s);
   const turn = player
     ? texts.playing(player, player === texts.you)
-    : wordsOfTurn(play, seat, s.thinks, s.hinted) + wordsOfCall(s);
+    : wordsOfTurn(play, seat, s.thinks, isHinted(s)) + wordsOfCall(s);
   // A screen reader reads each change aloud, also to the same words.
   if (words.turn.textContent !== turn) words.turn.textContent = turn;
   if (!player) words.score.textContent = wordsOfScore(play, seat, racksOf(play));

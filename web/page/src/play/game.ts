@@ -55,9 +55,17 @@ export interface Setup {
   /** How long a stroke may take, s. */
   clock?: number;
 }
+/**
+ * Who aimed a stroke: whoever sits there, a hint, the line of a recording, or the page's player. A
+ * text has the first letter of each.
+ */
+const AIMERS = ["player", "hint", "line", "opponent"] as const;
+export type Aimer = (typeof AIMERS)[number];
+
 /** A stroke that was played, for its film; or what was instead of one, which has no shot. */
 export interface Stroke {
   player: 0 | 1;
+  aimer: Aimer;
   /** Whether the time for the stroke was over. */
   isLate?: boolean;
   balls: ShotBall[];
@@ -96,6 +104,7 @@ function deedOf({ player, balls, cue, shot }: Stroke): Deed {
 /** What a text has beside the setup: lines, or strokes without rulings of an older page. */
 interface Kept {
   lines?: string[];
+  aims?: string;
   entries?: unknown[];
 }
 
@@ -166,6 +175,8 @@ export class Play {
   last: Stroke | undefined;
   /** How many strokes were played, and choices taken instead of one. */
   strokes = 0;
+  /** Who aimed each of them. */
+  readonly aims: Aimer[] = [];
   /** The strokes that kept the turn or won. */
   readonly deeds: Deed[] = [];
   /** Layouts of practice before each stroke and move, to undo. */
@@ -241,11 +252,8 @@ export class Play {
     return this.#match?.may ?? [];
   }
   /** The points of each. */
-  get points(): [number, number] {
-    const { score = [0, 0], lost = [0, 0] } = this.state;
-    const mine = score[0]! - lost[0]!;
-    const theirs = score[1]! - lost[1]!;
-    return this.turn === 0 ? [mine, theirs] : [theirs, mine];
+  get points(): readonly number[] {
+    return this.#match?.standing.points ?? [0, 0];
   }
   /**
    * Whether the next stroke is the first of a rack, whether or not the rules tell it from others.
@@ -276,6 +284,7 @@ export class Play {
       ...this.setup,
       ...(this.practice && !this.setup.drill ? { at: this.places() } : {}),
       lines: this.lines,
+      aims: this.practice ? "" : this.aims.map(([letter]) => letter).join(""),
     });
   }
 
@@ -303,13 +312,14 @@ export class Play {
   lay(balls: ShotBall[]): void {
     this.keep();
     this.balls = balls;
+    this.aims.length = 0;
   }
 
   /** Plays a stroke. In a game, it is ruled. */
-  stroke(cue: Cue, call?: Call): Stroke {
+  stroke(cue: Cue, call?: Call, aimer: Aimer = "player"): Stroke {
     const match = this.#match;
-    if (!match) return this.#practise(cue);
-    const situation = this.#situation(cue, call);
+    if (!match) return this.#practise(cue, aimer);
+    const situation = this.#situation(cue, call, aimer);
     if (match.bounds) {
       const [x, y] = this.balls[this.cueBall]!.state.r;
       match.place(x, y);
@@ -320,8 +330,8 @@ export class Play {
     return this.#ruled(situation, true);
   }
   /** Takes a choice instead of a stroke. */
-  choose(what: Choice): Stroke {
-    const situation = this.#situation(this.carom.cue(), what === "pass" ? what : undefined);
+  choose(what: Choice, aimer: Aimer = "player"): Stroke {
+    const situation = this.#situation(this.carom.cue(), what === "pass" ? what : undefined, aimer);
     this.#match!.choose(what);
     return this.#ruled(situation, false);
   }
@@ -342,13 +352,14 @@ export class Play {
   /**
    * Reads lines that another page wrote, up to a stroke or a choice with its ruling, and takes them
    * off the list. Undefined where there is none. Throws where a line is not by the rules, or has
-   * other bits.
+   * other bits. `aims` has the letters of who aimed the strokes of the game.
    */
-  read(lines: string[]): Stroke | undefined {
+  read(lines: string[], aims = ""): Stroke | undefined {
     const match = this.#match!;
+    const aimer = AIMERS.find(([letter]) => letter === aims[this.strokes]) ?? "line";
     try {
       while (lines.length > 0) {
-        const situation = this.#situation(this.carom.cue());
+        const situation = this.#situation(this.carom.cue(), undefined, aimer);
         const known = match.lines.length;
         const line = lines.shift()!;
         match.read(line);
@@ -382,13 +393,14 @@ export class Play {
     const isPut = bounds && isWithin(bounds, this.balls[cueBall]!.state);
     if (bounds && !isPut) this.balls = atHead(this.carom, this.table, this.balls, bounds, cueBall);
   }
-  #situation(cue: Cue, call?: Call): Omit<Stroke, "shot" | "ruling"> {
-    return { player: this.turn, balls: this.balls, cue, call, state: this.state };
+  #situation(cue: Cue, call?: Call, aimer: Aimer = "player"): Omit<Stroke, "shot" | "ruling"> {
+    return { player: this.turn, aimer, balls: this.balls, cue, call, state: this.state };
   }
   #ruled(situation: Omit<Stroke, "shot" | "ruling">, isPlayed: boolean): Stroke {
     const match = this.#match!;
     this.#struck = undefined;
     this.strokes++;
+    this.aims.push(situation.aimer);
     this.balls = match.balls;
     this.#putInHand();
     const { shot, ruling } = match;
@@ -401,8 +413,9 @@ export class Play {
     if (isPlayed && isKept && !ruling?.foul) this.deeds.push(deedOf(this.last));
     return this.last;
   }
-  #practise(cue: Cue): Stroke {
+  #practise(cue: Cue, aimer: Aimer): Stroke {
     this.keep();
+    this.aims.push(aimer);
     const { balls, state } = this;
     const shot = this.carom.simulate(this.table, balls, cue, OPTIONS);
     this.balls = balls.map(({ kind }, k) => {
@@ -412,22 +425,23 @@ export class Play {
     if (!onTable(this.balls[this.cueBall]!.state))
       this.balls = atHead(this.carom, this.table, this.balls);
     this.#practised = { ...state, opening: false };
-    this.last = { player: 0, balls, cue, call: undefined, state, shot, ruling: undefined };
+    const rest = { call: undefined, ruling: undefined };
+    this.last = { player: 0, aimer, balls, cue, state, shot, ...rest };
     return this.last;
   }
 }
 
 /** The parts of a text. Throws where an older page has kept it. */
-function parsed(text: string): { setup: Setup; lines: string[] } {
-  const { lines = [], entries = [], ...setup } = JSON.parse(text) as Setup & Kept;
+function parsed(text: string): { setup: Setup; lines: string[]; aims: string } {
+  const { lines = [], aims = "", entries = [], ...setup } = JSON.parse(text) as Setup & Kept;
   if (entries.length > 0) throw new TypeError(texts.anOlderPageKept);
-  return { setup, lines };
+  return { setup, lines, aims };
 }
 /** A game of a text, played to its last stroke. Throws where the text or a line of it is wrong. */
 export function read(carom: Carom, text: string): Play {
-  const { setup, lines } = parsed(text);
+  const { setup, lines, aims } = parsed(text);
   const play = new Play(carom, setup, lines);
-  while (play.read(lines));
+  while (play.read(lines, aims));
   return play;
 }
 /** The game of a recording that `carom verify` takes, which two players at this page go on with. */

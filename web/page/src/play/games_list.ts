@@ -25,8 +25,8 @@ function detailsOf({ when, strokes, score, isOver }: SavedGame): string {
   return [date, count, score, isOver ? texts.over : ""].filter((part) => part !== "").join(" · ");
 }
 /** A game against a rating that is left for good counts as lost. */
-const isLostByLeaving = ({ setup, isOver, strokes }: SavedGame): boolean =>
-  isRated(setup) && !isOver && strokes > 0;
+const isLostByLeaving = (game: SavedGame): boolean =>
+  isRated(game) && !game.isOver && game.strokes > 0;
 
 function download(s: Session, { setup, text, when }: SavedGame): void {
   const recording = new Blob([recordingOf(s.carom, text)], { type: "application/jsonl" });
@@ -74,7 +74,7 @@ export function gamesList(
         deletion.textContent = question;
         return;
       }
-      if (isLostByLeaving(game)) countGame(game.setup, 1);
+      if (isLostByLeaving(game)) countGame(game, 1);
       await deleteGame(game.id);
       await refresh();
     });

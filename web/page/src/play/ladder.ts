@@ -3,22 +3,43 @@
 // found, in half of the tries: a convention.
 import type { Carom, Score } from "carom";
 import type { Drill } from "./drills.js";
-import { isComputer, type Setup } from "./game.js";
+import { isComputer } from "./game.js";
 import { count, tally } from "./keep.js";
+import type { SavedGame } from "./saved.js";
 import { RATINGS } from "../table/words.js";
 import { texts } from "../texts/texts.js";
 
 /**
- * Where the browser keeps games won and lost against each rating, and how often each drill was
- * made, of how many tries.
+ * Where the browser keeps games won and lost, by game and rating ("snooker/500"; an older page left
+ * out the game), and how often each drill was made, of how many tries.
  */
 const GAMES = "carom-ladder";
 export const DRILLS_MADE = "carom-drills";
 
-/** Whether a game counts: against the page's player, with errors of one's own. */
-export const isRated = ({ against, own }: Setup): boolean => isComputer(against) && own !== "0";
-export const countGame = (setup: Setup, winner: 0 | 1): unknown =>
-  isRated(setup) && count(GAMES, setup.against, winner === 0 ? [1, 0] : [0, 1]);
+type Counted = Pick<SavedGame, "setup" | "aims">;
+/** Whether whoever sits here aimed each own stroke so far. */
+export const isOwn = ({ aims = [] }: Pick<Counted, "aims">): boolean =>
+  aims.every((aimer) => aimer === "player" || aimer === "opponent");
+/** Whether a game is of the kind that counts: against the page's player, with one's own errors. */
+export const mayCount = ({ against, own }: Counted["setup"]): boolean =>
+  isComputer(against) && own !== "0";
+/** Whether a game counts: it may, and no hint aimed a stroke. */
+export const isRated = (played: Counted): boolean => mayCount(played.setup) && isOwn(played);
+export function countGame(played: Counted, winner: 0 | 1): void {
+  const { game, against } = played.setup;
+  if (isRated(played)) count(GAMES, `${game}/${against}`, winner === 0 ? [1, 0] : [0, 1]);
+}
+/** Games won and lost against each rating: those of a game and of an older page, or all. */
+function gamesOf(game?: string): Record<string, [number, number]> {
+  const sums: Record<string, [number, number]> = {};
+  for (const [key, [won, lost]] of Object.entries(tally(GAMES))) {
+    const [against = "", kind] = key.split("/").reverse();
+    if (game !== undefined && kind !== undefined && kind !== game) continue;
+    const [first, second] = sums[against] ?? [0, 0];
+    sums[against] = [first + won, second + lost];
+  }
+  return sums;
+}
 
 /** So many games won against a rating climb its level of the ladder. */
 const CLIMBED = 3;
@@ -28,9 +49,9 @@ interface Level {
   lost: number;
   needed: number;
 }
-/** The levels of the ladder, the lowest first. */
-export function levels(): Level[] {
-  const games = tally(GAMES);
+/** The levels of the ladder of a game, the lowest first. */
+export function levels(game: string): Level[] {
+  const games = gamesOf(game);
   return RATINGS.map((rating) => {
     const [won, lost] = games[rating] ?? [0, 0];
     return { rating, won, lost, needed: Math.max(CLIMBED - won, 0) };
@@ -46,9 +67,10 @@ export function starsOf(hits: number, tries: number): number {
   return earned.filter(Boolean).length;
 }
 
-/** What is kept in this browser: games, and tries of drills. */
-function results(drills: readonly Drill[]): { games: Score[]; tries: Score[] } {
-  const games = tally(GAMES);
+/** What is kept in this browser: games, all of them where none is of this game; and drills. */
+function results(drills: readonly Drill[], game?: string): { games: Score[]; tries: Score[] } {
+  const known = gamesOf(game);
+  const games = Object.keys(known).length > 0 ? known : gamesOf();
   const hits = tally(DRILLS_MADE);
   return {
     games: Object.entries(games).map(([against, [won, lost]]) => ({
@@ -69,8 +91,9 @@ export interface OwnRating {
   isGuess: boolean;
   words: string;
 }
-export function ownRating(carom: Carom, drills: readonly Drill[]): OwnRating {
-  const { games, tries } = results(drills);
+/** One's own rating on the scale of a game, or by all of them. */
+export function ownRating(carom: Carom, drills: readonly Drill[], game?: string): OwnRating {
+  const { games, tries } = results(drills, game);
   const estimate = carom.rating([...games, ...tries]);
   const rating = Math.round(estimate.mean);
   const low = Math.round(estimate.low);

@@ -10,24 +10,26 @@ import { texts } from "../texts/texts.js";
 
 export function byLink(s: Session): Link {
   let queue: string[] = [];
+  let aims: string | undefined;
   let writing = 0;
 
   /** Strokes of the same game, behind those that are known here. */
   function heard(text: string): void {
     const { play } = s;
     if (play.setup.against !== "link") return;
-    const { lines, ...setup } = JSON.parse(text) as Setup & { lines: string[] };
+    const { lines, ...setup } = JSON.parse(text) as Setup & { lines: string[]; aims?: string };
     const known = play.lines;
     const isOther = setup.game !== play.setup.game || setup.seed !== play.setup.seed;
     if (isOther || lines.length <= known.length + queue.length) return;
     if (known.some((line, k) => line !== lines[k])) return says(s, texts.theOtherPageHas);
     queue = lines.slice(known.length);
+    ({ aims } = setup);
     // After a film the next stroke follows.
     if (!s.film.playing && s.continuation === undefined) onward();
   }
   function onward(): void {
     try {
-      const stroke = s.play.read(queue);
+      const stroke = s.play.read(queue, aims);
       if (!stroke) return next(s);
       says(s, texts.strokeWasRepeatedEvery(s.play.strokes));
       saveAndCount(s);

@@ -99,9 +99,9 @@ function hide({ root, select }: ReturnType<typeof choice>): HTMLElement {
   return root;
 }
 const STARS = 3;
-/** The levels of the ladder: a star for each game won, up to those that climb it. */
-const rungsOf = (select: HTMLSelectElement): HTMLElement[] =>
-  levels().map((level) => {
+/** The levels of a game's ladder: a star for each game won, up to those that climb it. */
+const rungsOf = (select: HTMLSelectElement, game: string): HTMLElement[] =>
+  levels(game).map((level) => {
     const { rating, needed } = level;
     const stars = "★".repeat(STARS - needed) + "☆".repeat(needed);
     const rung = cardOf(select, rating, rating, stars);
@@ -110,8 +110,8 @@ const rungsOf = (select: HTMLSelectElement): HTMLElement[] =>
   });
 
 /** How an opponent of a rating plays, and how likely one wins by one's own rating. */
-function wordsOfOpponent(s: Session, against: string): string {
-  const { rating, words } = s.training.rating();
+function wordsOfOpponent(s: Session, against: string, kind: string): string {
+  const { rating, words } = s.training.rating(kind);
   const { game, match } = s.carom.odds({ ratings: [rating, Number(against)], games: RACE });
   return `${texts.theComputerPlaysLike(against, words)} ${texts.youWinOf(percent(game), percent(match), RACE)}`;
 }
@@ -249,6 +249,10 @@ export function menu(
   };
   const isPool = (): boolean =>
     GAMES[PLAYED[game.select.value]?.base ?? game.select.value]!.table === "9ft";
+  function showRungs(): void {
+    ladder.dataset.game = game.select.value;
+    ladder.replaceChildren(...rungsOf(against.select, game.select.value));
+  }
   function describe(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
     errors.root.hidden = against.select.value === "practice";
@@ -256,6 +260,7 @@ export function menu(
     for (const control of [race, clock]) control.root.hidden = !isHere;
     equal.root.hidden = against.select.value === "practice" || !knowsInnings();
     markCard(gameCards, game.select.value);
+    if (ladder.dataset.game !== game.select.value) showRungs();
     for (const cards of [ladder, others]) markCard(cards, against.select.value);
     rules.textContent = texts.rules[game.select.value] ?? "";
     rulesOf.hidden = rules.textContent === "";
@@ -270,7 +275,8 @@ export function menu(
       person: texts.bothOfYouPlay,
       link: texts.youBreakSendThe,
     };
-    note.textContent = notes[against.select.value] ?? wordsOfOpponent(s, against.select.value);
+    const rival = against.select.value;
+    note.textContent = notes[rival] ?? wordsOfOpponent(s, rival, game.select.value);
   }
   const chosenTable = (): ReturnType<typeof tableOf> =>
     tableOf({
@@ -351,7 +357,7 @@ export function menu(
       table.select.value = setup.table ?? "9ft";
       cloth.select.value = setup.cloth ?? USUAL;
       listCushions(setup.cushion ?? USUAL);
-      ladder.replaceChildren(...rungsOf(against.select));
+      showRungs();
       describe();
       void games.refresh();
       root.showModal();

@@ -39,7 +39,7 @@ export function start(s: Session, play: Play, id: string, seat: 0 | 1 = 0): void
     chosen: NONE,
     special: undefined,
     verdict: "",
-    hinted: false,
+    hint: undefined,
     asksPlace: false,
   });
   s.film.stop();

@@ -6,7 +6,7 @@ import type { FlatView } from "../../../player/words.js";
 import type { filmOf, Quaternion } from "../table/filmed.js";
 import type { Stroke as StrokeValues } from "../table/stroke.js";
 import type { Drill } from "./drills.js";
-import type { Play, Stroke } from "./game.js";
+import type { Aimer, Play, Stroke } from "./game.js";
 import type { OwnRating } from "./ladder.js";
 import type { Look } from "./look.js";
 import type { Sound } from "./sound.js";
@@ -71,9 +71,10 @@ export interface Training {
   readonly photo: HTMLDialogElement;
   wordsOfStart(name: string): string;
   drill(name: string): Drill;
-  /** Counts a try of a drill. */
-  played(name: string, stroke: Stroke): { text: string; repeats: boolean };
-  rating(): OwnRating;
+  /** Judges a try of a drill, and counts one that the player aimed alone. */
+  played(name: string, stroke: Stroke, isOwn: boolean): { text: string; repeats: boolean };
+  /** One's own rating on the scale of a game. */
+  rating(game: string): OwnRating;
   /** What to practise next. */
   plan(): string;
 }
@@ -144,7 +145,7 @@ export interface Coach {
   /** Begins the review of a stroke of this layout; what it returns takes the stroke, and whether its
    * verdict is told.
    */
-  review(): (cue: Cue, call: Call | undefined, isTold: boolean) => Promise<void>;
+  review(): (cue: Cue, call: Call | undefined, aimer: Aimer, isTold: boolean) => Promise<void>;
 }
 
 /** What a game is played by, which is there as long as the view. */
@@ -194,8 +195,8 @@ export interface Progress {
   special: "push" | "pass" | undefined;
   /** What the coach said of the last stroke; "" where nothing. */
   verdict: string;
-  /** Whether a hint was asked for at this stroke. */
-  hinted: boolean;
+  /** The stroke of the last hint that was asked for at this stroke. */
+  hint: Cue | undefined;
   /** The run-out behind the hint, which is drawn while there is one. */
   sequence: readonly SequenceStroke[];
   /** Whether the next tap names the place of a leave; and the place of the leave that is hinted. */

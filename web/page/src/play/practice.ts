@@ -119,7 +119,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
       ),
     ],
     photo: photo.root,
-    rating: () => ownRating(carom, drills),
+    rating: (game) => ownRating(carom, drills, game),
     drill: drillOf,
     wordsOfStart: (name) =>
       texts.itCountsForYour(translate(drillOf(name).text), wordsOfTries(name)),
@@ -141,7 +141,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
           .join(", "),
       );
     },
-    played(name, { shot, cue, balls }) {
+    played(name, { shot, cue, balls }, isOwn) {
       const { goal, text } = drillOf(name);
       const { outcome, why } = judge(drillOf(name), shot!);
       // The aim at the ball that was to fall, in the pocket that it was nearest to.
@@ -159,26 +159,21 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
       const wasToFall = why.some((reason) => reason.includes("fall"));
       const change = wasToFall ? wordsOfChange(off) : "";
       const review = outcome === "missed" ? ` ${why.join(" ")}${change}` : "";
-      keepRow({
-        when: new Date().toISOString().slice(0, 16),
-        game: name,
-        meant: text,
-        ...off,
-        side: -cue.a || 0,
-        best: outcome === "missed" ? review.trim() : texts.made,
-      });
+      if (isOwn)
+        keepRow({
+          when: new Date().toISOString().slice(0, 16),
+          game: name,
+          meant: text,
+          ...off,
+          side: -cue.a || 0,
+          best: outcome === "missed" ? review.trim() : texts.made,
+        });
       if (outcome === "on") return { text: texts.goOnWithThe, repeats: false };
+      const made = outcome === "made" ? texts.madeWord : texts.missed;
+      if (!isOwn) return { text: texts.hintedTry(made), repeats: true };
       const [good, tries] = count(KEY, name, [Number(outcome === "made"), 1]);
       describe();
-      return {
-        text: texts.outcomeOf(
-          outcome === "made" ? texts.madeWord : texts.missed,
-          good,
-          tries,
-          review,
-        ),
-        repeats: true,
-      };
+      return { text: texts.outcomeOf(made, good, tries, review), repeats: true };
     },
   };
 }

@@ -2,7 +2,7 @@
 // shows of it. A tab has one game open and holds a lock on its id, so that no other tab plays the
 // same game.
 import { createStore, del, get, set, values } from "idb-keyval";
-import type { Setup } from "./game.js";
+import type { Aimer, Setup } from "./game.js";
 import { stored, keepText } from "./keep.js";
 
 export interface SavedGame {
@@ -10,6 +10,8 @@ export interface SavedGame {
   /** The game as text: its setup and its strokes. */
   text: string;
   setup: Setup;
+  /** Who aimed each stroke; games of an older page do not say it. */
+  aims?: readonly Aimer[];
   score: string;
   strokes: number;
   isOver: boolean;

@@ -5,13 +5,17 @@ import type { Call, Carom, Cue, PlanOptions, Player } from "carom";
 import { onTable } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { cueWith, strokeOf } from "../table/stroke.js";
-import { OPTIONS, type Play } from "./game.js";
+import { type Aimer, OPTIONS, type Play } from "./game.js";
 import { guessOf, lookAlong } from "./look.js";
 import type { Chosen, Lines, Progress, Session } from "./parts.js";
 import { texts } from "../texts/texts.js";
 
 export const NONE: Chosen = { ball: -1, pocket: -1, hitBall: -1 };
 export const SAFETY = -2;
+/** A stroke whose direction is so near to that of a hint, degrees, is the hint's. */
+const CORRECTED = 2;
+/** The angle between two directions, degrees. */
+const angleBetween = (a: number, b: number): number => Math.abs(((a - b + 540) % 360) - 180);
 
 /** How a game is on its way before anything was played. */
 export const progressOf = (play: Play): Progress => ({
@@ -21,7 +25,7 @@ export const progressOf = (play: Play): Progress => ({
   chosen: NONE,
   special: undefined,
   verdict: "",
-  hinted: false,
+  hint: undefined,
   sequence: [],
   asksPlace: false,
   place: undefined,
@@ -74,9 +78,9 @@ export function valid({
 }: Pick<Session, "first" | "chosen" | "stroke">): Chosen {
   const hitBall = first?.ball ?? -1;
   const { phi } = stroke.value();
-  const turnedBy = Math.abs(((phi - (chosen.phi ?? phi) + 540) % 360) - 180);
+  const turnedBy = angleBetween(phi, chosen.phi ?? phi);
   const meetsTheSame = hitBall === -1 || hitBall === chosen.hitBall;
-  return turnedBy < 2 && meetsTheSame ? chosen : NONE;
+  return turnedBy < CORRECTED && meetsTheSame ? chosen : NONE;
 }
 /** Whether a safety is called: what falls keeps no turn. */
 export const isSafety = (s: Session): boolean => needsCall(s.play) && valid(s).pocket === SAFETY;
@@ -113,17 +117,23 @@ export function look(s: Session): void {
 /** Whom chances are told of. */
 export function wordsOfLevel(s: Pick<Session, "play" | "training">): string {
   const level = levelOf(s);
-  return s.training.rating().isGuess ? texts.anUnratedPlayer(level) : texts.aAsYouAre(level);
+  return s.training.rating(s.play.setup.game).isGuess
+    ? texts.anUnratedPlayer(level)
+    : texts.aAsYouAre(level);
 }
 /** The rating of whoever sits here: his own one, or that of his errors where they are larger. */
 export function levelOf({ play, training }: Pick<Session, "play" | "training">): number {
-  const { own } = play.setup;
-  return Math.min(training.rating().rating, own === "0" ? 800 : Number(own));
+  const { own, game } = play.setup;
+  return Math.min(training.rating(game).rating, own === "0" ? 800 : Number(own));
 }
 /** What lines show of the balls: by a setting, or by the rating. */
-export function linesOf({ settings, training }: Pick<Session, "settings" | "training">): Lines {
+export function linesOf({
+  play,
+  settings,
+  training,
+}: Pick<Session, "play" | "settings" | "training">): Lines {
   if (settings.lines !== "level") return settings.lines;
-  const { rating } = training.rating();
+  const { rating } = training.rating(play.setup.game);
   if (rating < 500) return "full";
   return rating < 650 ? "short" : "none";
 }
@@ -137,28 +147,37 @@ export function why(s: Pick<Session, "play" | "seat" | "thinks">): string {
   return texts.theOtherPlayerIsAt;
 }
 
+/** Whether a hint shows a stroke of the ball that is struck. */
+export const isHinted = ({ hint, play }: Pick<Session, "hint" | "play">): boolean =>
+  hint !== undefined && hint.ball === play.cueBall;
+/** Who aimed the stroke that the controls set. A hint that was turned a little is still a hint. */
+export function aimerOf(s: Pick<Session, "hint" | "play" | "stroke">): Aimer {
+  const isNear = isHinted(s) && angleBetween(s.stroke.value().phi, s.hint!.phi) < CORRECTED;
+  return isNear ? "hint" : "player";
+}
+
 /** A player of a rating; "0" makes no errors. */
 export const playerOf = (carom: Carom, rating: string): Player =>
   carom.player(rating === "0" ? { errors: 0 } : { fargo: Number(rating) });
-/** The page's player of a rating in the game that is played. */
-export const rivalOf = ({ carom, state }: Play, rating: string): Player =>
+/** A player of a rating on the scale of the game that is played, as the seats of a match have it. */
+export const seatPlayer = ({ carom, state }: Play, rating: string): Player =>
   carom.player({ fargo: Number(rating), rules: state.rules });
-/** The rating whose errors the next stroke has. A stroke of a hint has those that the hint assumed. */
-function ratingOfErrors(s: Pick<Session, "play" | "hinted" | "training">): string {
-  const { own } = s.play.setup;
-  const isWithoutErrors = s.play.practice && own === "0";
-  return s.hinted && !isWithoutErrors ? String(levelOf(s)) : own;
+/** Whose errors the next stroke has, if any. A stroke of a hint has those that the hint assumed. */
+function erringPlayer(s: Session, aimer: Aimer): Player | undefined {
+  const { carom, setup, practice } = s.play;
+  if (aimer === "hint" && !practice) return seatPlayer(s.play, String(levelOf(s)));
+  if (setup.own === "0") return undefined;
+  return playerOf(carom, aimer === "hint" ? String(levelOf(s)) : setup.own);
 }
-/** The stroke of whoever sits here: the cue with its errors, and the call. */
-export function strokeToPlay(s: Session): { cue: Cue; call: Call | undefined } {
+/** The stroke of whoever sits here: the cue with its errors, the call, and who aimed it. */
+export function strokeToPlay(s: Session): { cue: Cue; call: Call | undefined; aimer: Aimer } {
   const { play } = s;
   const number = play.strokes + play.past.length;
-  const rating = ratingOfErrors(s);
-  let cue = cueOf(s);
-  if (rating !== "0")
-    cue = play.carom.withErrors(cue, playerOf(play.carom, rating), play.setup.seed, number);
+  const aimer = aimerOf(s);
+  const player = erringPlayer(s, aimer);
+  const cue = player ? play.carom.withErrors(cueOf(s), player, play.setup.seed, number) : cueOf(s);
   look(s); // the aim may have changed since the last frame
-  return { cue, call: callOf(s) };
+  return { cue, call: callOf(s), aimer };
 }
 /**
  * What a plan knows of a game: how it stands, which ball is struck, and where it may be put. Of

@@ -77,6 +77,12 @@ export function onOf(play: Play): string {
 /** Whether whoever is at the table has the equalizing inning. */
 const isLastInning = ({ state }: Play): boolean => state.innings === 3;
 
+/** A group in words; that of blackball is of one colour. */
+function wordsOfGroup({ setup }: Play, group: string): string {
+  const colours: Record<string, string> = { solids: "reds", stripes: "yellows" };
+  return translate(setup.game === "blackball" ? colours[group]! : group);
+}
+
 /** The balls that count for whoever plays, or the pocket, behind the name: ", on a red". */
 function aimOf(play: Play): string {
   const { game } = play.setup;
@@ -84,7 +90,9 @@ function aimOf(play: Play): string {
   if (game === "snooker") return texts.onBall(onOf(play));
   if (play.played?.pockets) return texts.intoPocket(pocketOf(play));
   if (!isEight(play) || play.breaks) return "";
-  return play.state.group === "open" ? texts.openTable : `, ${translate(play.state.group)}`;
+  return play.state.group === "open"
+    ? texts.openTable
+    : `, ${wordsOfGroup(play, play.state.group!)}`;
 }
 const PLACES: Record<string, string> = {
   kitchen: texts.behindTheLine,

@@ -3,11 +3,11 @@
 import type { Call, PlanStroke, Choice } from "carom";
 import { far } from "../far.js";
 import { angleFrom, direction } from "../table/grip.js";
-import { wordsOfPlan } from "../table/words.js";
+import { namesBall, wordsOfPlan } from "../table/words.js";
 import { parameters, wrong } from "../ui.js";
 import { isComputer, Play, type Stroke } from "./game.js";
 import { countRack, racksOf } from "./keep.js";
-import { countGame, isRated } from "./ladder.js";
+import { countGame, isOwn, isRated } from "./ladder.js";
 import type { Session } from "./parts.js";
 import { saveGame } from "./saved.js";
 import {
@@ -18,9 +18,9 @@ import {
   needsCall,
   NONE,
   playerOf,
-  rivalOf,
   SAFETY,
   says,
+  seatPlayer,
   strokeToPlay,
   wantedOf,
   why,
@@ -46,11 +46,12 @@ export function shoot(s: Session): void {
   // The review needs the layout before the stroke.
   const review = coach.review();
   try {
-    const { cue, call } = strokeToPlay(s);
-    const stroke = play.stroke(cue, call);
+    const { cue, call, aimer } = strokeToPlay(s);
+    const stroke = play.stroke(cue, call, aimer);
     s.verdict = "";
     says(s, "");
-    if (play.played && play.setup.drill === undefined) void review(cue, call, settings.coach);
+    if (play.played && play.setup.drill === undefined)
+      void review(cue, call, aimer, settings.coach);
     finishTurn(s, stroke);
   } catch (error) {
     says(s, wrong(error));
@@ -95,7 +96,7 @@ function finishTurn(s: Session, stroke: Stroke): void {
   s.chosen = NONE;
   s.theirs = undefined;
   s.special = undefined;
-  s.hinted = false;
+  s.hint = undefined;
   s.asksPlace = false;
   saveAndCount(s);
   s.showing.perform(stroke, () => next(s));
@@ -142,7 +143,7 @@ export function aimAtNearest({ play, stroke }: Pick<Session, "play" | "stroke">)
 function judgeDrill({ play, training, words, carom }: Session): void {
   const { drill, at } = play.setup;
   if (drill === undefined || !play.last) return;
-  const { text, repeats } = training.played(drill, play.last);
+  const { text, repeats } = training.played(drill, play.last, isOwn(play));
   says({ words }, text);
   // The next try begins where this one began.
   if (repeats) play.lay(new Play(carom, { ...play.setup, at }).balls);
@@ -158,7 +159,7 @@ export function next(s: Session): void {
   const wasTheirs = last !== undefined && last.player !== seat;
   if (wasTheirs && play.hasPockets && isAgainstComputer)
     says(s, `${wordsOfStroke(play, last, seat)} ${s.verdict}`.trim());
-  if (isOver && isRated(setup)) says(s, training.rating().words);
+  if (isOver && isRated(play)) says(s, training.rating(setup.game).words);
   if (isOver) s.end.show();
   // The page's player begins to plan, or the person at the page begins to aim.
   if (!isOver && !mine(s) && isAgainstComputer) {
@@ -178,7 +179,7 @@ async function choiceOf(play: Play): Promise<PlanStroke> {
   const { against, own, seed } = play.setup;
   const options = {
     ...wantedOf(play),
-    player: rivalOf(play, against),
+    player: seatPlayer(play, against),
     opponent: playerOf(play.carom, own === "0" ? RATING_OF_PERFECT : own),
     seed: seed + play.strokes,
     best: 1,
@@ -187,9 +188,10 @@ async function choiceOf(play: Play): Promise<PlanStroke> {
   return choice!;
 }
 /** The call of a planned stroke. */
-function callOfChoice({ kind, ball, pocket }: PlanStroke): Call | undefined {
+function callOfChoice({ table }: Play, choice: PlanStroke): Call | undefined {
+  const { kind, ball, pocket } = choice;
   if (kind === "push") return kind;
-  return ball > 0 && pocket >= 0 ? { ball, pocket } : undefined;
+  return pocket >= 0 && namesBall(table, choice) ? { ball, pocket } : undefined;
 }
 /** Shows for a moment what the page's player will do: the cue ball, the stick, and words. */
 async function announce(s: Session, choice: PlanStroke): Promise<void> {
@@ -217,11 +219,11 @@ async function reply(s: Session): Promise<void> {
     await announce(s, choice);
     if (isStale()) return;
     s.thinks = false;
-    if (choice.kind === "pass") return finishTurn(s, play.choose("pass"));
+    if (choice.kind === "pass") return finishTurn(s, play.choose("pass", "opponent"));
     const { against } = play.setup;
-    const player = rivalOf(play, against);
+    const player = seatPlayer(play, against);
     const cue = play.carom.withErrors(choice.cue, player, play.setup.seed, play.strokes);
-    finishTurn(s, play.stroke(cue, callOfChoice(choice)));
+    finishTurn(s, play.stroke(cue, callOfChoice(play, choice), "opponent"));
   } catch (error) {
     if (isStale()) return;
     s.thinks = false;
@@ -245,6 +247,7 @@ export function save({ play, link, seat, id, words }: Saved): void {
     id,
     text: play.text(),
     setup,
+    aims: play.aims,
     score: wordsOfScore(play, seat, racksOf(play)),
     strokes,
     isOver: play.isOver,
@@ -260,9 +263,9 @@ export function save({ play, link, seat, id, words }: Saved): void {
 export function saveAndCount(s: Saved & Pick<Session, "training" | "end">): void {
   const { winner, setup } = s.play;
   if (winner !== undefined) {
-    s.end.rated = isRated(setup) ? s.training.rating() : undefined;
+    s.end.rated = isRated(s.play) ? s.training.rating(setup.game) : undefined;
     countRack(setup, winner);
-    countGame(setup, winner);
+    countGame(s.play, winner);
   }
   save(s);
 }

@@ -27,6 +27,12 @@ function snookerName(k: number): string {
   if (k === 0) return "white";
   return k < 16 ? `red ${k}` : COLOURS[k - 16]!;
 }
+/** Blackball has seven reds, the black 8, and seven yellows. */
+function blackballName(k: number): string {
+  if (k === 0) return "cue";
+  if (k === 8) return "black";
+  return k < 8 ? `red ${k}` : `yellow ${k}`;
+}
 /** The name of a game in its text: "Blackball" of "blackball by the WPA". */
 const titleOf = (text: string): string =>
   text[0]!.toUpperCase() + text.slice(1).split(/ by |, /)[0]!;
@@ -57,6 +63,7 @@ for (const [name, text] of words.rules) {
   const fourball = ["white", "yellow", "red 1", "red 2"];
   const namesOf: Record<string, (k: number) => string> = {
     fourball: (k) => fourball[k] ?? String(k),
+    blackball: blackballName,
     pyramid: (k) => (k === 0 ? "yellow" : String(k)),
     cowboy: (k) => ["cue", "1", "3", "5"][k] ?? String(k),
   };

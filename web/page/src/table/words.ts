@@ -15,14 +15,19 @@ const BY: Partial<Record<PlanStroke["kind"], string>> = {
   carom: texts.byACarom,
   kiss: texts.byAKiss,
 };
-/** Choices in which no ball is named. */
+/** Choices in which no ball is named, whatever their tries did. */
 const WITHOUT: Partial<Record<PlanStroke["kind"], string>> = {
   foul: texts.aFoulBecauseNo,
   break: texts.aBreak,
   push: texts.aPushOut,
   pass: texts.aPassTheOther,
-  safety: texts.aSafety,
 };
+/** A stroke that names no ball, by what its tries did. */
+function wordsWithoutBall(table: Table, choice: PlanStroke): string {
+  if (table.pockets.length === 0) return texts.aStrokeAfterWhich;
+  if (isSafe(table, choice)) return texts.aSafety;
+  return choice.keep < LUCK ? texts.aRiskyStroke : texts.aStrokeWithoutA;
+}
 
 /**
  * How often a stroke keeps the turn, wins the game, and is a foul. Where it is `alone`, the chance
@@ -37,8 +42,18 @@ export function wordsOfChances(
     : texts.chancesOf(percent(keep), percent(value), percent(foul));
 }
 
-export const isSafe = ({ kind, ball, keep }: PlanStroke): boolean =>
-  ball < 0 && (kind === "safety" || keep < 0.005);
+/** A ball that keeps the turn less often falls by luck, as carom_names_ball() has it. */
+const LUCK = 0.1;
+/** A stroke without a pot that is a foul as often is no safety, as \`carom plan\` has it. */
+const RISKY = 0.15;
+/** Whether a stroke is meant to make the ball that it names: its tries did, or a caller named it. */
+export const namesBall = (
+  { pockets }: Pick<Table, "pockets">,
+  { kind, ball, keep }: PlanStroke,
+): boolean => ball >= 0 && (pockets.length === 0 || kind === "given" || keep >= LUCK);
+/** Whether a stroke passes the turn, and seldom by a foul. */
+export const isSafe = (table: Pick<Table, "pockets">, choice: PlanStroke): boolean =>
+  !namesBall(table, choice) && choice.keep < LUCK && choice.foul < RISKY;
 /** A pot in words: "ball 7 into the side-left pocket". */
 export function wordsOfPot(
   table: Table,
@@ -80,13 +95,8 @@ function wordsOfChoice(
   cushionFirst = false,
 ): string {
   const { kind, ball } = choice;
-  const hasPockets = table.pockets.length > 0;
-  if (ball < 0) {
-    const named = WITHOUT[kind] ?? (isSafe(choice) ? WITHOUT.safety : undefined);
-    if (named !== undefined) return named;
-    return hasPockets ? texts.aStrokeWithoutA : texts.aStrokeAfterWhich;
-  }
-  if (!hasPockets) return texts.theBallFirst(translate(names[ball]!));
+  if (!namesBall(table, choice)) return WITHOUT[kind] ?? wordsWithoutBall(table, choice);
+  if (table.pockets.length === 0) return texts.theBallFirst(translate(names[ball]!));
   const isNamed = kind === "kick" || kind === "rail_first";
   const first = cushionFirst && !isNamed ? texts.offACushionFirst : "";
   return wordsOfPot(table, names, choice, `${BY[kind] ?? ""}${first}`);
