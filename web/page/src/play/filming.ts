@@ -130,8 +130,9 @@ function showButtons(s: Session): void {
     [buttons.push, (mayAim && mayPush) || hasSafety],
     ...choices.map(([act, button]) => [button, mayAim && play.acts.includes(act)] as const),
     [buttons.skip, film.playing],
+    [s.watching.root, s.watched !== undefined],
     [stroke.shoot, !film.playing],
-    [buttons.link, play.setup.against === "link"],
+    [buttons.link, play.setup.against === "link" || s.watched !== undefined],
   ];
   for (const [element, isVisible] of visible) element.hidden = !isVisible;
 

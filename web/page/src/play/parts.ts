@@ -59,6 +59,13 @@ export interface Link {
   close(): void;
 }
 
+/** A game that is watched (watch.ts): its bar, and what begins and ends it. */
+export interface Watching {
+  readonly root: HTMLElement;
+  enter(): void;
+  leave(): void;
+}
+
 /** Drills, a table from a photo, and one's own rating (practice.ts). */
 export interface Training {
   readonly parts: HTMLElement[];
@@ -149,6 +156,7 @@ interface Parts {
   readonly film: ReturnType<typeof filmPlayer>;
   readonly space: SpaceView;
   readonly link: Link;
+  readonly watching: Watching;
   readonly training: Training;
   readonly showing: Showing;
   readonly coach: Coach;
@@ -160,6 +168,8 @@ interface Parts {
 /** How the game stands, and what is shown of it now. */
 export interface Progress {
   play: Play;
+  /** The whole game, of which `play` is a part while it is watched. */
+  watched: Play | undefined;
   /** Under which the game is kept; "" before one is opened. */
   id: string;
   /** Which of both sits here; of two at this page, whoever is at the table. */
