@@ -1,6 +1,7 @@
 /* The game of `carom plan`: its options, the state of its rules, and balls by their numbers. */
 #include "game/plan_game.h"
 #include "program/message.h"
+#include "program/words.h"
 #include "shots/places.h"
 
 #include <stdlib.h>
@@ -45,6 +46,12 @@ typedef struct numbered_balls {
   carom_shot_ball ball[CAROM_BALLS_MOST];
   char *name[CAROM_BALLS_MOST];
 } numbered_balls;
+
+int rack_of_game(const char *text) {
+  char games[MOST_WORDS];
+  const int game = word_among(words_of(CAROM_WORDS_RULES, true, games), text, strlen(text));
+  return game < 0 ? 0 : 1 + carom_rules_about_of((carom_rules_kind)game)->rack;
+}
 
 /* Puts each ball where its number is; false after a complaint. */
 static bool number_balls(const shot_line *line, const char *file, const carom_rules_about *about,

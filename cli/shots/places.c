@@ -234,9 +234,14 @@ static void split_entry(const option_row *row, char *text, place_entry *entry) {
   }
 }
 
+/* Whether the places of an option are those of balls, which may have names. */
+static bool takes_names(const option_row *row) {
+  return row->words != 0 || strcmp(row->name, "cue") == 0;
+}
+
 /* Whether a name is allowed, and short and plain enough; no name always is. */
 static bool name_is_valid(const option_row *row, const place_entry *entry) {
-  if (entry->name_size >= PLACE_NAME || (entry->name_size > 0 && row->words == 0))
+  if (entry->name_size >= PLACE_NAME || (entry->name_size > 0 && !takes_names(row)))
     return false;
   for (size_t k = 0; k < entry->name_size; k++) {
     const char letter = entry->name[k];
@@ -293,7 +298,8 @@ static int rack_named(const option_row *row, const char *text) {
   char racks[MOST_WORDS];
   if (row->words == 0)
     return 0;
-  return 1 + word_among(words_of(row->words, true, racks), text, strlen(text));
+  const int rack = 1 + word_among(words_of(row->words, true, racks), text, strlen(text));
+  return rack > 0 ? rack : rack_of_game(text);
 }
 
 OPTION_SET(set_places) {

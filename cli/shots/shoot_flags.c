@@ -54,14 +54,14 @@ ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_PLACE,
     "head; or a place: " PLACES
     ". At left,4d, and at corners and sides, the ball touches the rail; at frozen-1,90 "
     "it touches ball 1 in that direction, degrees, and at frozen-1,90,0.5in it lies that far from "
-    "it",
+    "it; with a name, white=0.6,0.8",
     .else_usual = "head-spot, or the place in the rack", .is_list = true);
 const option_row option_balls = {
     .name = "balls",
     .argument = "X,Y:...",
     .help = "places of the other balls, as in --cue, with colons between them: 0.6,1.5:foot-spot. "
             "Their names are 1, 2, ..., those of their spots of snooker, or given, as in "
-            "8=0.6,1.5. A word is a rack",
+            "8=0.6,1.5. A word is a rack, or a game that has one",
     .set = set_places,
     .field = offsetof(shoot_flags, balls),
     .least = MEASURE_PLACE,
@@ -370,6 +370,8 @@ static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion,
 
   /* The places given. A cue ball that touches a ball is put there after it. */
   const given_place *cue = f->cue.count > 0 ? &f->cue.place[0] : NULL;
+  if (cue != NULL && cue->name[0] != '\0')
+    snprintf(l->name[0], PLACE_NAME, "%s", cue->name);
   const bool last = cue != NULL && cue->touches[0] != '\0' && rail_of(cue->touches) < 0;
   if (cue != NULL && !last && !lay(l, 0, cue, 0))
     return false;

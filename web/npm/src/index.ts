@@ -20,7 +20,14 @@ export { Collisions, cueFields, cueSize, Shots } from "./batches.js";
 export type { Carom } from "./carom.js";
 export { CaromError } from "./error.js";
 export { byNumber, fromLine, toLine } from "./lines.js";
-export { type Bounds, Match, type Choice, type Phase, type StrokeOptions } from "./match.js";
+export {
+  type Bounds,
+  Match,
+  type Choice,
+  choices,
+  type Phase,
+  type StrokeOptions,
+} from "./match.js";
 export type { Build } from "./memory.js";
 export { type Replayed, type ShotEnd } from "./recording.js";
 export { Shot } from "./shot.js";

@@ -51,8 +51,9 @@ const OWN = 1000;
 
 /** What a match waits for; "over": nothing. */
 export type Phase = "none" | "stroke" | "place" | "moving" | "over";
-/** A choice besides a stroke. */
-export type Choice = (typeof names.carom_choice)[number];
+/** The choices besides a stroke: a line "act" has 2 to the power of the place in this list. */
+export const choices = names.carom_choice;
+export type Choice = (typeof choices)[number];
 
 /** Where a cue ball in hand may be put, m. */
 export interface Bounds {
@@ -382,7 +383,7 @@ export class Match extends Owner<Host> {
   /** The choices for `choose`; a "free_ball" is named by a call. */
   get may(): Choice[] {
     const acts = this.#number("may");
-    return names.carom_choice.filter((_, k) => (acts >> k) & 1) as Choice[];
+    return choices.filter((_, k) => (acts >> k) & 1) as Choice[];
   }
   /** The ball that the player at the table strikes. */
   get cueBall(): number {

@@ -13,11 +13,11 @@ import {
   describePages,
   gameOf,
   keptGame,
-  linesOf,
   pageFile,
   pages,
   reload,
   says,
+  shows,
   sizes,
 } from "./page.js";
 
@@ -185,15 +185,24 @@ describePages("a game by link", () => {
     await says(secondPage, "said", "1 stroke was repeated; every bit agrees.");
     // It shows the last stroke before it tells whose turn it is.
     await expect.poll(() => turn(secondPage)).not.toContain("plays …");
-    const game = JSON.parse(unpacked(url)) as { lines: string[] };
-    expect(linesOf(unpacked(url), "shot")).toHaveLength(1);
+    expect(url.length).toBeLessThan(address.length + 330);
+    const game = JSON.parse(unpacked(url)) as { lines: [string, string][] };
+    expect(game.lines.filter(([name]) => name === "stroke")).toHaveLength(1);
+    // Older pages sent all lines, which are still read.
+    const kept = await keptGame(page);
+    const older = await open(await contextOf(sizes[0][1]), `#view=play&seat=1&g=${packed(kept)}`);
+    await says(older, "said", "1 stroke was repeated; every bit agrees.");
+    expect(unpacked(older.url())).toBe(unpacked(secondPage.url()));
+    await older.context().close();
     // The speed; a hash; a missing line; a link that was cut off.
     const forged = (change: (line: string) => string | []) => {
+      const game = JSON.parse(kept) as { lines: string[] };
       const lines = game.lines.flatMap((line) =>
         line.startsWith('{"shot"') ? change(line) : line,
       );
       return packed(JSON.stringify({ ...game, lines }));
     };
+    const otherHash = game.lines.map(([name, , ...rest]) => [name, "01234567", ...rest]);
     for (const [g, why] of [
       [
         forged((line) => line.replace(/"speed":("[^"]*"|[\d.]+)/, '"speed":7.5')),
@@ -206,6 +215,7 @@ describePages("a game by link", () => {
         "stroke 1 is not as it was played",
       ],
       [forged(() => []), "stroke 1 is not as it was played"],
+      [packed(JSON.stringify({ ...game, lines: otherHash })), "stroke 1 is not as it was played"],
       [packed(JSON.stringify(game)).slice(0, -40), "the link is cut off or damaged"],
       [
         packed(JSON.stringify({ game: "eightball", against: "link", entries: [{ line: "" }] })),
@@ -238,6 +248,37 @@ describePages("a game by link", () => {
       new URL(await ownPage.evaluate(() => navigator.clipboard.readText())).hash,
     );
     expect(await keptGame(reopened)).toBe(await keptGame(ownPage));
+    await desk.close();
+    await phone.close();
+  });
+
+  test("a game is watched stroke by stroke, here and at a link, and goes on behind the bar", async () => {
+    const desk = await contextOf(sizes[0][1]);
+    const phone = await contextOf(sizes[1][1]);
+    const page = await open(desk);
+    await begin(page, "nineball");
+    await act(page, "#shoot");
+    await comesToShow(page, "#skip", false);
+    const before = [await turn(page), await keptGame(page)];
+    await act(page, "#new-game", "#watch-game");
+    await says(page, "watched", "0 of 1");
+    expect(await page.locator("#shoot").getAttribute("aria-disabled")).toBe("true");
+    expect(await page.locator("#watch-back").isDisabled()).toBe(true);
+    const url = await link(page);
+    const other = await open(phone, new URL(url).hash);
+    for (const watcher of [page, other]) {
+      await act(watcher, "#watch-forth");
+      await says(watcher, "watched", "1 of 1");
+      await comesToSay(watcher, "said", /pocketed/);
+      expect(await watcher.locator("#watch-forth").isDisabled()).toBe(true);
+      await act(watcher, "#watch-back");
+      await says(watcher, "watched", "0 of 1");
+      await act(watcher, "#watch-close");
+      await shows(watcher, "#watch", false);
+    }
+    // The players go on; who has watched has a game of two players at his page.
+    expect([await turn(page), await keptGame(page)]).toEqual(before);
+    expect(JSON.parse(await keptGame(other))).toMatchObject({ against: "person" });
     await desk.close();
     await phone.close();
   });

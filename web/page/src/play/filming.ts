@@ -139,8 +139,9 @@ function showButtons(s: Session): void {
     [buttons.push, (mayAim && mayPush) || hasSafety],
     ...choices.map(([act, button]) => [button, mayAim && play.acts.includes(act)] as const),
     [buttons.skip, isRolling],
+    [s.watching.root, s.watched !== undefined],
     [stroke.shoot, !isRolling],
-    [buttons.link, play.setup.against === "link"],
+    [buttons.link, play.setup.against === "link" || s.watched !== undefined],
   ];
   for (const [element, isVisible] of visible) put(element, isVisible);
 

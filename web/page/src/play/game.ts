@@ -24,6 +24,7 @@ import { GAMES, type GameOf, hasMember, PLAYED, type Played, POOL_TABLES } from 
 import { atHead, isWithin } from "../table/head.js";
 import { placesOf, placesText, pocketed } from "../table/places.js";
 import { wrong } from "../ui.js";
+import { type Act, actsOf, type Line, perform } from "./acts.js";
 import { texts } from "../texts/texts.js";
 
 /** Whom one plays against: a Fargo rating, a person at this page, one by link, or nobody. */
@@ -103,14 +104,18 @@ function deedOf({ player, balls, cue, shot }: Stroke): Deed {
 }
 /** What a text has beside the setup: lines, or strokes without rulings of an older page. */
 interface Kept {
-  lines?: string[];
+  lines?: Line[];
   aims?: string;
   entries?: unknown[];
 }
 
 export const OPTIONS: ShotOptions = {};
-/** How the line of a clock that ran out begins. */
-const LATE = '{"act":{"act":4,';
+const isAct = (line: Line | undefined): line is Act => typeof line === "object";
+/** Whether a line is that of a clock that ran out, and whether it is a stroke. */
+const isLate = (line: Line): boolean =>
+  isAct(line) ? line[0] === "clock" : line.startsWith('{"act":{"act":4,');
+const isStroke = (line: Line): boolean =>
+  isAct(line) ? line[0] === "stroke" : line.startsWith('{"shot"');
 
 /** The table of a game: what of it is not usual. */
 export function tableOf({
@@ -158,10 +163,13 @@ function matchOf(play: Play, { rules, opening, state }: Played): Match {
   const hand = play.hasPockets && !isLaid ? (opening as Ruling["hand"]) : "no";
   return carom.match(game, table, { balls, hand, shot: OPTIONS });
 }
-/** The match whose lines have been kept or sent. */
-function matchRead(carom: Carom, lines: string[]): Match {
+/** The match whose lines have been kept or sent. Of those of its beginning none is left. */
+function matchRead(carom: Carom, lines: Line[]): Match {
   const match = carom.match();
-  while (match.phase === "none" && lines.length > 0) match.read(lines.shift()!);
+  while (match.phase === "none" && typeof lines[0] === "string") {
+    match.read(lines[0]);
+    lines.shift();
+  }
   return match;
 }
 
@@ -191,14 +199,14 @@ export class Play {
   constructor(
     readonly carom: Carom,
     readonly setup: Setup,
-    lines: string[] = [],
+    lines: Line[] = [],
   ) {
     this.practice = setup.against === "practice";
     this.played = PLAYED[setup.game];
     const base = GAMES[this.played?.base ?? setup.game];
     if (!base || (!this.practice && !this.played))
       throw new TypeError(texts.gameThereIsNo(setup.game));
-    if (lines.length > 0 && !this.practice) this.#match = matchRead(carom, lines);
+    if (typeof lines[0] === "string" && !this.practice) this.#match = matchRead(carom, lines);
     this.table = this.#match?.table ?? tableNamed(carom, base, setup.table);
     this.balls = this.#match?.balls ?? this.#laid(base);
     this.names = this.balls.map((_, k) => base.names(k));
@@ -278,14 +286,24 @@ export class Play {
   places(): string {
     return placesText(this.balls, (x) => Number(x.toFixed(5)));
   }
-  /** The game as text. */
-  text(): string {
+  /** The usual cue of the game. */
+  get cue(): Cue {
+    return this.carom.cue({}, GAMES[this.played?.base ?? this.setup.game]!.game);
+  }
+  /** The game as text, of which all pages of a machine compare the lines. */
+  text(lines: readonly Line[] = this.lines): string {
     return JSON.stringify({
       ...this.setup,
       ...(this.practice && !this.setup.drill ? { at: this.places() } : {}),
-      lines: this.lines,
+      lines,
       aims: this.practice ? "" : this.aims.map(([letter]) => letter).join(""),
     });
+  }
+  /** The game as text for a link, as short as it can be. */
+  shortText(): string {
+    if (this.practice) return this.text();
+    const beginning = new Play(this.carom, this.setup).lines;
+    return this.text(actsOf(this.lines, beginning, this.cue));
   }
 
   // ---- Strokes and choices
@@ -350,11 +368,11 @@ export class Play {
   }
 
   /**
-   * Reads lines that another page wrote, up to a stroke or a choice with its ruling, and takes them
-   * off the list. Undefined where there is none. Throws where a line is not by the rules, or has
-   * other bits. `aims` has the letters of who aimed the strokes of the game.
+   * Reads lines that another page wrote, or does its acts, up to a stroke or a choice with its
+   * ruling, and takes them off the list. Undefined where there is none. Throws where a line is not
+   * by the rules, or has other bits. `aims` has the letters of who aimed the strokes of the game.
    */
-  read(lines: string[], aims = ""): Stroke | undefined {
+  read(lines: Line[], aims = ""): Stroke | undefined {
     const match = this.#match!;
     const aimer = AIMERS.find(([letter]) => letter === aims[this.strokes]) ?? "line";
     try {
@@ -362,15 +380,12 @@ export class Play {
         const situation = this.#situation(this.carom.cue(), undefined, aimer);
         const known = match.lines.length;
         const line = lines.shift()!;
-        match.read(line);
-        // The lines of the ruling follow, which the match has too.
+        if (isAct(line)) perform(match, line, this.cue);
+        else match.read(line);
         const ruled = match.lines.length - known - 1;
-        for (const rest of lines.splice(0, ruled)) match.read(rest);
-        if (ruled > 0)
-          return this.#ruled(
-            { ...situation, isLate: line.startsWith(LATE) },
-            line.startsWith('{"shot"'),
-          );
+        // Behind a line those of the ruling follow, which the match has too.
+        for (const rest of isAct(line) ? [] : lines.splice(0, ruled)) match.read(rest as string);
+        if (ruled > 0) return this.#ruled({ ...situation, isLate: isLate(line) }, isStroke(line));
       }
     } catch (error) {
       throw new TypeError(texts.strokeIsNotAs(this.strokes + 1, wrong(error)));
@@ -432,16 +447,19 @@ export class Play {
 }
 
 /** The parts of a text. Throws where an older page has kept it. */
-function parsed(text: string): { setup: Setup; lines: string[]; aims: string } {
+function parsed(text: string): { setup: Setup; lines: Line[]; aims: string } {
   const { lines = [], aims = "", entries = [], ...setup } = JSON.parse(text) as Setup & Kept;
   if (entries.length > 0) throw new TypeError(texts.anOlderPageKept);
   return { setup, lines, aims };
 }
-/** A game of a text, played to its last stroke. Throws where the text or a line of it is wrong. */
-export function read(carom: Carom, text: string): Play {
+/**
+ * A game of a text, played to its last stroke, or to so many strokes. Throws where the text or a line
+ * of it is wrong.
+ */
+export function read(carom: Carom, text: string, strokes = Infinity): Play {
   const { setup, lines, aims } = parsed(text);
   const play = new Play(carom, setup, lines);
-  while (play.read(lines, aims));
+  while (play.strokes < strokes && play.read(lines, aims));
   return play;
 }
 /** The game of a recording that `carom verify` takes, which two players at this page go on with. */
@@ -455,6 +473,6 @@ export function imported(carom: Carom, recording: string): Play {
 /** The whole recording of the game of a text, with its end. */
 export function recordingOf(carom: Carom, text: string): string {
   const match = carom.match();
-  for (const line of parsed(text).lines) match.read(line);
+  for (const line of read(carom, text).lines) match.read(line);
   return match.end();
 }

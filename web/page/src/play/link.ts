@@ -1,12 +1,14 @@
 // A game by link: it is in the address, goes to the other one as a link, and pages of one machine
 // hear of each stroke, which they compare bit by bit.
 import { wrong } from "../ui.js";
-import type { Setup } from "./game.js";
+import type { Play, Setup } from "./game.js";
 import { pack, send } from "./keep.js";
 import type { Link, Session } from "./parts.js";
 import { says } from "./session.js";
 import { next, saveAndCount } from "./turns.js";
 import { texts } from "../texts/texts.js";
+
+const wholeOf = ({ play, watched }: Session): Play => watched ?? play;
 
 export function byLink(s: Session): Link {
   let queue: string[] = [];
@@ -15,13 +17,14 @@ export function byLink(s: Session): Link {
 
   /** Strokes of the same game, behind those that are known here. */
   function heard(text: string): void {
-    const { play } = s;
+    const play = wholeOf(s);
     if (play.setup.against !== "link") return;
     const { lines, ...setup } = JSON.parse(text) as Setup & { lines: string[]; aims?: string };
     const known = play.lines;
     const isOther = setup.game !== play.setup.game || setup.seed !== play.setup.seed;
     if (isOther || lines.length <= known.length + queue.length) return;
     if (known.some((line, k) => line !== lines[k])) return says(s, texts.theOtherPageHas);
+    s.watching.leave();
     queue = lines.slice(known.length);
     ({ aims } = setup);
     // After a film the next stroke follows.
@@ -52,7 +55,7 @@ export function byLink(s: Session): Link {
   const others = new BroadcastChannel("carom-games");
   others.addEventListener("message", ({ data: { text } }: MessageEvent<{ text?: string }>) => {
     if (text !== undefined) heard(text);
-    else if (s.play.setup.against === "link") others.postMessage({ text: s.play.text() });
+    else if (s.play.setup.against === "link") others.postMessage({ text: wholeOf(s).text() });
   });
 
   return {
@@ -60,18 +63,19 @@ export function byLink(s: Session): Link {
       const text = s.play.text();
       const generation = ++writing;
       others.postMessage({ text });
-      void pack(text).then(
+      void pack(s.play.shortText()).then(
         (packed) =>
           generation === writing &&
           history.replaceState(null, "", `#view=play&seat=${s.seat}&g=${packed}`),
       );
     },
     async send() {
-      const { play } = s;
+      const play = wholeOf(s);
       // The other one has the other seat; who goes on elsewhere with a game of his own keeps his.
-      const isByLink = play.setup.against === "link";
+      const isByLink = play.setup.against === "link" && !s.watched;
       const seat = isByLink && s.seat === 0 ? 1 : 0;
-      const url = `${location.href.split("#")[0]}#view=play&seat=${seat}&g=${await pack(play.text())}`;
+      const how = s.watched ? "watch=1" : `seat=${seat}`;
+      const url = `${location.href.split("#")[0]}#view=play&${how}&g=${await pack(play.shortText())}`;
       const result = await send(
         url,
         texts.aGameOfBilliards,

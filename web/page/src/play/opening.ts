@@ -32,6 +32,7 @@ export function start(s: Session, play: Play, id: string, seat: 0 | 1 = 0): void
     theirs: undefined,
     thinks: false,
     play,
+    watched: undefined,
     id,
     seat,
     turned,
@@ -54,7 +55,7 @@ function wordsOfStart({ setup, practice }: Play, training: Session["training"]):
 
 /** Begins a game under an id of its own; the one before is kept if anybody has played in it. */
 export function begin(s: Session, setup: Setup): void {
-  const left = { id: s.id, play: s.play };
+  const left = { id: s.id, play: s.watched ?? s.play };
   const isKept = left.id !== "" && isWorthKeeping(left.play);
   if (left.id !== "" && !isKept) void deleteGame(left.id);
   const play = new Play(s.carom, structuredClone(setup));
@@ -106,6 +107,13 @@ export async function openGame(s: Session, id: string): Promise<void> {
     throw new TypeError(texts.thatGameIsOpen);
   goOn(s, play, id, id === idOfLink(saved.setup, 1) ? 1 : 0, false);
 }
+/** Opens the game of a link to be watched, as one of two players at this page. */
+async function watchLink(s: Session, packed: string): Promise<void> {
+  const { setup, lines } = read(s.carom, await unpack(packed));
+  const text = JSON.stringify({ ...setup, against: "person", lines });
+  goOnWith(s, read(s.carom, text));
+  s.watching.enter();
+}
 /** Opens the game of a link under an id of its own. */
 async function openLink(s: Session, packed: string, seat: 0 | 1): Promise<void> {
   const play = read(s.carom, await unpack(packed));
@@ -126,6 +134,7 @@ export async function resume(s: Session): Promise<void> {
   const packed = query.get("g");
   const ways = [
     takeOver,
+    async () => packed && query.has("watch") && watchLink(s, packed),
     async () => packed && openLink(s, packed, query.get("seat") === "1" ? 1 : 0),
     async () => {
       const id = idOfTab() ?? (await savedGames())[0]?.id;

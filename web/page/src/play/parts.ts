@@ -65,6 +65,13 @@ export interface Link {
   close(): void;
 }
 
+/** A game that is watched (watch.ts): its bar, and what begins and ends it. */
+export interface Watching {
+  readonly root: HTMLElement;
+  enter(): void;
+  leave(): void;
+}
+
 /** Drills, a table from a photo, and one's own rating (practice.ts). */
 export interface Training {
   readonly parts: HTMLElement[];
@@ -176,6 +183,7 @@ interface Parts {
   readonly space: SpaceView;
   readonly plates: Plates;
   readonly link: Link;
+  readonly watching: Watching;
   readonly training: Training;
   readonly showing: Showing;
   readonly coach: Coach;
@@ -187,6 +195,8 @@ interface Parts {
 /** How the game stands, and what is shown of it now. */
 export interface Progress {
   play: Play;
+  /** The whole game, of which `play` is a part while it is watched. */
+  watched: Play | undefined;
   /** Under which the game is kept; "" before one is opened. */
   id: string;
   /** Which of both sits here; of two at this page, whoever is at the table. */

@@ -10,7 +10,6 @@
 // distance from the middle.
 import { texts } from "../texts/texts.js";
 
-const BALL = 0.028575;
 export type Pixel = readonly [number, number];
 /** Row by row. */
 type Matrix = readonly [number, number, number, number, number, number, number, number, number];
@@ -18,7 +17,7 @@ type Matrix = readonly [number, number, number, number, number, number, number, 
 /**
  * The solution of a square system by Gauss, with the largest pivots; undefined where there is none.
  */
-function solve(rows: number[][]): number[] | undefined {
+export function solve(rows: number[][]): number[] | undefined {
   const n = rows.length;
   for (let k = 0; k < n; k++) {
     let best = k;
@@ -66,6 +65,14 @@ function apply(m: Matrix, [x, y]: Pixel): Pixel {
   return [(m[0] * x + m[1] * y + m[2]) / w, (m[3] * x + m[4] * y + m[5]) / w];
 }
 
+/** A camera without its lens: the focal length in units of the picture's width, and where it is. */
+export interface Pose {
+  focal: number;
+  /** The directions right, down and ahead, and the eye, m; z = 0 is the plane of the noses. */
+  turn: readonly Vector[];
+  eye: Vector;
+}
+type Vector = readonly [number, number, number];
 export interface Camera {
   /** Where a ball lies whose middle is seen at a pixel, m. */
   place(pixel: Pixel): Pixel;
@@ -73,6 +80,33 @@ export interface Camera {
   pixel(place: Pixel): Pixel;
   /** The focal length, pixels; undefined where the picture does not tell it. */
   focal: number | undefined;
+  /** The outline of a ball of a radius, m, around its middle, pixels. */
+  outline(middle: Pixel, radius: number): Pixel[];
+  /** Where it is, whatever its lens. */
+  pose: Pose;
+}
+/** Points of a circle. */
+export const circle = (radius: number, points = 32): Pixel[] =>
+  Array.from({ length: points }, (_, k) => {
+    const turn = (2 * Math.PI * k) / points;
+    return [radius * Math.cos(turn), radius * Math.sin(turn)];
+  });
+
+/** The focal length of a phone, in units of the picture's width, where a picture does not tell it. */
+export const USUAL_FOCAL = 0.8;
+/** The pose of a camera that sees the plane of the noses by a homography. */
+function poseOf(H: Matrix, focal: number): Pose {
+  const columns = [0, 1, 2].map((k) => [H[k]! / focal, H[3 + k]! / focal, H[6 + k]!]);
+  const [r1, r2, t] = columns as [number[], number[], number[]];
+  const size = Math.sqrt(Math.hypot(...r1) * Math.hypot(...r2));
+  const x = r1.map((part) => part / Math.hypot(...r1));
+  const along = x.reduce((sum, part, k) => sum + part * r2[k]!, 0);
+  const rest = r2.map((part, k) => part - along * x[k]!);
+  const y = rest.map((part) => part / Math.hypot(...rest));
+  const z = [1, 2, 0].map((k) => x[k]! * y[(k + 1) % 3]! - x[(k + 1) % 3]! * y[k]!);
+  const eye = [x, y, z].map((axis) => -axis.reduce((sum, part, k) => sum + part * t[k]!, 0) / size);
+  const turn = [0, 1, 2].map((k) => [x[k]!, y[k]!, z[k]!] as const);
+  return { focal, turn, eye: eye as unknown as Vector };
 }
 
 /**
@@ -120,46 +154,30 @@ export function cameraOf(
   // The third axis, and the plane of the middles of balls.
   let M = H;
   if (focal !== undefined) {
-    const [r1, r2] = [0, 1].map((k) => [H[k]! / focal, H[3 + k]! / focal, H[6 + k]!]) as [
-      number[],
-      number[],
-    ];
-    const size = Math.hypot(...r1);
-    const r3 = [
-      r1[1]! * r2[2]! - r1[2]! * r2[1]!,
-      r1[2]! * r2[0]! - r1[0]! * r2[2]!,
-      r1[0]! * r2[1]! - r1[1]! * r2[0]!,
-    ].map((x) => x / size);
-    M = [
-      H[0],
-      H[1],
-      H[2] - lower * focal * r3[0]!,
-      H[3],
-      H[4],
-      H[5] - lower * focal * r3[1]!,
-      H[6],
-      H[7],
-      H[8] - lower * r3[2]!,
-    ];
+    const { turn } = poseOf(H, focal);
+    const size = Math.hypot(H[0] / focal, H[3] / focal, H[6]);
+    const down = turn.map((row, k) => lower * size * (k < 2 ? focal : 1) * row[2]);
+    M = H.map((x, k) => (k % 3 === 2 ? x - down[(k - 2) / 3]! : x)) as unknown as Matrix;
   }
   const back = inverse(M);
-  return {
-    place: (pixel) => apply(back, unit(pixel)),
-    pixel(place) {
-      const [u, v] = apply(M, place);
-      return [u * wide + wide / 2, v * wide + high / 2];
-    },
-    focal: focal && focal * wide,
+  const place = (pixel: Pixel): Pixel => apply(back, unit(pixel));
+  const pixel = (at: Pixel): Pixel => {
+    const [u, v] = apply(M, at);
+    return [u * wide + wide / 2, v * wide + high / 2];
   };
-}
-
-/** The radius of a ball whose middle is seen at a pixel, pixels. */
-export function radiusAt({ place, pixel }: Camera, [u, v]: Pixel): number {
-  const [x, y] = place([u, v]);
-  // The largest of both ways: a ball is seen as wide from all sides.
-  return Math.max(
-    ...[pixel([x + BALL, y]), pixel([x, y + BALL])].map(([a, b]) => Math.hypot(a - u, b - v)),
-  );
+  return {
+    place,
+    pixel,
+    focal: focal && focal * wide,
+    pose: poseOf(H, focal ?? USUAL_FOCAL),
+    outline(middle, radius) {
+      const [x, y] = place(middle);
+      // The largest of both ways: a ball is seen as wide from all sides.
+      const ways = [pixel([x + radius, y]), pixel([x, y + radius])];
+      const wide = Math.max(...ways.map(([u, v]) => Math.hypot(u - middle[0], v - middle[1])));
+      return circle(wide);
+    },
+  };
 }
 
 /** Hues that differ by less are one. */

@@ -3,8 +3,8 @@
 import { colourOf } from "../../../player/words.js";
 import { ARROWS, pixelsOf } from "../table/grip.js";
 import { button, choice, dialog, drags, el, wrong } from "../ui.js";
-import { type Camera, cameraOf, type Pixel, radiusAt, suggest } from "./photo.js";
-import { discOf, snapCorners, snapDisc } from "./snap.js";
+import { type Camera, cameraOf, type Pixel, suggest } from "./photo.js";
+import { ballsSeen, discOf, snapDisc, snapTable } from "./snap.js";
 import { texts, translate } from "../texts/texts.js";
 
 const CORNERS = [texts.headLeft, texts.headRight, texts.footRight, texts.footLeft];
@@ -16,6 +16,8 @@ const TAP = 8;
 /** How far a finger may be off, and the radius of the magnifier, CSS pixels. */
 const OFF = 3;
 const LENS = 50;
+/** Wider pictures become so wide, pixels: edges are looked for within some pixels. */
+const WIDE = 1600;
 /** The radius of the balls that may lie there, m. */
 const POOL_BALL = 0.028575;
 
@@ -43,6 +45,10 @@ interface Photo {
   /** Its pixels, for what marks snap to. */
   pixels: ImageData | undefined;
   corners: Pixel[];
+  /** By the lines of the table near the corners; where none are seen, the corners alone count. */
+  camera: Camera | undefined;
+  /** Where balls seem to lie that have no mark. */
+  unmarked: Pixel[];
   /** Marks of balls; where the colour does not tell which one, those that it may be. */
   balls: { ball: number; pixel: Pixel; candidates?: number[] | undefined }[];
   cross: Pixel;
@@ -55,15 +61,19 @@ const scaleOf = ({ picture, canvas }: Photo): number =>
 /** Width and length of the table of the photo, m. */
 const sizeOf = ({ inputs }: Photo): Pixel => [inputs.wide.valueAsNumber, inputs.long.valueAsNumber];
 const cameraOn = (p: Photo): Camera | undefined =>
-  p.picture && p.corners.length === 4
+  p.camera ??
+  (p.picture && p.corners.length === 4
     ? cameraOf([p.picture.width, p.picture.height], p.corners, sizeOf(p), LOWER)
-    : undefined;
+    : undefined);
 
 /** What is to be marked next. */
-function wordsOfMarks(corners: number, balls: number): string {
-  if (corners < 4) return texts.markTheCornerWhere(CORNERS[corners]);
-  if (balls === 0) return texts.tapTheMiddleOf;
-  return texts.anotherTapOnA(texts.ballsCounted(balls));
+function wordsOfMarks({ corners, balls, camera, unmarked }: Photo): string {
+  if (corners.length < 4) return texts.markTheCornerWhere(CORNERS[corners.length]);
+  const { length } = balls;
+  const words =
+    length === 0 ? texts.tapTheMiddleOf : texts.anotherTapOnA(texts.ballsCounted(length));
+  if (!camera) return `${texts.noLinesOfThe} ${words}`;
+  return unmarked.length > 0 ? `${words} ${texts.moreBallsSeem(unmarked.length)}` : words;
 }
 
 function draw(p: Photo): void {
@@ -127,10 +137,17 @@ function draw(p: Photo): void {
       );
       g.stroke();
     }
-    message.textContent = wordsOfMarks(corners.length, balls.length);
+    message.textContent = wordsOfMarks(p);
   } catch (error) {
     message.textContent = wrong(error);
   }
+  g.setLineDash([4 * unit, 4 * unit]);
+  for (const [x, y] of p.unmarked) {
+    g.beginPath();
+    g.arc(x, y, 11 * unit, 0, 7);
+    g.stroke();
+  }
+  g.setLineDash([]);
   for (const ball of balls) mark(ball.pixel, ball.candidates ? "?" : p.host.names[ball.ball]!);
 }
 /** The picture around a finger, four times as large, above it, or below where there is no room. */
@@ -172,7 +189,7 @@ function ballAt(p: Photo, pixel: Pixel): number[] {
     return [choice];
   }
   const candidates = suggest(
-    discOf(p.pixels!, pixel, radiusAt(cameraOn(p)!, pixel)),
+    discOf(p.pixels!, pixel, cameraOn(p)!.outline(pixel, POOL_BALL)),
     names.slice(1, 9).map((name, k) => colourOf(name, k + 1, POOL_BALL)),
   );
   const left = candidates.filter((candidate) => free.includes(candidate));
@@ -194,27 +211,35 @@ function tap(p: Photo, pixel: Pixel): void {
   } else {
     const target = snapped(p, pixel);
     const [ball, ...others] = ballAt(p, target);
-    if (ball! >= 0)
-      p.balls.push({
-        ball: ball!,
-        pixel: target,
-        candidates: others.length > 0 ? [ball!, ...others] : undefined,
-      });
+    if (ball! < 0) return void (p.message.textContent = texts.allBallsAreMarked);
+    p.balls.push({
+      ball: ball!,
+      pixel: target,
+      candidates: others.length > 0 ? [ball!, ...others] : undefined,
+    });
+    look(p);
   }
   draw(p);
 }
-/** Moves the corners to the edge of the cloth, and a mark to the disc that it is on. */
+/** Looks for balls that have no mark. */
+function look(p: Photo): void {
+  const marks = p.balls.map(({ pixel }) => pixel);
+  p.unmarked = p.camera ? ballsSeen(p.pixels!, p.camera, sizeOf(p), POOL_BALL, marks) : [];
+}
+/** Finds the camera by the lines of the table near the corners, which move to their noses. */
 function snap(p: Photo): void {
   try {
-    const targets = snapCorners(p.pixels!, p.corners, 1.2 * OFF * scaleOf(p), sizeOf(p));
-    cameraOf([p.picture!.width, p.picture!.height], targets, sizeOf(p));
-    p.corners = targets;
+    const reach = 1.2 * OFF * scaleOf(p);
+    const found = snapTable(p.pixels!, p.corners, reach, sizeOf(p), LOWER);
+    p.camera = found?.camera;
+    if (found) p.corners = found.corners;
   } catch {
-    return; // the marks are no table yet: draw() says so
+    p.camera = undefined; // the marks are no table yet: draw() says so
   }
+  look(p);
 }
 const snapped = (p: Photo, pixel: Pixel): Pixel =>
-  snapDisc(p.pixels!, pixel, radiusAt(cameraOn(p)!, pixel), OFF * scaleOf(p));
+  snapDisc(p.pixels!, pixel, cameraOn(p)!.outline(pixel, POOL_BALL), OFF * scaleOf(p));
 /** Gives the places of the balls, where all lie on the table; tells whether they do. */
 function finish(p: Photo): boolean {
   const { size, names, use } = p.host;
@@ -250,7 +275,10 @@ function down(p: Photo, touched: Pixel): void {
     moved ||= Math.hypot(target[0] - touched[0], target[1] - touched[1]) > 4 * scaleOf(p);
     last = target;
     if (moved && ball) ball.pixel = target;
-    else if (moved && corner >= 0) p.corners[corner] = target;
+    else if (moved && corner >= 0) {
+      p.corners[corner] = target;
+      p.camera = undefined;
+    }
     draw(p);
     if (p.picture) magnify(p, target);
   };
@@ -273,6 +301,8 @@ function down(p: Photo, touched: Pixel): void {
           .find((k) => !p.balls.some((second) => second !== ball && second.ball === k))!,
       });
     else if (!moved || !(ball || corner >= 0)) return tap(p, last);
+    else if (!ball && p.corners.length === 4) snap(p);
+    look(p);
     draw(p);
   };
   canvas.addEventListener("pointerup", up, { once: true });
@@ -338,13 +368,16 @@ function key(p: Photo, event: KeyboardEvent): void {
 }
 async function open(p: Photo, file: File): Promise<void> {
   try {
-    p.picture = await createImageBitmap(file);
+    const whole = await createImageBitmap(file);
+    const size = { resizeWidth: Math.min(whole.width, WIDE), resizeQuality: "high" } as const;
+    p.picture = await createImageBitmap(whole, size);
   } catch {
     return void (p.message.textContent = texts.thisBrowserCannotRead(file.name));
   }
   const { width, height } = p.picture;
   [p.canvas.width, p.canvas.height] = [width, height];
   [p.corners, p.balls, p.cross] = [[], [], [width / 2, height / 2]];
+  [p.camera, p.unmarked] = [undefined, []];
   const g = p.canvas.getContext("2d", { willReadFrequently: true })!;
   g.drawImage(p.picture, 0, 0);
   p.pixels = g.getImageData(0, 0, width, height);
@@ -365,7 +398,10 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
       step: "0.01",
       value: String(value),
     });
-    input.addEventListener("change", () => draw(p));
+    input.addEventListener("change", () => {
+      if (p.corners.length === 4) snap(p);
+      draw(p);
+    });
     return { root: el("label.inline", text, input), input };
   };
   const canvas = el("canvas#photo", {
@@ -405,12 +441,16 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
     inputs: { wide: wide.input, long: long.input },
     picture: undefined,
     corners: [],
+    camera: undefined,
+    unmarked: [],
     balls: [],
     cross: [0, 0],
     held: undefined,
   };
   const back = (): void => {
+    if (p.balls.length === 0) p.camera = undefined;
     (p.balls.length > 0 ? p.balls : p.corners).pop();
+    look(p);
     draw(p);
   };
   const root = dialog(

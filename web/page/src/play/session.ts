@@ -20,6 +20,7 @@ const angleBetween = (a: number, b: number): number => Math.abs(((a - b + 540) %
 /** How a game is on its way before anything was played. */
 export const progressOf = (play: Play): Progress => ({
   play,
+  watched: undefined,
   id: "",
   seat: 0,
   chosen: NONE,
@@ -42,8 +43,10 @@ export const progressOf = (play: Play): Progress => ({
   chancesGeneration: 0,
 });
 
-export const mine = ({ play, seat }: Session): boolean =>
-  !play.isOver && (play.practice || play.setup.against === "person" || play.turn === seat);
+export const mine = ({ play, seat, watched }: Session): boolean =>
+  !watched &&
+  !play.isOver &&
+  (play.practice || play.setup.against === "person" || play.turn === seat);
 export function stateOf(s: Session): "aiming" | "thinking" | "film" | "waiting" | "over" {
   if (s.film.playing || s.continuation !== undefined) return "film";
   if (s.thinks) return "thinking";
@@ -138,8 +141,9 @@ export function linesOf({
   return rating < 650 ? "short" : "none";
 }
 /** Why nothing can be played now. */
-export function why(s: Pick<Session, "play" | "seat" | "thinks">): string {
+export function why(s: Pick<Session, "play" | "seat" | "thinks" | "watched">): string {
   const { play } = s;
+  if (s.watched) return texts.closeTheWatch;
   if (s.thinks) return texts.theOtherPlayerThinks;
   if (play.isOver) return texts.thisGameIsOver;
   if (play.setup.against !== "link") return texts.notNowAStroke;

@@ -25,6 +25,7 @@ import { onTable } from "../table/filmed.js";
 import { Sound } from "./sound.js";
 import { Space } from "./space.js";
 import { begin, FIRST, resume, start } from "./opening.js";
+import { watching } from "./watch.js";
 import { choose, concede, mayConcede, togglePush, undo } from "./turns.js";
 import { texts, translate } from "../texts/texts.js";
 
@@ -133,6 +134,7 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
     ),
     stroke: controls(s),
     link: byLink(s),
+    watching: watching(s),
     training: practice(carom, (setup) => begin(s, setup)),
     space: new Space(s, felt),
     plates: plates(s),
@@ -195,6 +197,7 @@ function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typ
   );
   const rows = [
     shut(texts.linkToThisGame, "copy-game", () => void s.link.send()),
+    shut(texts.watchThisGame, "watch-game", () => s.watching.enter()),
     shut(texts.logOfYourStrokes, "open-log", log.open),
     shut(texts.diagramToPrint, "open-diagram", draw),
     give,
@@ -202,7 +205,7 @@ function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typ
   const games = menu(s, ...s.training.parts, el("h3", texts.thisGame), el("div.row", ...rows));
   s.buttons.menu.addEventListener("click", () => {
     give.textContent = texts.concede;
-    give.hidden = !mayConcede(s.play);
+    give.hidden = !mayConcede(s.play) || s.watched !== undefined;
     games.open();
   });
   return {
@@ -288,6 +291,7 @@ export function playView(
       ...s.choices.map(([, button]) => button),
       buttons.link,
     ),
+    s.watching.root,
     el("div.row.strike", ...stroke.row.slice(0, -1), buttons.skip, ...stroke.row.slice(-1)),
   );
   const drawer = drawerOf(s, listOfBalls(s));
