@@ -124,7 +124,7 @@ export function linesOfAim(s: Session): Line[] {
     ...waysOf(s),
   ];
 }
-/** A number on a ball of this radius can be read, pixels. */
+/** A number on a ball of the scene of this radius can be read, pixels. */
 const READABLE = 10;
 /** Draws what is aimed, called and in hand over the table; of the scene, which has that, less. */
 export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
@@ -152,7 +152,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
     const cue = aimed(s);
     if (cue && onTable(cueBall.state)) drawStick(pen, cueBall, cue);
   }
-  if (radius < READABLE || hasLetters) drawLabels(pen, play.balls, labels);
+  if (!space.isLive || radius < READABLE || hasLetters) drawLabels(pen, play.balls, labels);
 }
 
 // ---- One pointer --------------------------------------------------------------------------------
