@@ -212,13 +212,14 @@ describePages("beside the game", () => {
     );
     expect(new Set(line.map(([, y]) => y)).size).toBeGreaterThan(60);
     // The number: dark on white in the upper half of the yellow ball; its shadow is below.
-    const yellow = where([0, 0, width, height], (r, g, b) => r > 120 && g > 80 && b < 0.5 * g);
+    const yellow = where([0, 0, width, height], (r, g, b) => r > 120 && g > 80 && b < 0.3 * g);
     const xs = yellow.map(([x]) => x);
     const ys = yellow.map(([, y]) => y);
     const left = Math.min(...xs);
     const right = Math.max(...xs);
-    const top = Math.min(...ys);
     const bottom = Math.max(...ys);
+    // The white around its number is at the upper rim.
+    const top = bottom - (right - left);
     console.log(
       `behind the cue: ${(100 * room).toFixed(0)} % of the view is room; the 1 has ${right - left + 1} x ${bottom - top + 1} pixels`,
     );

@@ -125,7 +125,7 @@ export function linesOfAim(s: Session): Line[] {
     ...waysOf(s),
   ];
 }
-/** A number on a ball of this radius can be read, pixels. */
+/** A number on a ball of the scene of this radius can be read, pixels. */
 const READABLE = 10;
 /** Draws what is aimed, called and in hand over the table; of the scene, which has that, less. */
 export function drawAim(s: Session, g: CanvasRenderingContext2D): void {

@@ -12,7 +12,7 @@ import { linesOfAim, move, movable, tap } from "./aim.js";
 import { guessOf } from "./look.js";
 import type { Scene } from "./scene.js";
 import type { Session, SpaceView } from "./parts.js";
-import { aimed, called, free, says } from "./session.js";
+import { aimed, free, says } from "./session.js";
 import type { Stick } from "./stick.js";
 import { texts } from "../texts/texts.js";
 
@@ -345,11 +345,10 @@ export class Space implements SpaceView {
     this.#label(scene, poses);
     this.#time();
   }
-  /** Where the pocket is that the aim is for. */
+  /** The pocket that the ball that is met heads for; the view does not turn with what is called. */
   #pocket(): readonly number[] | undefined {
     const { first, play } = this.s;
-    const pocket = called(this.s)?.pocket ?? guessOf(play.table, first, [first?.ball ?? -1]).pocket;
-    return play.table.pockets[pocket]?.centre;
+    return play.table.pockets[guessOf(play.table, first, [first?.ball ?? -1]).pocket]?.centre;
   }
   /** A device that is too slow for a film gets a coarser scene. */
   #time(): void {

@@ -36,7 +36,8 @@ export function canvasOf(
 }
 function textureOf(canvas: HTMLCanvasElement, srgb = true): THREE.CanvasTexture {
   const map = new THREE.CanvasTexture(canvas);
-  map.wrapS = map.wrapT = THREE.RepeatWrapping;
+  map.wrapS = THREE.RepeatWrapping;
+  map.wrapT = THREE.RepeatWrapping;
   map.anisotropy = 4;
   if (srgb) map.colorSpace = THREE.SRGBColorSpace;
   return map;
