@@ -3,7 +3,6 @@
 #include "program/message.h"
 #include "shots/places.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
