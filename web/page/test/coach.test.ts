@@ -170,6 +170,8 @@ describePages("beside the game", () => {
     await act(page, "#new-game", "#numbers=on", "#menu .close", "#space");
     await page.locator("#scene").waitFor();
     expect(await violations(page)).toEqual([]);
+    // The picture is of the scene alone.
+    await page.addStyleTag({ content: ".play > :not(.felt) { visibility: hidden }" });
     const png = (await page.locator("#scene").screenshot()).toString("base64");
     const { width, height, letters } = await page.evaluate(async (png) => {
       const image = new Image();
