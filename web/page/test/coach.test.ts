@@ -171,6 +171,8 @@ describePages("beside the game", () => {
     await act(page, "#new-game", "#numbers=on", "#menu .close", "#space");
     await page.locator("#scene").waitFor();
     expect(await violations(page)).toEqual([]);
+    // The picture is of the scene alone.
+    await page.addStyleTag({ content: ".play > :not(.felt) { visibility: hidden }" });
     const { width, height, bytes } = await pictureOf(page, "#scene");
     /** The places in a rectangle whose colour is so. */
     const where = (

@@ -12,7 +12,7 @@ import { linesOfAim, move, movable, tap } from "./aim.js";
 import { guessOf } from "./look.js";
 import type { Scene } from "./scene.js";
 import type { Session, SpaceView } from "./parts.js";
-import { aimed, free, says } from "./session.js";
+import { aimed, free, isHinted, says } from "./session.js";
 import type { Stick } from "./stick.js";
 import { texts } from "../texts/texts.js";
 
@@ -366,7 +366,7 @@ export class Space implements SpaceView {
    * lies over no other one.
    */
   #label(scene: Scene, poses: readonly Pose[]): void {
-    const { play, hinted, sequence, settings, film } = this.s;
+    const { play, sequence, settings, film } = this.s;
     const over = this.#over;
     const { balls, names } = play;
     const { clientWidth: width, clientHeight: height } = scene.canvas;
@@ -376,7 +376,7 @@ export class Space implements SpaceView {
     const g = over.getContext("2d")!;
     g.scale(sharp, sharp);
     const onCloth = { g, scale: 1, place: (x: number, y: number) => scene.place(x, y, 0.002) };
-    if (hinted && film.time === 0) drawZones(onCloth, sequence);
+    if (isHinted(this.s) && film.time === 0) drawZones(onCloth, sequence);
     if (!settings.numbers) return;
     const seen = poses.map(({ r, seen }, k) => {
       const { kind } = balls[k]!;
