@@ -10,7 +10,6 @@
 #include "shots/shoot_aim.h"
 #include "shots/shot_story.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -4,7 +4,6 @@
 #include "program/words.h"
 #include "shots/places.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -5,7 +5,6 @@
 #include "program/program.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdarg.h>
 #include <sys/mman.h>
 #include <sys/stat.h>

@@ -6,7 +6,6 @@
 #include "pictures/labels.h"
 
 #include <stdbool.h>
-#include <stdio.h>
 
 /* The table's axes on the picture. */
 typedef struct view {

@@ -3,8 +3,6 @@
 #include "rows/kind.h"
 #include "rows/quantities.h"
 
-#include <string.h>
-
 enum {
   NUMBERS = sizeof(carom_impact) / sizeof(double),
   RESULTS = sizeof(carom_result) / sizeof(double)

@@ -20,7 +20,6 @@
 
 #include "rows/quantities.h"
 
-#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 

@@ -32,7 +32,6 @@
 #include "reference.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
 typedef long double real;

@@ -24,9 +24,6 @@
 #include "rows.h"
 #include "rules.h"
 
-#include <math.h>
-#include <string.h>
-
 typedef carom_candidate candidate;
 typedef carom_search search;
 

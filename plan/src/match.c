@@ -11,9 +11,7 @@
 #include "rules.h"
 #include "seats.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 /* ---- Refusals */
 

@@ -8,8 +8,6 @@
 
 #include "platform/elementary.h"
 
-#include <math.h>
-
 typedef carom_candidate candidate;
 typedef carom_search search;
 

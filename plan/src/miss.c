@@ -16,9 +16,6 @@
 #include "platform/elementary.h"
 #include "rows.h"
 
-#include <math.h>
-#include <string.h>
-
 typedef carom_candidate candidate;
 typedef carom_search search;
 

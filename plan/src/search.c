@@ -14,9 +14,6 @@
 #include "rules.h"
 #include "steer.h"
 
-#include <math.h>
-#include <string.h>
-
 typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 typedef carom_search search;
@@ -149,8 +146,11 @@ static void search_leave(search *plan) {
   plan->next = NEXT_LEAVE;
 }
 
-/* The other choices of the list are looked for. A plan that a greater one follows has no list. */
+/* Takes the shots of the best that choose nothing, and looks for the other choices of the list. A
+ * plan that a greater one follows has no list. */
 static void begin_list(search *plan) {
+  if (plan->found[0].kind != CAROM_PLAN_PASS)
+    carom_search_replayed(plan);
   plan->next = NEXT_ENDED;
   if (carom_is_stopped(plan) || plan->choices_most == 1 || plan->rest > 0)
     return;
@@ -373,17 +373,22 @@ static void take_pots(search *plan) {
   plan->scan_end = plan->count + plan->scan;
 }
 
+/* Goes on to the pots from the next place, or to a shot of each that was aimed. */
+static void aim_next(search *plan) {
+  carom_search_aimed(plan);
+  if (plan->place + 1 < plan->raced && !carom_is_stopped(plan)) {
+    carom_search_next_place(plan);
+    carom_search_pots(plan, pots_of(plan));
+    return;
+  }
+  carom_search_stage(plan, 0, plan->count, 1, 0);
+  plan->next = NEXT_TAKEN;
+}
+
 static void go_on(search *plan) {
   switch (plan->next) {
   case NEXT_AIMED:
-    carom_search_aimed(plan);
-    if (plan->place + 1 < plan->raced && !carom_is_stopped(plan)) {
-      carom_search_next_place(plan);
-      carom_search_pots(plan, pots_of(plan));
-      break;
-    }
-    carom_search_stage(plan, 0, plan->count, 1, 0);
-    plan->next = NEXT_TAKEN;
+    aim_next(plan);
     break;
   case NEXT_TAKEN:
     take_pots(plan);
@@ -428,8 +433,6 @@ static void go_on(search *plan) {
     search_leave(plan);
     break;
   case NEXT_REPLAY:
-    if (plan->found[0].kind != CAROM_PLAN_PASS)
-      carom_search_replayed(plan);
     begin_list(plan);
     break;
   case NEXT_LIST:

@@ -5,9 +5,7 @@
 #include "record/lines.h"
 #include "rules.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 /* ---- Checks */
 

@@ -16,8 +16,6 @@
 #include "platform/arithmetic.h"
 #include "platform/promise.h"
 
-#include <math.h>
-
 #define CAROM_HERTZ_DURATION 2.9432
 
 /* d_max grows with d. */

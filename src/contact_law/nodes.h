@@ -12,8 +12,6 @@
 
 #include "contact_law/quadrature.h"
 
-#include <math.h>
-#include <stdbool.h>
 #include <stdint.h>
 
 #ifdef CAROM_LANES_AVX2

@@ -19,10 +19,6 @@
 #include "platform/ranges.h"
 #include "shot/shot.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <string.h>
-
 /* Where a ball lies. */
 typedef struct lying {
   int64_t pocket;

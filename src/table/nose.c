@@ -14,8 +14,6 @@
  */
 #include "table/table.h"
 
-#include <math.h>
-
 double carom_nose_height(const carom_ball_kind *kind, double height) {
   return carom_or_usual(kind->nose_height, height);
 }

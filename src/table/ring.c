@@ -19,10 +19,6 @@
 #include "platform/promise.h"
 #include "table/table.h"
 
-#include <math.h>
-#include <stddef.h>
-#include <string.h>
-
 static const double touching = 1e-6; /* m: parts so near to each other have no hole between them */
 
 typedef struct shape {

@@ -6,7 +6,6 @@
 
 #include <stdarg.h>
 #include <sys/utsname.h>
-#include <time.h>
 #include <unistd.h>
 
 void machine_note(FILE *out, const char *what, const char *format, ...) {

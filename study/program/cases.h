@@ -5,9 +5,6 @@
 #include "carom.h"
 #include "rows/records.h"
 
-#include <stdbool.h>
-#include <stdint.h>
-
 typedef struct case_set {
   size_t count;
   char **id;

@@ -7,8 +7,6 @@
 #include "sheet.h"
 #include "subcommands.h"
 
-#include <limits.h>
-
 static const double degree = 3.14159265358979323846 / 180.0;
 
 /* What is compared, in the order of the columns: m/s and degrees. */
@@ -123,8 +121,8 @@ typedef struct experiments_job {
   bool csv;
 } experiments_job;
 
-OPTION(experiments_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "as CSV: shot,source,v_cue,v_object,angle_cue_deg,angle_object_deg");
+FLAG(experiments_job, option_csv, "csv", csv,
+     "as CSV: shot,source,v_cue,v_object,angle_cue_deg,angle_object_deg");
 
 static const command_form form = {
     .name = "experiments",

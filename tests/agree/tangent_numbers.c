@@ -15,8 +15,6 @@
 #include "precise_solver.h"
 #include "schema/numbers.h"
 
-#include <stddef.h>
-
 enum { STEPS = 13, MOST = NUMBERS * LAYOUT_BALLS };
 
 typedef struct number {

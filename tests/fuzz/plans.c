@@ -6,8 +6,6 @@
 #include "carom_plan.h"
 #include "draws.h"
 
-#include <math.h>
-
 enum { ROOM = 4 };
 
 static carom_table table;

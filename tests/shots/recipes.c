@@ -4,7 +4,6 @@
 #include "recipes.h"
 #include "random.h"
 
-#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
