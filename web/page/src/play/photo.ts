@@ -181,7 +181,7 @@ export function cameraOf(
 }
 
 /** Hues that differ by less are one. */
-const SAME_HUE = 0.08;
+const SAME_HUE = 0.12;
 /**
  * Which balls a patch of a picture may be, the likeliest first, of those that are named: red,
  * green, blue and alpha of its pixels. There is one where its

@@ -4,6 +4,7 @@ import { colourOf } from "../../../player/words.js";
 import { ARROWS, pixelsOf } from "../table/grip.js";
 import { button, choice, dialog, drags, el, wrong } from "../ui.js";
 import { type Camera, cameraOf, type Pixel, suggest } from "./photo.js";
+import { pinches } from "./pinch.js";
 import { ballsSeen, discOf, snapDisc, snapTable } from "./snap.js";
 import { texts, translate } from "../texts/texts.js";
 
@@ -307,49 +308,6 @@ function down(p: Photo, touched: Pixel): void {
   };
   canvas.addEventListener("pointerup", up, { once: true });
 }
-/** Two fingers show a part of the photo larger, and the place between them stays there. */
-function pinches(p: Photo): void {
-  const { canvas } = p;
-  const fingers = new Map<number, Pixel>();
-  let zoom = 1;
-  let x = 0;
-  let y = 0;
-  const both = (): [number, number, number] => {
-    const [a, b] = [...fingers.values()] as [Pixel, Pixel];
-    return [Math.hypot(a[0] - b[0], a[1] - b[1]), (a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
-  };
-  canvas.addEventListener(
-    "pointerdown",
-    ({ pointerId, clientX, clientY }) => {
-      fingers.set(pointerId, [clientX, clientY]);
-      if (fingers.size > 1) p.held = undefined;
-    },
-    true,
-  );
-  canvas.addEventListener("pointermove", ({ pointerId, clientX, clientY }) => {
-    if (!fingers.has(pointerId)) return;
-    if (fingers.size !== 2) return void fingers.set(pointerId, [clientX, clientY]);
-    const [far, ...starts] = both();
-    fingers.set(pointerId, [clientX, clientY]);
-    const [current, ...ends] = both();
-    const frame = canvas.parentElement!.getBoundingClientRect();
-    const more = Math.min(Math.max((zoom * current) / far, 1), 6) / zoom;
-    zoom *= more;
-    const stay = (offset: number, start: number, k: number, size: number): number =>
-      Math.min(
-        Math.max(ends[k]! - start - (starts[k]! - start - offset) * more, size * (1 - zoom)),
-        0,
-      );
-    [x, y] = [
-      stay(x, frame.left, 0, canvas.clientWidth),
-      stay(y, frame.top, 1, canvas.clientHeight),
-    ];
-    canvas.style.transform = `translate(${x}px, ${y}px) scale(${zoom})`;
-    draw(p);
-  });
-  for (const type of ["pointerup", "pointercancel"] as const)
-    canvas.addEventListener(type, ({ pointerId }) => fingers.delete(pointerId));
-}
 function key(p: Photo, event: KeyboardEvent): void {
   const arrow = ARROWS[event.key];
   if (!p.picture || (!arrow && event.key !== "Enter")) return;
@@ -469,7 +427,11 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
     canvas,
     (event, first) => event.isPrimary && (first ? down(p, pixel(event)) : p.held?.(pixel(event))),
   );
-  pinches(p);
+  pinches(
+    canvas,
+    () => (p.held = undefined),
+    () => draw(p),
+  );
   canvas.addEventListener("keydown", (event) => key(p, event));
   file.addEventListener("change", () => file.files?.[0] && void open(p, file.files[0]));
   return {

@@ -34,6 +34,8 @@ const lighter = (a: Colour, b: Colour): number => b[0] + b[1] + b[2] - a[0] - a[
 const NOSE = 0.0366;
 /** Widths of the top that are tried, m. */
 const RAILS = [0.042, RAIL, 0.058];
+/** How little edges far from a mark lose, of which each suits other errors of marks. */
+const PULLS = [4, 16];
 /** The share of a side at its ends, and beside a side pocket, where no edge is looked for. */
 const MARGIN = 0.08;
 /** Places along a side, for the first look and for the last. */
@@ -128,7 +130,7 @@ class Table {
 const kindsOf = (isSeen: boolean): Kind[] => (isSeen ? ["foot", "nose", "wood"] : ["wood"]);
 
 /** How far both ends of a side move to lie on edges, pixels outwards. */
-function moveOf(table: Table, lens: Lens, side: Side, reach: number): Pixel {
+function moveOf(table: Table, lens: Lens, side: Side, reach: number, pull: number): Pixel {
   const isSeen = table.face(lens, side) > NARROW;
   const lines = kindsOf(isSeen).map((kind) => ({
     kind,
@@ -160,7 +162,7 @@ function moveOf(table: Table, lens: Lens, side: Side, reach: number): Pixel {
           sum += edges[far + Math.round(first + (last - first) * share)]!;
         score += Math.max(sum, 0) / places.length;
       }
-      score *= Math.exp(-(first ** 2 + last ** 2) / (16 * reach ** 2));
+      score *= Math.exp(-(first ** 2 + last ** 2) / (pull * reach ** 2));
       if (score > most) [best, most] = [[first, last], score];
     }
   return best;
@@ -178,12 +180,13 @@ function movedCorners(
   corners: readonly Pixel[],
   reach: number,
   rail: number,
+  pull: number,
 ): Pixel[] {
   const { picture, size } = table;
   const { pose } = cameraOf([picture.width, picture.height], corners, size);
   const lens = { ...pose, bow: 0, rail };
   const lines = table.sides.map((side, k) => {
-    const move = moveOf(table, lens, side, reach);
+    const move = moveOf(table, lens, side, reach, pull);
     return [0, 1].map((end): Pixel => {
       const { out } = table.seen(lens, side, "nose", end);
       const [x, y] = corners[(k + end) % 4]!;
@@ -271,12 +274,14 @@ export function snapTable(
   const pixels: Pixel = [picture.width, picture.height];
   const table = new Table(picture, size);
   // The width of the top is the one whose lines are on most edges.
-  const tries = RAILS.map((rail) => {
-    let marks = corners;
-    for (const far of [reach, reach, reach / 2]) marks = movedCorners(table, marks, far, rail);
-    const start = { ...cameraOf(pixels, marks, size).pose, bow: 0, rail };
-    return fitted(table, start, FEW, [6, 4]);
-  });
+  const tries = RAILS.flatMap((rail) =>
+    PULLS.map((pull) => {
+      let marks = corners;
+      for (const far of [reach, reach / 2]) marks = movedCorners(table, marks, far, rail, pull);
+      const start = { ...cameraOf(pixels, marks, size).pose, bow: 0, rail };
+      return fitted(table, start, FEW, [6, 4]);
+    }),
+  );
   const best = tries.reduce((best, one) => (one.score > best.score ? one : best));
   const { lens, misfit, count } = fitted(table, best.lens, MANY, [3, 3]);
   if (count < 2 * MANY || misfit > MISFIT) return undefined;
