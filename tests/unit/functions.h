@@ -318,134 +318,11 @@ static int64_t read_line(carom_record *of, const char *line) {
   return carom_record_read(of, line, line == NULL ? 0 : strlen(line));
 }
 
-/* ---- The functions of physics. F(name, call): the call gives a status, or ACCEPTED. */
-
-#define PHYSICS_FUNCTIONS(F)                                                                       \
-  F(alciatore, (law = carom_alciatore(), ACCEPTED))                                                \
-  F(bank_of, carom_bank_of(INT(bank_index), PTR(&bank)))                                           \
-  F(calibrate,                                                                                     \
-    carom_calibrate(PTR(&table), PTR(&balls[0].kind), MAYBE(readings), PTR(&calibration)))         \
-  F(ball_fault, GIVES(carom_ball_fault(MAYBE(&kind), MAYBE(text), 99)))                            \
-  F(ball_kind_for, GIVES(carom_ball_kind_for(ANYENUM(carom_game, 0),                               \
-                                             ANYENUM(carom_shot_cushion, 0), MAYBE(&kind))))       \
-  F(ball_kind_of, (kind = carom_ball_kind_of(ANYENUM(carom_game, 0)), ACCEPTED))                   \
-  F(ball_kind_resolve, carom_ball_kind_resolve(MAYBE(&table), MAYBE(&options), PTR(&kind)))        \
-  F(check, carom_check(PTR(impacts), MAYBE(&impact_options), MAYBE(&where)))                       \
-  F(cite, GIVES(carom_cite(NULL, MAYBE(text), 10)))                                                \
-  F(collide, carom_collide(PTR(impacts), MAYBE(&impact_options), PTR(results)))                    \
-  F(cluster, carom_cluster(PTR(balls), INT(count), MAYBE(&options), PTR(motion), PTR(contacts),    \
-                           LENGTH(room), MAYBE(&found)))                                           \
-  F(collide_batch, carom_collide_batch(PTR(impacts), rows, MAYBE(&impact_options), PTR(results),   \
-                                       MAYBE(statuses)))                                           \
-  F(collide_batch_f32, carom_collide_batch_f32(PTR(impacts_f32), rows, MAYBE(&impact_options),     \
-                                               PTR(results_f32), MAYBE(statuses)))                 \
-  F(collide_detail,                                                                                \
-    carom_collide_detail(PTR(impacts), MAYBE(&impact_options), PTR(results), MAYBE(&detail)))      \
-  F(collide_tangent, carom_collide_tangent(PTR(impacts), NULL, INT(seeds.directions), PTR(slopes), \
-                                           PTR(numbers), MAYBE(&flags)))                           \
-  F(cue_of, (cue = carom_cue_of(ANYENUM(carom_game, 0)), ACCEPTED))                                \
-  F(cushion, carom_cushion(PTR(rails), MAYBE(&cushion_options), PTR(motion)))                      \
-  F(cushion_batch,                                                                                 \
-    carom_cushion_batch(PTR(rails), rows, MAYBE(&cushion_options), PTR(motion), MAYBE(statuses)))  \
-  F(cushion_check, carom_cushion_check(PTR(rails), MAYBE(&cushion_options), MAYBE(&where)))        \
-  F(cushion_field_name, is_text(carom_cushion_field_name(ANYINT(0))))                              \
-  F(cushion_model_name, is_text(carom_cushion_model_name(ANYENUM(carom_cushion_model, 0))))        \
-  F(condition_give, GIVES(carom_condition_give(ANYENUM(carom_condition, 0), MAYBE(&kind))))        \
-  F(cushion_start, GIVES(carom_cushion_start(ANYENUM(carom_cushion_model, 0), MAYBE(&kind))))      \
-  F(cushion_tangent, carom_cushion_tangent(PTR(rails), NULL, INT(seeds.directions), PTR(slopes),   \
-                                           PTR(numbers), MAYBE(&flags)))                           \
-  F(cushion_trace, carom_cushion_trace(PTR(rails), MAYBE(&cushion_options), (size_t)points_count,  \
-                                       PTR(cushion_points)))                                       \
-  F(event_name, is_text(carom_event_name(ANYENUM(carom_event_type, CAROM_EVENT_RAIL))))            \
-  F(field_name, is_text(carom_field_name(ANYINT(0))))                                              \
-  F(impact3, carom_impact3(PTR(impacts), PTR(results)))                                            \
-  F(game_of_table, GIVES(carom_game_of_table(ANYENUM(carom_table_kind, 0))))                       \
-  F(isa_available, GIVES(carom_isa_available(ANYENUM(carom_isa, 0))))                              \
-  F(isa_in_force, GIVES(carom_isa_in_force()))                                                     \
-  F(isa_limit, GIVES(carom_isa_limit(ANYENUM(carom_isa, CAROM_ISA_ANY))))                          \
-  F(isa_name, is_text(carom_isa_name(ANYENUM(carom_isa, 0))))                                      \
-  F(label_name, is_text(carom_label_name(ANYENUM(carom_label, 0))))                                \
-  F(mu_ball, is_number(carom_mu_ball(PTR(impacts), carom_alciatore())))                            \
-  F(number_is_read, GIVES(carom_number_is_read(MAYBE(carom_number_of(CAROM_PART_BALL, 0)),         \
-                                               MAYBE(&balls[0].kind), NULL)))                      \
-  F(number_of, GIVES(carom_number_of(ANYENUM(carom_part_kind, 4), ANYINT(0))))                     \
-  F(number_range,                                                                                  \
-    GIVES(carom_number_range(MAYBE(carom_number_of(CAROM_PART_BALL, 0)), MAYBE(text), 99)))        \
-  F(physics_revision, GIVES(carom_physics_revision()))                                             \
-  F(place_ball, carom_place_ball(PTR(&table), PTR(balls), INT(count), INT(place), NUM(place_x),    \
-                                 NUM(place_y), MAYBE(&part)))                                      \
-  F(pocket_name, is_text(carom_pocket_name(MAYBE(&table), ANYINT(0))))                             \
-  F(rack, carom_rack(ENUM(carom_rack_kind, rack_kind), PTR(&table), NUM(gap), 1, PTR(balls),       \
-                     LENGTH(count)))                                                               \
-  F(rack_name, is_text(carom_rack_name(ANYENUM(carom_rack_kind, 0))))                              \
-  F(rack_size, GIVES(carom_rack_size(ANYENUM(carom_rack_kind, 0))))                                \
-  F(rail_name, is_text(carom_rail_name(MAYBE(&table), ANYINT(0))))                                 \
-  F(record_hand, carom_record_hand(PTR(&record), INT(place)))                                      \
-  F(record_place,                                                                                  \
-    carom_record_place(PTR(&record), INT(place), NUM(place_x), NUM(place_y), MAYBE(&part)))        \
-  F(record_play,                                                                                   \
-    carom_record_play(PTR(&record), ENUM(carom_record_kind, CAROM_RECORD_SHOT), NULL))             \
-  F(record_read, read_line(PTR(&record), PTR(line_of_record())))                                   \
-  F(record_settle, carom_record_settle(PTR(&record)))                                              \
-  F(record_write, GIVES(carom_record_write(MAYBE(&record), ANYENUM(carom_record_kind, 1),          \
-                                           MAYBE(text), sizeof text)))                             \
-  F(rolling_velocity,                                                                              \
-    (carom_rolling_velocity(MAYBE(zeros), MAYBE(zeros), ANY(0.03), MAYBE(numbers)), ACCEPTED))     \
-  F(serves, GIVES(carom_serves(ANYINT(1))))                                                        \
-  F(shoot,                                                                                         \
-    carom_shoot(PTR(&table), PTR(balls), INT(count), MAYBE(&cue), MAYBE(&options), PTR(&shot)))    \
-  F(shoot_batch, carom_shoot_batch(PTR(&job)))                                                     \
-  F(shot_at, carom_shot_at(PTR(balls), INT(count), PTR(&shot), TIME(times[0]), PTR(states)))       \
-  F(shot_at_times,                                                                                 \
-    carom_shot_at_times(PTR(balls), INT(count), PTR(&shot), PTR(times), 2, PTR(states)))           \
-  F(shot_check, carom_shot_check(PTR(&table), PTR(balls), INT(count), MAYBE(&cue),                 \
-                                 MAYBE(&options), MAYBE(&where)))                                  \
-  F(shot_continue,                                                                                 \
-    carom_shot_continue(PTR(&table), PTR(balls), INT(count), MAYBE(&options), PTR(&shot)))         \
-  F(shot_drawn,                                                                                    \
-    carom_shot_drawn(PTR(&table), PTR(balls), INT(count), PTR(&shot), PTR(times), 1, PTR(states))) \
-  F(shot_falls,                                                                                    \
-    carom_shot_falls(PTR(&table), PTR(balls), INT(count), PTR(&shot), PTR(times), 1, PTR(states))) \
-  F(shot_fault, carom_shot_fault(PTR(&table), PTR(balls), INT(count), MAYBE(&cue),                 \
-                                 MAYBE(&options), PTR(&fault), MAYBE(text), 99))                   \
-  F(shot_frames, carom_shot_frames(PTR(balls), INT(count), PTR(&shot), PTR(times), 1,              \
-                                   MAYBE(&frames), MAYBE(states), MAYBE(turned)))                  \
-  F(event_slip,                                                                                    \
-    is_number(carom_event_slip(PTR(&table), PTR(balls), INT(count), PTR(&own_events[1]))))         \
-  F(shot_orientation,                                                                              \
-    carom_shot_orientation(PTR(balls), INT(count), PTR(&shot), TIME(times[0]), PTR(turned)))       \
-  F(shot_tangent,                                                                                  \
-    carom_shot_tangent(PTR(&table), PTR(balls), INT(count), is_wrong(true, 1) ? NULL : &cue,       \
-                       MAYBE(&whole_options), PTR(whole()), PTR(&seeds), PTR(tangents)))           \
-  F(shot_tangent_batch, carom_shot_tangent_batch(PTR(played_job())))                               \
-  F(slip_name, is_text(carom_slip_name(ANYENUM(carom_slip, 0))))                                   \
-  F(solver_name, is_text(carom_solver_name(ANYENUM(carom_solver, 0))))                             \
-  F(spot_of, carom_spot_of(ENUM(carom_rack_kind, 0), PTR(&table), INT(1), PTR(numbers)))           \
-  F(status_name, is_text(carom_status_name(ANYENUM(carom_status, 0))))                             \
-  F(status_string, is_text(carom_status_string(ANYENUM(carom_status, 0))))                         \
-  F(strike, carom_strike(PTR(&cue), PTR(&balls[0].kind), PTR(motion)))                             \
-  F(table_check, carom_table_check(PTR(&table), NUM(radius), MAYBE(&table_fault)))                 \
-  F(table_make, carom_table_make(ENUM(carom_table_kind, table_kind), PTR(&table)))                 \
-  F(table_marks, carom_table_marks(PTR(&table), PTR(&marks)))                                      \
-  F(table_measured,                                                                                \
-    carom_table_measured(PTR(&measures), NUM(radius), PTR(&table), MAYBE(&table_fault)))           \
-  F(table_measures, carom_table_measures(ENUM(carom_table_kind, table_kind), PTR(&measures)))      \
-  F(table_name, is_text(carom_table_name(ANYENUM(carom_table_kind, 0))))                           \
-  F(table_polygon,                                                                                 \
-    carom_table_polygon(PTR(corners), INT(corners_count), NUM(height), NUM(jaw_radius),            \
-                        NUM(radius), PTR(&table), MAYBE(&table_fault)))                            \
-  F(trace, carom_trace(PTR(impacts), MAYBE(&impact_options), (size_t)points_count, PTR(points)))   \
-  F(version, is_text(carom_version()))                                                             \
-  F(version_number, GIVES(carom_version_number()))                                                 \
-  F(word, is_text(carom_word(ANYENUM(carom_words, 0), ANYINT(0))))                                 \
-  F(word_text, is_text(carom_word_text(ANYENUM(carom_words, 0), ANYINT(0))))
-
 /* ---- The functions of games */
 
 #ifdef CAROM_WITHOUT_PLAN
 static void set_up_games(void) {
 }
-#define FUNCTIONS(F) PHYSICS_FUNCTIONS(F)
 #else
 static OWN carom_cue aimed;
 static OWN carom_plan_rules rules;
@@ -581,123 +458,37 @@ static carom_match *moving(void) {
   return &match;
 }
 
-#define GAME_FUNCTIONS(F)                                                                          \
-  F(hand_bounds, carom_hand_bounds(ENUM(carom_leave, CAROM_LEAVE_KITCHEN), PTR(&table), NUM(0.03), \
-                                   PTR(&bounds)))                                                  \
-  F(is_within, GIVES(carom_is_within(MAYBE(&bounds), ANY(0.5), ANY(0.5))))                         \
-  F(match_begin, carom_match_begin(PTR(&match), ENUM(carom_rules_kind, CAROM_RULES_NINEBALL),      \
-                                   PTR(&table), 1, INT(0)))                                        \
-  F(match_begin_to,                                                                                \
-    carom_match_begin_to(PTR(&match), ENUM(carom_rules_kind, CAROM_RULES_STRAIGHT), ANYINT(10),    \
-                         INT(0), PTR(&table), 1, INT(0)))                                          \
-  F(match_begin_at,                                                                                \
-    carom_match_begin_at(PTR(&match), ANYENUM(carom_rules_kind, CAROM_RULES_NINEBALL),             \
-                         MAYBE(&rules), PTR(&table), PTR(balls), INT(count), NULL,                 \
-                         ENUM(carom_leave, CAROM_LEAVE_ANYWHERE), INT(0)))                         \
-  F(match_begin_with, carom_match_begin_with(PTR(&match), PTR(&setup)))                            \
-  F(match_call,                                                                                    \
-    GIVES(carom_match_call(MAYBE(ready()), ANYINT(0), ((carom_call){ANYINT(1), ANYINT(1)}))))      \
-  F(match_choose, GIVES(carom_match_choose(MAYBE(ready()), ANYINT(0),                              \
-                                           ANYENUM(carom_choice, CAROM_CHOICE_PUSH))))             \
-  F(match_clock, carom_match_clock(PTR(ready()), INT(0)))                                          \
-  F(match_concede, carom_match_concede(PTR(ready()), INT(0)))                                      \
-  F(match_continue, carom_match_continue(PTR(moving()), NULL, MAYBE(&second_shot)))                \
-  F(match_end, carom_match_end(PTR(ready())))                                                      \
-  F(match_extend, GIVES(carom_match_extend(MAYBE(ready()), ANYINT(0))))                            \
-  F(match_next, GIVES(carom_match_next(MAYBE(ready()))))                                           \
-  F(match_opponent, carom_match_opponent(PTR(begun()), PTR(&player), PTR(&other_player)))          \
-  F(match_place, carom_match_place(PTR(begun()), INT(0), NUM(0.6), NUM(0.5)))                      \
-  F(match_plan, carom_match_plan(PTR(ready()), PTR(&plan), PTR(choices), LENGTH(4), PTR(&found)))  \
-  F(match_prepare, carom_match_prepare(PTR(ready()), INT(0), PTR(&safety)))                        \
-  F(match_read, GIVES(read_match(MAYBE(&reader), MAYBE(&record), MAYBE(begun()->text))))           \
-  F(match_read_from,                                                                               \
-    GIVES(read_match_from(MAYBE(&reader), MAYBE(&record), MAYBE(begun()->text), ANYINT(1))))       \
-  F(match_replay, carom_match_replay(PTR(moving()), PTR(&second_shot)))                            \
-  F(match_standing, carom_match_standing(PTR(begun()), PTR(&standing)))                            \
-  F(match_string, GIVES(carom_match_string(MAYBE(begun()), MAYBE(text), 99)))                      \
-  F(match_timeout, GIVES(carom_match_timeout(MAYBE(ready()), ANYINT(0))))                          \
-  F(match_undone, GIVES(carom_match_undone(MAYBE("{}"), 2)))                                       \
-  F(seating_make,                                                                                  \
-    carom_seating_make(ANYENUM(carom_rules_kind, CAROM_RULES_NINEBALL), INT(2), PTR(&seating)))    \
-  F(match_stroke, carom_match_stroke(PTR(ready()), INT(0), PTR(&cue), NULL, MAYBE(&second_shot)))  \
-  F(refusal_name, is_text(carom_refusal_name(ANYINT(1))))                                          \
-  F(cue_ball_of, GIVES(carom_cue_ball_of(MAYBE(&rules))))                                          \
-  F(aim, carom_aim(PTR(&table), PTR(balls), INT(count), NULL, PTR(&pot), PTR(&aimed)))             \
-  F(foul_of, GIVES(carom_foul_of(MAYBE(&facts), 2, ANYINT(0))))                                    \
-  F(foul_string, is_text(carom_foul_string(ANYINT(0))))                                            \
-  F(game_word, is_text(carom_game_word(ANYENUM(carom_game_words, 0), ANYINT(0))))                  \
-  F(game_word_text, is_text(carom_game_word_text(ANYENUM(carom_game_words, 0), ANYINT(0))))        \
-  F(is_beside, GIVES(carom_is_beside(MAYBE(&table), ANYINT(0), ANYINT(0))))                        \
-  F(plan, carom_plan(PTR(&plan), PTR(choices), LENGTH(4), PTR(&found)))                            \
-  F(plan_continue, carom_plan_continue(PTR(sliced_plan()), PTR(choices), LENGTH(4), PTR(&found)))  \
-  F(plan_hand,                                                                                     \
-    carom_plan_hand(PTR(&plan), MAYBE(zeros), NULL, PTR(choices), LENGTH(4), PTR(&found)))         \
-  F(sequence, carom_sequence(PTR(&plan), ANYINT(0), NUM(0.1), PTR(sequence_strokes), LENGTH(1),    \
-                             PTR(&found)))                                                         \
-  F(sequence_continue, carom_sequence_continue(PTR(sliced_run_out()), PTR(&found)))                \
-  F(sequence_memory, GIVES(carom_sequence_memory(MAYBE(&plan_options))))                           \
-  F(sequence_play,                                                                                 \
-    carom_sequence_play(PTR(&plan), ANYINT(0), ANYINT(0), LENGTH(1), PTR(&sequence_counts)))       \
-  F(break_best, carom_break_best(PTR(break_job()), LENGTH(16), PTR(break_choices), INT(1)))        \
-  F(break_has_rules, GIVES(carom_break_has_rules(ANYENUM(carom_rack_kind, 0))))                    \
-  F(break_memory, GIVES(carom_break_memory()))                                                     \
-  F(break_play, carom_break_play(PTR(break_job()), ANYINT(0), LENGTH(1), PTR(&break_counts)))      \
-  F(break_spread, is_number(carom_break_spread(MAYBE(&break_counts), MAYBE(numbers))))             \
-  F(break_stroke, carom_break_stroke(PTR(break_job()), ANYINT(0), PTR(balls), PTR(&aimed)))        \
-  F(drill_of, carom_drill_of(PTR(&plan), PTR(reviewed()), PTR(&drill)))                            \
-  F(fair_series, carom_fair_series(PTR(&series), PTR(&series)))                                    \
-  F(names_ball, GIVES(carom_names_ball(MAYBE(choices))))                                           \
-  F(odds_of, carom_odds_of(PTR(&series), PTR(&odds)))                                              \
-  F(practice_name, is_text(carom_practice_name(ANYENUM(carom_practice, 0))))                       \
-  F(review_of, carom_review_of(PTR(&plan), PTR(&cue), ((carom_call){-1, -1}), PTR(&review)))       \
-  F(plan_replay,                                                                                   \
-    carom_plan_replay(PTR(&plan), PTR((carom_plan_stroke *)stroke_choice()), LENGTH(1)))           \
-  F(way_chance, carom_way_chance(PTR(ways_job()), PTR(stroke_way())))                              \
-  F(way_succeeds, GIVES(carom_way_succeeds(MAYBE(ways_job()), MAYBE(whole()), MAYBE(ways))))       \
-  F(ways, carom_ways(PTR(ways_job()), PTR(ways), LENGTH(4), PTR(&ways_result)))                    \
-  F(ways_memory, GIVES(carom_ways_memory(ANYINT(4))))                                              \
-  F(why_of, carom_why_of(PTR(&plan), PTR(stroke_choice()), PTR(&why)))                             \
-  F(plan_kind_name, is_text(carom_plan_kind_name(ANYENUM(carom_plan_kind, 0))))                    \
-  F(plan_memory, GIVES(carom_plan_memory(MAYBE(&plan_options))))                                   \
-  F(plan_rules_of, (rules = carom_plan_rules_of(ANYENUM(carom_rules_kind, 0)), ACCEPTED))          \
-  F(plan_try, carom_plan_try(PTR(&plan), PTR(&cue), INT(1), PTR(choices)))                         \
-  F(plan_value, carom_plan_value(PTR(&plan), ANYINT(0), PTR(numbers)))                             \
-  F(player_fargo, (player = carom_player_fargo(ANY(500.0)), ACCEPTED))                             \
-  F(player_rated,                                                                                  \
-    (player = carom_player_rated(ANY(500.0), ANYENUM(carom_rules_kind, 0)), ACCEPTED))             \
-  F(player_of, (player = carom_player_of(ANY(1.0)), ACCEPTED))                                     \
-  F(player_strike, (carom_player_strike(MAYBE(&player), 1, 1, MAYBE(&aimed)), ACCEPTED))           \
-  F(pot_kind, GIVES(carom_pot_kind(MAYBE(&shot), ANYINT(0), ANYINT(1), ANYINT(0))))                \
-  F(rating_of, carom_rating_of(PTR(&score), LENGTH(1), PTR(&rating)))                              \
-  F(referee, carom_referee(PTR(&rules), PTR(&table), PTR(balls), INT(count), INT(0),               \
-                           MAYBE(whole()), ((carom_call){ANYINT(1), ANYINT(1)}), PTR(&ruling)))    \
-  F(rules_about_of, GIVES(carom_rules_about_of(ANYENUM(carom_rules_kind, 0))))                     \
-  F(rules_fault,                                                                                   \
-    GIVES(carom_rules_fault(ANYENUM(carom_rules_kind, 0), MAYBE(&rules_state), MAYBE(&range))))    \
-  F(ruling_string, GIVES(carom_ruling_string(MAYBE(&ruling), MAYBE(text), 99)))                    \
-  F(spot_ball, carom_spot_ball(PTR(&table), PTR(balls), INT(count), INT(1)))                       \
-  F(spot_ball_of,                                                                                  \
-    carom_spot_ball_of(ENUM(carom_rack_kind, 0), PTR(&table), PTR(balls), INT(count), INT(1)))     \
-  F(stroke_marks, GIVES(carom_stroke_marks(MAYBE(&facts), ANYINT(0))))                             \
-  F(turn_settle, carom_turn_settle(PTR(&rules), PTR(&rules_state), PTR(&table), PTR(balls),        \
-                                   INT(count), PTR(&settled)))
-
-#define FUNCTIONS(F) PHYSICS_FUNCTIONS(F) GAME_FUNCTIONS(F)
 #endif
 
-#define BODY(name, call)             \
+/* ---- The functions. calls.h has a row for each, with the arguments of carom_NAME(): once they
+ * are its call, and once its place in a table. The call gives a STATUS; or ACCEPTED, with any
+ * VALUE, a NUMBER, NAN where there is none, a WORD, NULL where there is none, or by OTHER steps. */
+
+#define LAYOUT PTR(balls), INT(count)
+#define STATUS(name, ...) OTHER(name, carom_##name(__VA_ARGS__))
+#define VALUE(name, ...) OTHER(name, GIVES(carom_##name(__VA_ARGS__)))
+#define NUMBER(name, ...) OTHER(name, is_number(carom_##name(__VA_ARGS__)))
+#define WORD(name, ...) OTHER(name, is_text(carom_##name(__VA_ARGS__)))
+#define OTHER(name, call)            \
   static int64_t call_##name(void) { \
     return (int64_t)(call);          \
   }
-FUNCTIONS(BODY)
-#undef BODY
+#include "calls.h"
+#undef OTHER
 
-#define ROW(name, call) {"carom_" #name, call_##name},
+#define OTHER(name, call) {"carom_" #name, call_##name},
 static const struct {
   const char *name;
   int64_t (*call)(void);
-} functions[] = {FUNCTIONS(ROW)};
-#undef ROW
+} functions[] = {
+#include "calls.h"
+};
+#undef OTHER
+#undef WORD
+#undef NUMBER
+#undef VALUE
+#undef STATUS
+#undef LAYOUT
 enum { COUNT = COUNT_OF(functions) };
 
 #endif

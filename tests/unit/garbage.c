@@ -63,7 +63,7 @@ TEST(no_function_is_forgotten) {
     int k = 0;
     while (k < COUNT && strcmp(functions[k].name, name) != 0)
       k++;
-    ck_assert_msg(k < COUNT, "tests/unit/functions.h does not call %s", name);
+    ck_assert_msg(k < COUNT, "tests/unit/calls.h does not call %s", name);
     exported++;
   }
   fclose(f);
