@@ -4,6 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
+from conftest import refused
 
 import carom
 from carom.games.rules import GAMES
@@ -29,9 +30,9 @@ def test_what_the_rules_forbid_changes_nothing():
         (lambda: match.choose("pass"), "choose: the choices are: none"),
         (match.resume, "resume: no ball moves: play a stroke"),
     ]:
-        with pytest.raises(carom.CaromError, match=message) as refused:
+        with pytest.raises(carom.CaromError, match=message) as caught:
             act()
-        assert refused.value.status == carom.Status.ERROR_ACT
+        assert caught.value.status == carom.Status.ERROR_ACT
     assert match.lines == lines and match.phase == "place"
 
 
@@ -222,29 +223,8 @@ def test_partners_play_a_set_with_handicaps_limits_and_time():
     assert carom.Match.load(match.end()).lines == match.lines
 
 
-@pytest.mark.parametrize(
-    "begins, message",
-    [
-        ({"seats": 1}, "seats: this game is not played by 1"),
-        ({"seats": "Ann"}, "seats: a number is needed, or names"),
-        ({"seats": [{"nam": "Ann"}, "Bo"]}, r"seats\[0\]: there is no 'nam'; there are name, side"),
-        ({"seats": [{"side": 1}, {"side": 3}]}, "begin: seats: side must be 0, 1 and so on"),
-        ({"limits": {"speeds": 1}}, "limits: there is no 'speeds'"),
-        ({"set": {"race": 1001}}, "begin: set.race must be 1 to 1000"),
-        ({"set": {"order": "loosers"}}, "set: order: must be one of 'alternate'"),
-        ({"balls": carom.racks.eightball(TABLE)[:5]}, "ball 8 on the table; the drill of potting"),
-    ],
-)
-def test_beginnings_that_are_refused(begins, message):
-    with pytest.raises((ValueError, TypeError), match=message):
-        carom.Match("eightball", TABLE, **begins)
-
-
-def test_an_empty_text_and_one_that_was_cut_off():
-    with pytest.raises(carom.CaromError, match="line 1: the text is empty: a match begins with"):
-        carom.Match.load("")
-    with pytest.raises(carom.CaromError, match="cut off: there is no line game"):
-        carom.Match.load(begun().lines[:3])
+def test_beginnings_that_are_refused(refusal):
+    refused(refusal, globals())
 
 
 def test_a_peer_sends_its_own_acts_alone():

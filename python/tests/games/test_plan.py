@@ -213,11 +213,6 @@ def test_chances_of_strokes():
         TABLE, LAYOUT, best["cue"][0], rules="potting", shots=100, player=carom.player(0.0)
     )
     assert single.shape == () and single["keep"] in (0.0, 1.0) and single["error"] < 1e-6
-    with pytest.raises(ValueError, match="cues: 1 to 1000 are needed, not 0"):
-        carom.chances(TABLE, LAYOUT, cues[:0], rules="potting")
-    cues["speed"][1] = -1.0
-    with pytest.raises(carom.CaromError, match="cues"):
-        carom.chances(TABLE, LAYOUT, cues, rules="potting")
 
 
 def test_values_of_layouts():
@@ -229,8 +224,6 @@ def test_values_of_layouts():
     away = before_a_pocket.copy()
     away["state"]["label"][0] = carom.Label.POCKETED
     assert 0.5 < carom.value(TABLE, away, rules="nineball", in_hand=True) <= 1.0
-    with pytest.raises(carom.CaromError, match="it must be in play"):
-        carom.value(TABLE, away, rules="nineball")
 
 
 def test_ball_in_hand():
@@ -276,10 +269,6 @@ def test_goals_and_safeties():
     assert near["value"] > far["value"] + 0.2
     safe = carom.plan(TABLE, LAYOUT, safeties=True, **asked)
     assert {*safe["kind"]} == {Kind.SAFETY}
-    with pytest.raises(ValueError, match="goal: must be one of"):
-        carom.plan(TABLE, LAYOUT, goal=carom.Goal("close"), **asked)
-    with pytest.raises(carom.CaromError):
-        carom.plan(TABLE, LAYOUT, goal=goal._replace(distance=0.0), **asked)
 
 
 def test_sequence():
@@ -320,24 +309,16 @@ def test_strokes_with_errors():
     assert carom.with_errors(cue, player, 5)["phi"] == 40.0
 
 
-def test_arguments_in_error():
-    layout = LAYOUT.copy()
-    layout["state"]["r"][1] = layout["state"]["r"][0]
-    with pytest.raises(carom.CaromError):
-        carom.plan(TABLE, layout)
-
-
 def _down(layout, balls):
     layout_after = layout.copy()
     layout_after["state"]["label"][balls] = carom.Label.POCKETED
     return layout_after
 
 
-def _player(**fields):
-    player = carom.player()
+def _changed(record, **fields):
     for name, value in fields.items():
-        player[name] = value
-    return player
+        record[name] = value
+    return record
 
 
 RACK = carom.racks.eightball(TABLE)
@@ -388,8 +369,6 @@ def test_the_choices_after_a_break_are_calls():
         ruling = carom.referee(TABLE, rack, cue, state=state, call=call)
         assert (ruling.turn, ruling.foul, ruling.hand) == (turn, carom.Foul.NONE, "kitchen")
         assert int(ruling.state["opening"]) == 1 and int(ruling.state["may"]) == 0
-        with pytest.raises(ValueError, match="there are 4 balls, none is 4"):
-            carom.referee(TABLE, LAYOUT, cue, state=state, call=call)
 
 
 class Corner(carom.Rules):
@@ -589,10 +568,6 @@ def test_errors_of_rules():
     assert Wrong.calls < 3  # it ends the plan
     with pytest.raises(KeyError, match="a mistake of the caller"):
         carom.referee(TABLE, LAYOUT, carom.cue(speed=1.0), rules=Wrong())
-    wrong = carom.cue()
-    wrong["speed"] = -1.0
-    with pytest.raises(carom.CaromError):
-        carom.referee(TABLE, LAYOUT, wrong)
 
 
 def test_straight_pool_and_snooker():
@@ -716,7 +691,7 @@ def test_refusals(refusal):
 
 
 def test_odds():
-    """Odds are binomial without a break; sets are a chain; who is wrong is named."""
+    """Odds are binomial without a break; sets are a chain."""
     p = 2 / 3
     odds = carom.odds((600, 500), (2, 1))
     assert_allclose([odds.game, odds.match, odds.set], [p, p**2, p**2])
@@ -725,20 +700,10 @@ def test_odds():
     assert odds.fair == (2, 1) and sum(odds.score.values()) == pytest.approx(1.0)
     sets = carom.odds((600, 500), sets=(2, 1), order="winner", side=0, break_points=100)
     assert sets.score[2, 0] == pytest.approx(0.8 * 0.5) and sets.game == odds.game
-    for wrong in (
-        lambda: carom.odds((600,)),
-        lambda: carom.odds((600, 500), 101),
-        lambda: carom.odds((600, 500), break_points=1001),
-        lambda: carom.odds((600, 500), side=2),
-    ):
-        with pytest.raises(ValueError, match="ratings|games|break_points|side"):
-            wrong()
-    with pytest.raises((TypeError, ValueError), match="order"):
-        carom.odds((600, 500), order="luck")
 
 
 def test_breaks():
-    """The breaks come with their results, the best first, as C says; who is wrong is named."""
+    """The breaks come with their results, the best first, as C says."""
     rack = carom.racks.nineball(TABLE, seed=3)
     weak = carom.player(2.0)
     best = carom.best_breaks("nineball", TABLE, rack, player=weak, breaks=32, best=4)
@@ -750,11 +715,6 @@ def test_breaks():
         "nineball", TABLE, rack, carom.cue(speed=5.0), opponent=weak, breaks=32, best=1
     )
     assert slow["cue"]["speed"][0] <= 5.0
-    for wrong, word in (({"breaks": 15}, "breaks"), ({"best": 9}, "best"), ({"gap": -1.0}, "rack")):
-        with pytest.raises(ValueError, match=word):
-            carom.best_breaks("nineball", TABLE, rack, **wrong)
-    with pytest.raises(ValueError, match="rack"):
-        carom.best_breaks("straight", TABLE, rack)
 
 
 def test_reviews():
@@ -777,8 +737,6 @@ def test_reviews():
     played["phi"] += 177.0
     other = carom.review(table, balls, played, **asked)
     assert (other.group, other.ball, other.drill) == ("no pot", None, None)
-    with pytest.raises(carom.CaromError, match="rules"):
-        carom.review(table, balls, played, rules="potting")
 
 
 def test_rating():
