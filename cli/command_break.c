@@ -43,23 +43,22 @@ static OPTION_SET(set_racks) {
   return set_count(row, text, field);
 }
 
-OPTION(break_job, option_racks, "racks", racks, 0, "N", set_racks, 1,
+OPTION(break_job, option_racks, "racks", racks, "N", set_racks, 1,
        "breaks of each speed, tip and gap", .usual = "500");
-OPTION(break_job, option_break_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "write a row for each stroke and gap instead of words");
-OPTION(break_job, option_break_json, "json", json, 0, NULL, set_flag, 0,
-       "write each break as the line of its shot with its final states, for --from final of `carom "
-       "plan` and others");
-OPTION(break_job, option_falls, "falls", falls, 0, NULL, set_flag, 0,
-       "report also which balls fall into which pockets, and how often. With --csv, each ball and "
-       "pocket has a row, instead of the other rows");
-OPTION(
-    break_job, option_best, "best", best, 0, NULL, set_flag, 0,
-    "find the breaks that win most often for this player: where the cue ball lies, the speed, the "
-    "height of the tip and the cut; and what the player's errors cost");
-OPTION(break_job, option_nine_on_spot, "nine-on-spot", nine_on_spot, 0, NULL, set_flag, 0,
-       "nine-ball's rack, with the 9 on the foot spot");
-OPTION(break_job, option_break_plot, "plot", plot, 0, "OUT", set_picture, 0,
+FLAG(break_job, option_break_csv, "csv", csv,
+     "write a row for each stroke and gap instead of words");
+FLAG(break_job, option_break_json, "json", json,
+     "write each break as the line of its shot with its final states, for --from final of `carom "
+     "plan` and others");
+FLAG(break_job, option_falls, "falls", falls,
+     "report also which balls fall into which pockets, and how often. With --csv, each ball and "
+     "pocket has a row, instead of the other rows");
+FLAG(break_job, option_best, "best", best,
+     "find the breaks that win most often for this player: where the cue ball lies, the speed, the "
+     "height of the tip and the cut; and what the player's errors cost");
+FLAG(break_job, option_nine_on_spot, "nine-on-spot", nine_on_spot,
+     "nine-ball's rack, with the 9 on the foot spot");
+OPTION(break_job, option_break_plot, "plot", plot, "OUT", set_picture, 0,
        "draw the break without errors, forty breaks with errors as thin lines, and the results of "
        "all breaks");
 

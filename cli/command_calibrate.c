@@ -28,12 +28,12 @@ static OPTION_SET(set_readings) {
   return job->read;
 }
 
-OPTION(calibrate_job, calibrate_table, "table", table, 0, "9ft|8ft|7ft", set_choice, 0, "the table",
+OPTION(calibrate_job, calibrate_table, "table", table, "9ft|8ft|7ft", set_choice, 0, "the table",
        .usual = "9ft");
-OPTION(calibrate_job, calibrate_read, "read", reading, 0, "A,B,C", set_readings, 0,
+OPTION(calibrate_job, calibrate_read, "read", reading, "A,B,C", set_readings, 0,
        "where the three banks came back, in sights from the corner where they began; tenths are "
        "wanted: 4.8 lies before the fifth sight");
-OPTION(calibrate_job, calibrate_plot, "plot", picture, 0, "OUT", set_picture, 0,
+OPTION(calibrate_job, calibrate_plot, "plot", picture, "OUT", set_picture, 0,
        "draw the three banks. OUT.svg, OUT.png or OUT.pdf");
 
 static const command_form form = {

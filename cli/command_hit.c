@@ -89,7 +89,7 @@ static OPTION_SET(set_frictions) {
   return option_friction.set(row, text, &s->shared.friction);
 }
 
-OPTION(series, option_frictions, "friction", in[FRICTION], 0, "alciatore|MU", set_frictions,
+OPTION(series, option_frictions, "friction", in[FRICTION], "alciatore|MU", set_frictions,
        MEASURE_FRICTION,
        "friction between the balls: numbers; or alciatore, which falls with the slip "
        "speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants",
@@ -100,13 +100,13 @@ INPUT(option_roll, "roll", ROLL, "MU", MEASURE_NUMBER,
       "rolling resistance of the cloth, for distances", .usual = "0.01");
 INPUT(option_restitution, "restitution", RESTITUTION, "E", MEASURE_NUMBER,
       "restitution of the balls", .usual = "0.95");
-OPTION(series, option_quantity, "quantity", asked_for, 0, QUANTITIES, set_quantities, 0,
+OPTION(series, option_quantity, "quantity", asked_for, QUANTITIES, set_quantities, 0,
        "the quantity that curves show, or those of tables, with commas",
        .else_usual = "throw; of tables all");
-OPTION(series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "write the collisions as rows for `carom resolve`. An id is the spin and the values of "
-       "other lists, such as draw-1.5m/s. With --quantity: write a table of it");
-OPTION(series, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
+FLAG(series, option_csv, "csv", csv,
+     "write the collisions as rows for `carom resolve`. An id is the spin and the values of "
+     "other lists, such as draw-1.5m/s. With --quantity: write a table of it");
+OPTION(series, option_plot, "plot", picture, "OUT", set_picture, 0,
        "draw the balls and their paths of every collision from above; or curves over a range, by "
        "gnuplot. OUT.svg, OUT.png or OUT.pdf");
 

@@ -22,35 +22,35 @@ typedef struct match_job {
   bool equal, winner_breaks;
 } match_job;
 
-OPTION(match_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES, "the game",
+OPTION(match_job, option_rules, "rules", rules, NULL, set_named, CAROM_WORDS_RULES, "the game",
        .else_usual = "eightball, or the game of the file");
-OPTION(match_job, option_table, "table", table, 0, NULL, set_named, CAROM_WORDS_TABLE, "the table",
+OPTION(match_job, option_table, "table", table, NULL, set_named, CAROM_WORDS_TABLE, "the table",
        .else_usual = "that of the game");
 OPTION(
-    match_job, option_players, "players", rating, 0, "A,B,...", set_ratings, 0,
+    match_job, option_players, "players", rating, "A,B,...", set_ratings, 0,
     "the Fargo ratings of 2 to 8 players, 200 to 850; in games of two sides every other one is a "
     "partner",
     .else_usual = "600 each");
-OPTION(match_job, option_race, "race", race, 0, "N", set_count, 1,
+OPTION(match_job, option_race, "race", race, "N", set_count, 1,
        "play a set, until a side has won so many matches; the sides break in turn",
        .else_usual = "one match");
-OPTION(match_job, option_winner_breaks, "winner-breaks", winner_breaks, 0, NULL, set_flag, 0,
-       "in a set, who has won a match breaks the next one");
-OPTION(match_job, option_breaks, "breaks", breaks, 0, "1|2", set_choice, 0, "the player who breaks",
+FLAG(match_job, option_winner_breaks, "winner-breaks", winner_breaks,
+     "in a set, who has won a match breaks the next one");
+OPTION(match_job, option_breaks, "breaks", breaks, "1|2", set_choice, 0, "the player who breaks",
        .usual = "1");
-OPTION(match_job, option_seed, "seed", seed, 0, "N", set_count, 0,
+OPTION(match_job, option_seed, "seed", seed, "N", set_count, 0,
        "from which the gaps of the rack and the errors are drawn", .usual = "1");
-OPTION(match_job, option_shots, "shots", shots, 0, "N", set_count, 100,
+OPTION(match_job, option_shots, "shots", shots, "N", set_count, 100,
        "shots by which a player plans each stroke", .usual = "300");
-OPTION(match_job, option_strokes, "strokes", strokes, 0, "N", set_count, 1,
+OPTION(match_job, option_strokes, "strokes", strokes, "N", set_count, 1,
        "stop after so many strokes: the recording has no end, and can be gone on with");
-OPTION(match_job, option_target, "target", target, 0, "N", set_count, 1,
+OPTION(match_job, option_target, "target", target, "N", set_count, 1,
        "the points that win, in games of points", .else_usual = "those of the game");
-OPTION(match_job, option_equal, "equal-innings", equal, 0, NULL, set_flag, 0,
-       "in three-cushion and straight rail: if the player who broke reaches the target first, the "
-       "other has one more inning, and the match may be drawn");
-OPTION(match_job, option_show, "show", shows, 0, NULL, set_flag, 0,
-       "instead of playing: judge GAME, and tell each stroke in words");
+FLAG(match_job, option_equal, "equal-innings", equal,
+     "in three-cushion and straight rail: if the player who broke reaches the target first, the "
+     "other has one more inning, and the match may be drawn");
+FLAG(match_job, option_show, "show", shows,
+     "instead of playing: judge GAME, and tell each stroke in words");
 
 static const command_form match_form = {
     .name = "match",

@@ -15,21 +15,20 @@ typedef struct odds_job {
   bool csv, winner_breaks;
 } odds_job;
 
-OPTION(odds_job, option_players, "players", rating, 0, "A,B", set_ratings, 0,
+OPTION(odds_job, option_players, "players", rating, "A,B", set_ratings, 0,
        "the Fargo ratings of both, 200 to 850");
-OPTION(odds_job, option_race, "race", games, 0, "N[,M]", set_lengths, 0,
+OPTION(odds_job, option_race, "race", games, "N[,M]", set_lengths, 0,
        "how many games a player needs to win a set; N,M with a handicap", .usual = "1");
-OPTION(odds_job, option_sets, "sets", sets, 0, "N[,M]", set_lengths, 0,
+OPTION(odds_job, option_sets, "sets", sets, "N[,M]", set_lengths, 0,
        "how many sets a player needs to win the match", .usual = "1");
-OPTION(odds_job, option_winner_breaks, "winner-breaks", winner_breaks, 0, NULL, set_flag, 0,
-       "who has won a game breaks the next one; else the players break in turn");
-OPTION(odds_job, option_breaks, "breaks", breaks, 0, "lot|1|2", set_choice, 0,
+FLAG(odds_job, option_winner_breaks, "winner-breaks", winner_breaks,
+     "who has won a game breaks the next one; else the players break in turn");
+OPTION(odds_job, option_breaks, "breaks", breaks, "lot|1|2", set_choice, 0,
        "the player who breaks first", .usual = "lot");
-OPTION(odds_job, option_break_points, "break-points", break_points, 0, "X", set_number, 0,
+OPTION(odds_job, option_break_points, "break-points", break_points, "X", set_number, 0,
        "how many points of rating the break is worth in a game; below 0 it is a burden",
        .usual = "0");
-OPTION(odds_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "write each final score and its chance instead of words");
+FLAG(odds_job, option_csv, "csv", csv, "write each final score and its chance instead of words");
 
 static const command_form form = {
     .name = "odds",

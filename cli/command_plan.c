@@ -37,74 +37,70 @@ typedef struct plan_job {
   const char *plot;
 } plan_job;
 
-OPTION(plan_job, option_rules, "rules", game.rules, 0, NULL, set_named, CAROM_WORDS_RULES,
+OPTION(plan_job, option_rules, "rules", game.rules, NULL, set_named, CAROM_WORDS_RULES,
        "the game; potting has no rules: all balls count. The cue ball is named cue, and the others "
        "by their numbers, or in snooker as in "
        "its rack: red1, yellow; potting, cowboy and games without pockets take any names, in the "
        "order of the rack",
        .else_usual = "eightball, or potting where no ball is named 8");
-OPTION(plan_job, option_group, "group", game.group, 0, "open|solids|stripes", set_choice, 0,
+OPTION(plan_job, option_group, "group", game.group, "open|solids|stripes", set_choice, 0,
        "the balls of the player, where each has a group; open: any but the eight", .usual = "open");
-OPTION(plan_job, option_permission, "may", game.permission, 0, "shoot|push-out|pass|free-ball",
+OPTION(plan_job, option_permission, "may", game.permission, "shoot|push-out|pass|free-ball",
        set_choice, 0,
        "what the player may do; shoot: nothing but a shot; free-ball: pass, or play any ball",
        .usual = "shoot");
-OPTION(plan_job, option_score, "score", game.score, 0, "OWN,OTHER", set_score, 0,
+OPTION(plan_job, option_score, "score", game.score, "OWN,OTHER", set_score, 0,
        "points, or balls, of the player and of the opponent; below 0 if the player lost or owes "
        "them",
        .usual = "0,0");
-OPTION(plan_job, option_own_pocket, "own-pocket", game.pocket, 0, "foot-right|foot-left",
-       set_choice, 0, "the player's pocket, in games where each player has one",
-       .else_usual = "foot-right");
-OPTION(plan_job, option_target, "target", game.target, 0, "N", set_count, 1,
+OPTION(plan_job, option_own_pocket, "own-pocket", game.pocket, "foot-right|foot-left", set_choice,
+       0, "the player's pocket, in games where each player has one", .else_usual = "foot-right");
+OPTION(plan_job, option_target, "target", game.target, "N", set_count, 1,
        "points that win, where the rules leave it open");
-OPTION(plan_job, option_colour, "colour", game.colour, 0, NULL, set_flag, 0,
-       "in snooker: a colour is on, after a red");
-OPTION(plan_job, option_last_inning, "last-inning", game.last_inning, 0, NULL, set_flag, 0,
-       "in three-cushion and straight rail: this is the equalizing inning, in which a miss loses");
-OPTION(plan_job, option_opening, "opening", game.opening, 0, NULL, set_flag, 0,
-       "the stroke is the break. With --in-hand the cue ball is put on the head string, or behind "
-       "it");
-OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
-       "the cue ball is in hand: the plan also says where to put it, within the rules");
-OPTION(plan_job, option_run_out, "run-out", run_out, 0, NULL, set_flag, 0,
-       "plan to run out: a turn that ends before the game is won is worth nothing");
-OPTION(plan_job, option_only, "only", only, 0, "any|safeties", set_choice, 0,
+FLAG(plan_job, option_colour, "colour", game.colour, "in snooker: a colour is on, after a red");
+FLAG(plan_job, option_last_inning, "last-inning", game.last_inning,
+     "in three-cushion and straight rail: this is the equalizing inning, in which a miss loses");
+FLAG(plan_job, option_opening, "opening", game.opening,
+     "the stroke is the break. With --in-hand the cue ball is put on the head string, or behind "
+     "it");
+FLAG(plan_job, option_hand, "in-hand", hand,
+     "the cue ball is in hand: the plan also says where to put it, within the rules");
+FLAG(plan_job, option_run_out, "run-out", run_out,
+     "plan to run out: a turn that ends before the game is won is worth nothing");
+OPTION(plan_job, option_only, "only", only, "any|safeties", set_choice, 0,
        "safeties: strokes that pass the turn without a foul, which carom lists by their directions",
        .usual = "any");
 OPTION(
-    plan_job, option_goal, "leave", goal, 0, GOAL_ARGUMENT, set_goal, 0,
+    plan_job, option_goal, "leave", goal, GOAL_ARGUMENT, set_goal, 0,
     "what the stroke is to leave; carom reports the chance of that. hidden: a safety after which "
     "the other can hit no ball that is on in a straight line; snooker: one after which balls are "
     "in the way to an edge of BALL; near: the cue ball within R, else 0.15 m, of a place as in "
     "`carom ways --leave`; apart: the balls at least a ball's width from all others. For the "
     "last two the player plays on, or with --only safeties passes the turn");
-OPTION(
-    plan_job, option_sequence, "sequence", sequence, 0, NULL, set_flag, 0,
-    "plan the run-out as a whole: stroke by stroke, how much speed and direction may err, where "
-    "the cue ball may land, and which ball comes next if it lands elsewhere. In the landing zone "
-    "the chance of the rest falls by at most 3 %, as --value estimates it");
-OPTION(plan_job, option_plays, "plays", plays, 0, "N", set_count, 0,
+FLAG(plan_job, option_sequence, "sequence", sequence,
+     "plan the run-out as a whole: stroke by stroke, how much speed and direction may err, where "
+     "the cue ball may land, and which ball comes next if it lands elsewhere. In the landing zone "
+     "the chance of the rest falls by at most 3 %, as --value estimates it");
+OPTION(plan_job, option_plays, "plays", plays, "N", set_count, 0,
        "with --sequence: how many run-outs with errors to play for the chance of the whole, each "
        "stroke planned anew by at most 300 shots",
        .usual = "100");
 static const option_row options_of_plan = {
     .set = set_option, .field = offsetof(plan_job, plan), .part = CAROM_PART_PLAN_OPTIONS};
-OPTION(plan_job, option_try, "try", tries, 0, NULL, set_flag, 0,
-       "instead of a plan: the chances of the strokes in the file, that of the first shot and "
-       "those of up to 999 more shots from the same layout, in their order");
-OPTION(plan_job, option_value, "value", value, 0, NULL, set_flag, 0,
-       "instead of a plan: the chance to win from the layout, an estimate for which carom plays no "
-       "shot");
-OPTION(plan_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "write rows of CSV instead of words");
-OPTION(plan_job, option_plan_json, "json", json, 0, NULL, set_flag, 0,
-       "write each shot as the line of its stroke, for `carom shoot`");
-OPTION(plan_job, option_why, "why", why, 0, NULL, set_flag, 0,
-       "explain each shot: how to aim it, what it leaves, how often it misses and what a miss "
-       "leaves, and what errors cost");
+FLAG(plan_job, option_try, "try", tries,
+     "instead of a plan: the chances of the strokes in the file, that of the first shot and "
+     "those of up to 999 more shots from the same layout, in their order");
+FLAG(plan_job, option_value, "value", value,
+     "instead of a plan: the chance to win from the layout, an estimate for which carom plays no "
+     "shot");
+FLAG(plan_job, option_csv, "csv", csv, "write rows of CSV instead of words");
+FLAG(plan_job, option_plan_json, "json", json,
+     "write each shot as the line of its stroke, for `carom shoot`");
+FLAG(plan_job, option_why, "why", why,
+     "explain each shot: how to aim it, what it leaves, how often it misses and what a miss "
+     "leaves, and what errors cost");
 OPTION(
-    plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0,
+    plan_job, option_plan_plot, "plot", plot, "OUT", set_picture, 0,
     "draw the best shot: its paths without errors, thin lines with errors, and what can go wrong");
 
 /* Whether the game is one of points on a table without pockets. */

@@ -15,12 +15,12 @@ typedef struct practice_job {
   bool csv;
 } practice_job;
 
-OPTION(practice_job, option_seat, "seat", seat, 0, "1|2", set_choice, 0, "whose strokes",
+OPTION(practice_job, option_seat, "seat", seat, "1|2", set_choice, 0, "whose strokes",
        .usual = "1");
-OPTION(practice_job, option_drills, "drills", drills, 0, "N", set_count, 1,
-       "how many drills are made", .usual = "3");
-OPTION(practice_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "write the drills as rows of the page's drills, of a 9-ft pool table");
+OPTION(practice_job, option_drills, "drills", drills, "N", set_count, 1, "how many drills are made",
+       .usual = "3");
+FLAG(practice_job, option_csv, "csv", csv,
+     "write the drills as rows of the page's drills, of a 9-ft pool table");
 
 static const command_form form = {
     .name = "practice",

@@ -50,7 +50,7 @@ INPUT(option_side, "side", SIDE, "right|left|running|reverse|gearing|none|SPIN",
       "english (100%: 1.25 V/R) or tip; right, left, running, reverse: 100%; "
       "gearing: the ball rolls along the cushion; none",
       .usual = "none");
-OPTION(series, option_game, "game", game, 0, NULL, set_named, CAROM_WORDS_GAME,
+OPTION(series, option_game, "game", game, NULL, set_named, CAROM_WORDS_GAME,
        "the game whose ball, cloth and cushion give the numbers that you leave out",
        .usual = "pool");
 INPUT(option_height, "height", HEIGHT, "H", MEASURE_LENGTH,
@@ -86,13 +86,13 @@ static const option_row option_models = {
     .field = offsetof(series, in[MODEL]),
     .least = MEASURE_MODEL,
     .words = CAROM_WORDS_CUSHION_MODEL};
-OPTION(series, option_quantity, "quantity", asked_for, 0, QUANTITIES, set_quantities, 0,
+OPTION(series, option_quantity, "quantity", asked_for, QUANTITIES, set_quantities, 0,
        "the quantity that curves show, or those of tables, with commas",
        .else_usual = "rolling-rebound; of tables all");
-OPTION(series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "write the impacts as rows for `carom resolve --cushion`. With --quantity: write a table of "
-       "it");
-OPTION(series, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
+FLAG(series, option_csv, "csv", csv,
+     "write the impacts as rows for `carom resolve --cushion`. With --quantity: write a table of "
+     "it");
+OPTION(series, option_plot, "plot", picture, "OUT", set_picture, 0,
        "draw the ball and its path of every impact from above; or curves over a range, by gnuplot. "
        "OUT.svg, OUT.png or OUT.pdf");
 

@@ -9,7 +9,7 @@ typedef struct rating_job {
   int player;
 } rating_job;
 
-OPTION(rating_job, option_seat, "seat", player, 0, "1|2", set_choice, 0,
+OPTION(rating_job, option_seat, "seat", player, "1|2", set_choice, 0,
        "whose rating is asked for, in recorded matches", .usual = "1");
 
 static const command_form form = {

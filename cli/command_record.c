@@ -19,7 +19,7 @@ typedef struct record_job {
   int events;
 } record_job;
 
-OPTION(record_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
+OPTION(record_job, option_events, "events", events, "none|brief|full", set_choice, 0,
        "what to record about events: nothing; time, type and balls; or the states "
        "too. `carom verify` then reports the first event whose bits differ",
        .usual = "none");

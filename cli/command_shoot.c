@@ -46,34 +46,34 @@ typedef struct block {
   int8_t batch_status[BLOCK];
 } block;
 
-OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
+OPTION(shoot_job, option_events, "events", events, "none|brief|full", set_choice, 0,
        "what to write about events: nothing; time, type and ids; or the states before and after "
        "too. With a shot by options: write it as a line like those of a file, instead of words",
        .else_usual = "full; of a shot by options words");
-OPTION(shoot_job, option_story, "csv", csv, 0, NULL, set_flag, 0,
-       "with a shot by options: write what the balls do as rows, instead of words: where each ball "
-       "leaves, begins to roll, meets a rail, passes another ball and rests");
-OPTION(shoot_job, option_plot, "plot", drawn.path[PICTURE], 0, "OUT", set_picture, 0,
+FLAG(shoot_job, option_story, "csv", csv,
+     "with a shot by options: write what the balls do as rows, instead of words: where each ball "
+     "leaves, begins to roll, meets a rail, passes another ball and rests");
+OPTION(shoot_job, option_plot, "plot", drawn.path[PICTURE], "OUT", set_picture, 0,
        "draw the table and the paths of the balls in the first shot without an error, or in all "
        "shots that options describe; if a ball flies, also from the side");
-OPTION(shoot_job, option_spread, "spread", error, 0, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
+OPTION(shoot_job, option_spread, "spread", error, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
        "standard deviations of a player's error: speed in %, aim in degrees, tip in radii, such as "
        "1%,0.05,0.01,0.01. carom reports the standard deviations of the places where the balls "
        "end, to first order. With --plot it draws them as bands around the paths, up to 0.3 m, and "
        "shows how far they hold");
 OPTION(
-    shoot_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
+    shoot_job, option_leave, "leave", leave, LEAVE_ARGUMENT, set_leave, 0,
     "with a shot by options: the cue ball is to end within R, else 0.15 m, of this place, as in "
     "`carom ways`. carom tries the speeds and tips that are given, or 0.5 to 4 m/s and five tips "
     "from draw to follow. It plays the stroke with which most strokes of a player do this, and pot "
     "the ball of --pocket. It reports how many do, and with which speeds the cue ball ends there");
 OPTION(
-    shoot_job, option_animate, "animate", drawn.path[FILM], 0, "OUT.html|OUT.svg", set_animation, 0,
+    shoot_job, option_animate, "animate", drawn.path[FILM], "OUT.html|OUT.svg", set_animation, 0,
     "write a page that plays the shots which --plot draws; it is one file and needs nothing else. "
     "OUT.svg: a picture in which the balls of the first shot move, for pages without scripts");
-OPTION(shoot_job, option_cite, "cite", cite, 0, NULL, set_flag, 0,
-       "write the sources of these models as BibTeX, and play nothing; needs no IN");
-OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot with this id");
+FLAG(shoot_job, option_cite, "cite", cite,
+     "write the sources of these models as BibTeX, and play nothing; needs no IN");
+OPTION(shoot_job, option_shot_id, "id", id, "ID", set_text, 0, "draw the shot with this id");
 
 static carom_shot_options options_of(const shoot_job *job) {
   carom_shot_options options = job->flags.shared.shot;

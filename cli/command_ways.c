@@ -32,29 +32,29 @@ typedef struct ways_job {
   bool csv, json, each;
 } ways_job;
 
-OPTION(ways_job, option_ball, "ball", ball, 0, "NAME|any", set_text, 0, "the ball to be potted",
+OPTION(ways_job, option_ball, "ball", ball, "NAME|any", set_text, 0, "the ball to be potted",
        .else_usual = "any");
-OPTION(ways_job, option_to_pocket, "pocket", pocket, 0, "NAME|any", set_text, 0,
+OPTION(ways_job, option_to_pocket, "pocket", pocket, "NAME|any", set_text, 0,
        "the pocket into which it is to fall, such as foot-left", .else_usual = "any");
-OPTION(ways_job, option_rails, "rails", rails, 0, "0|1|2", set_choice, 0,
+OPTION(ways_job, option_rails, "rails", rails, "0|1|2", set_choice, 0,
        "largest number of rails in banks, kicks and caroms", .usual = "2");
-OPTION(ways_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
+OPTION(ways_job, option_leave, "leave", leave, LEAVE_ARGUMENT, set_leave, 0,
        "the cue ball is to end within R, else 0.15 m, of this place, m, or with units, "
        "2d,4d,20cm, or named as in --cue, foot-spot,20cm. This counts for the chance, so carom "
        "reports which of several speeds and tips brings the cue ball there. Without other balls, "
        "the cue ball is sent there alone");
-OPTION(ways_job, option_scan, "scan", scanned, 0, "N", set_count, 1,
+OPTION(ways_job, option_scan, "scan", scanned, "N", set_count, 1,
        "how many strokes in all directions to try",
        .else_usual =
            "20000, or 1800 for each speed and tip if that is more; for points and the cue "
            "ball alone 100000");
-OPTION(ways_job, option_each, "each", each, 0, NULL, set_flag, 0,
-       "report each stroke with which a way succeeds, in the order of the strokes, instead of the "
-       "best one. This shows how wide the way is over speeds and tips");
-OPTION(ways_job, option_ways_csv, "csv", csv, 0, NULL, set_flag, 0, "write rows instead of words");
-OPTION(ways_job, option_ways_json, "json", json, 0, NULL, set_flag, 0,
-       "write each way as the line of its stroke, for `carom shoot`, with an object `way`");
-OPTION(ways_job, option_ways_plot, "plot", plot, 0, "OUT", set_picture, 0,
+FLAG(ways_job, option_each, "each", each,
+     "report each stroke with which a way succeeds, in the order of the strokes, instead of the "
+     "best one. This shows how wide the way is over speeds and tips");
+FLAG(ways_job, option_ways_csv, "csv", csv, "write rows instead of words");
+FLAG(ways_job, option_ways_json, "json", json,
+     "write each way as the line of its stroke, for `carom shoot`, with an object `way`");
+OPTION(ways_job, option_ways_plot, "plot", plot, "OUT", set_picture, 0,
        "draw the eight best ways over each other");
 
 /* ---- What is told */

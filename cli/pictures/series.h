@@ -56,7 +56,7 @@ struct series {
 
 /* An option for the values of an input. */
 #define INPUT(row, option, input, argument, measure, ...) \
-  OPTION(series, row, option, in[input], 0, argument, set_values, measure, __VA_ARGS__)
+  OPTION(series, row, option, in[input], argument, set_values, measure, __VA_ARGS__)
 
 /* series.asked_for: words of row->argument, with commas. */
 OPTION_SET(set_quantities);

@@ -190,17 +190,18 @@ OPTION_SET(set_cue_number); /* given_numbers: values of the number of a cue that
 
 /* A row of a job: the kind of rows that it is for, its own name, and what stands in an option_row;
  * behind the help may stand .usual = "2" and the like. OPTION() is one of a single table, for every
- * kind. */
-#define OPTION_ROW(job, only_for, row, option, member, short_form, value, setter, minimum, ...) \
-  const option_row row = {.name = option,                                                       \
-                          .letter = short_form,                                                 \
-                          .argument = value,                                                    \
-                          .set = setter,                                                        \
-                          .field = offsetof(job, member),                                       \
-                          .least = minimum,                                                     \
-                          .only = only_for,                                                     \
+ * kind, and FLAG() one without an argument. */
+#define OPTION_ROW(job, only_for, row, option, member, value, setter, minimum, ...) \
+  const option_row row = {.name = option,                                           \
+                          .argument = value,                                        \
+                          .set = setter,                                            \
+                          .field = offsetof(job, member),                           \
+                          .least = minimum,                                         \
+                          .only = only_for,                                         \
                           .help = __VA_ARGS__}
-#define OPTION(job, row, option, member, letter, argument, set, least, ...) \
-  static OPTION_ROW(job, ANY_KIND, row, option, member, letter, argument, set, least, __VA_ARGS__)
+#define OPTION(job, row, option, member, argument, set, least, ...) \
+  static OPTION_ROW(job, ANY_KIND, row, option, member, argument, set, least, __VA_ARGS__)
+#define FLAG(job, row, option, member, ...) \
+  OPTION(job, row, option, member, NULL, set_flag, 0, __VA_ARGS__)
 
 #endif

@@ -689,78 +689,78 @@ static OPTION_SET(set_eye) {
 
 /* ---- The rows */
 
-#define ROW(row, name, member, letter, argument, set, least, only, ...) \
-  OPTION_ROW(shared_options, only, row, name, member, letter, argument, set, least, __VA_ARGS__)
+#define ROW(row, name, member, argument, set, least, only, ...) \
+  OPTION_ROW(shared_options, only, row, name, member, argument, set, least, __VA_ARGS__)
 
-ROW(option_solver, "solver", options.solver, 0, NULL, set_named, CAROM_WORDS_SOLVER, BALLS_ONLY,
+ROW(option_solver, "solver", options.solver, NULL, set_named, CAROM_WORDS_SOLVER, BALLS_ONLY,
     "exact: the limit of infinitely many steps; fast: the same in less time, but not smooth; "
     "euler: N "
     "steps of equal impulse, as in the 2014 paper",
     .usual = "exact");
-ROW(option_slip, "slip", options.slip, 0, NULL, set_named, CAROM_WORDS_SLIP, BALLS_ONLY,
+ROW(option_slip, "slip", options.slip, NULL, set_named, CAROM_WORDS_SLIP, BALLS_ONLY,
     "sign of the spin in the slip over the cloth: the 2014 paper's, or pooltool's",
     .usual = "paper");
-ROW(option_friction, "friction", friction, 0, "alciatore|LAW", set_law, 0, BALLS_ONLY,
+ROW(option_friction, "friction", friction, "alciatore|LAW", set_law, 0, BALLS_ONLY,
     "friction between the balls, instead of the column u_b: a number; or alciatore, which falls "
     "with the slip speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other "
     "constants");
-ROW(option_data, "data", folder, 0, "DIR", set_text, 0, BALLS_ONLY,
+ROW(option_data, "data", folder, "DIR", set_text, 0, BALLS_ONLY,
     "folder of the reference collisions", .else_usual = "$CAROM_DATA, else what came with carom");
-ROW(option_steps, "steps", options.steps, 0, "N", set_count, 1, ANY_KIND,
+ROW(option_steps, "steps", options.steps, "N", set_count, 1, ANY_KIND,
     "steps of Euler's method, 1 or more", .usual = "1000");
-ROW(option_threads, "threads", options.threads, 0, "all|N", set_threads, 1, ANY_KIND,
+ROW(option_threads, "threads", options.threads, "all|N", set_threads, 1, ANY_KIND,
     "largest number of threads; all: one for each processor", .usual = "all");
-ROW(option_precision, "precision", precision, 0, "double|single", set_choice, 0, ANY_KIND,
+ROW(option_precision, "precision", precision, "double|single", set_choice, 0, ANY_KIND,
     "precision of the results, and of the solver for two balls",
     .else_usual = "single for a float32 array, otherwise double");
-ROW(option_output, "output", output, 'o', "OUT", set_text, 0, ANY_KIND,
+ROW(option_output, "output", output, "OUT", set_text, 0, ANY_KIND,
     "file to write; - is standard output. OUT is never incomplete: carom writes a file "
     "beside it, and renames it at the end. If the folder cannot be written, carom overwrites OUT "
     "at the end",
-    .usual = "-");
-ROW(option_derived, "derived", derived, 0, NULL, set_flag, 0, ANY_KIND,
+    .usual = "-", .letter = 'o');
+ROW(option_derived, "derived", derived, NULL, set_flag, 0, ANY_KIND,
     "more columns after the status: angles, rolling velocities, energy");
-ROW(option_strict, "strict", strict, 0, NULL, set_flag, 0, ANY_KIND,
+ROW(option_strict, "strict", strict, NULL, set_flag, 0, ANY_KIND,
     "treat warnings as errors: centres whose distance is not R1 + R2 to 1 %, more than 50 m/s or "
     "2,000 rad/s, a radius above 0.5 m, a mass above 10 kg, a tip more than 0.5 R from the centre, "
     "two values that look like one with a decimal comma");
-ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
+ROW(option_summary, "summary", summary, NULL, set_flag, 0, ANY_KIND,
     "print counts and the time on standard error at the end");
-ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
+ROW(option_cushion, "cushion", cushion, NULL, set_flag, 0, ANY_KIND,
     "impacts of a ball on a cushion, instead of collisions of two balls");
-ROW(option_model, "model", rail.model, 0, NULL, set_named, CAROM_WORDS_CUSHION_MODEL, CUSHION_ONLY,
+ROW(option_model, "model", rail.model, NULL, set_named, CAROM_WORDS_CUSHION_MODEL, CUSHION_ONLY,
     "model of the impact; `carom models NAME` describes it", .usual = "mathavan",
     .else_usual = "`carom rail` uses smooth, as in shots");
-ROW(option_convention, "convention", rail.convention, 0, NULL, set_named,
+ROW(option_convention, "convention", rail.convention, NULL, set_named,
     CAROM_WORDS_CUSHION_CONVENTION, CUSHION_ONLY,
     "the conventions to follow where pooltool differs from the papers", .usual = "paper");
-ROW(option_law, "law", rail.law, 0, NULL, set_named, CAROM_WORDS_CUSHION_LAW, CUSHION_ONLY,
+ROW(option_law, "law", rail.law, NULL, set_named, CAROM_WORDS_CUSHION_LAW, CUSHION_ONLY,
     "restitution and friction of the cushion: from the columns, or by Han's fits over speed and "
     "angle",
     .usual = "constant");
-ROW(option_least_step, "least-step", rail.least_step, 0, "P", set_amount, 0, CUSHION_ONLY,
+ROW(option_least_step, "least-step", rail.least_step, "P", set_amount, 0, CUSHION_ONLY,
     "smallest step of euler, N s", .usual = "0", .else_usual = "pooltool uses 0.001");
-ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
+ROW(option_with, "with", with, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
     "numbers of the model, such as smooth_q=0.2,smooth_x=1,smooth_t=1: `carom models NAME` lists "
     "them. Or the file of a fit, FIT.json; or, of `carom rail`, a condition of a pool table's "
     "cushions, such as old_cushion");
 
-ROW(option_player, "player", player, 0, "RATING", set_player, 0, ANY_KIND,
+ROW(option_player, "player", player, "RATING", set_player, 0, ANY_KIND,
     "a player with this Fargo rating, 200 to 850, such as 500; or FIT.json, the player of a film, "
     "whom `python -m carom.fit --player` writes");
-ROW(option_player_errors, "errors", player, 0, "SCALE", set_errors, 0, ANY_KIND,
+ROW(option_player_errors, "errors", player, "SCALE", set_errors, 0, ANY_KIND,
     "a player with these errors of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees and 0.003 radii, times "
     "SCALE; they grow with the speed",
     .else_usual = "1, if there is no --player");
-ROW(option_player_eye, "eye", player, 0, "LENGTH", set_eye, 0, ANY_KIND,
+ROW(option_player_eye, "eye", player, "LENGTH", set_eye, 0, ANY_KIND,
     "how exactly the player sees where balls lie: the standard deviation of each place, each way, "
     "which every stroke with errors draws anew; 0: exactly",
     .else_usual = "0.2mm, or exactly with --errors 0");
 
 /* Of whole shots: rows without a name stand for those of rows_of(). */
-ROW(options_of_shots, NULL, shot, 0, NULL, set_option, CAROM_READ_TO_STOP, ANY_KIND, NULL);
-ROW(options_of_motion, NULL, shot, 0, NULL, set_option, CAROM_READ_ALWAYS, ANY_KIND, NULL);
-ROW(option_with_of_shots, "with", with, 0, "NAME=X,...", set_numbers, 0, ANY_KIND,
+ROW(options_of_shots, NULL, shot, NULL, set_option, CAROM_READ_TO_STOP, ANY_KIND, NULL);
+ROW(options_of_motion, NULL, shot, NULL, set_option, CAROM_READ_ALWAYS, ANY_KIND, NULL);
+ROW(option_with_of_shots, "with", with, "NAME=X,...", set_numbers, 0, ANY_KIND,
     "numbers of all balls, their cushions and the cue, instead of those of IN, such as "
     "mu_slide=0.15,mass=6oz,end_mass=0.01: `carom models` lists them. M is the cue's mass. Several "
     "values, end_mass=0.003,0.007, give several shots of `carom shoot` by options. Or the file "

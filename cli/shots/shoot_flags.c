@@ -37,7 +37,7 @@ static OPTION_SET(set_table) {
 }
 
 #define ROW(row, name, member, argument, set, least, ...) \
-  OPTION_ROW(shoot_flags, ANY_KIND, row, name, member, 0, argument, set, least, __VA_ARGS__)
+  OPTION_ROW(shoot_flags, ANY_KIND, row, name, member, argument, set, least, __VA_ARGS__)
 
 const option_row option_table = {
     .name = "table",

@@ -11,13 +11,12 @@ typedef struct published_job {
   const char *film;
 } published_job;
 
-OPTION(published_job, published_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "as CSV: quantity,published,low,high,unit,carom,error,verdict,conditions,source");
-OPTION(
-    published_job, published_cushions, "cushions", cushions, 0, NULL, set_flag, 0,
-    "instead: tables of the cushions of pool and snooker (lab/cushions.py), which take a minute");
+FLAG(published_job, published_csv, "csv", csv,
+     "as CSV: quantity,published,low,high,unit,carom,error,verdict,conditions,source");
+FLAG(published_job, published_cushions, "cushions", cushions,
+     "instead: tables of the cushions of pool and snooker (lab/cushions.py), which take a minute");
 
-OPTION(published_job, published_film, "film", film, 0, "FILM.csv", set_text, 0,
+OPTION(published_job, published_film, "film", film, "FILM.csv", set_text, 0,
        "instead: filmed shots, rows shot,ball,t,x,y (data/README.md), beside those of carom, and "
        "what they tell of the numbers of snooker (lab/film.py); half a minute for 21 shots");
 

@@ -356,16 +356,16 @@ static bool holds(const stress *s) {
   return good;
 }
 
-OPTION(stress_job, option_draws, "draws", draws, 'n', "N", set_count, 1,
-       "number of collisions for each slip (default: 100000)");
-OPTION(stress_job, option_seed, "seed", seed, 0, "S", set_count, 0,
+OPTION(stress_job, option_draws, "draws", draws, "N", set_count, 1,
+       "number of collisions for each slip (default: 100000)", .letter = 'n');
+OPTION(stress_job, option_seed, "seed", seed, "S", set_count, 0,
        "seed of the random numbers (default: 1)");
-OPTION(stress_job, option_kind, "kind", kind, 0, DRAW_KIND_NAMES, set_choice, 0,
+OPTION(stress_job, option_kind, "kind", kind, DRAW_KIND_NAMES, set_choice, 0,
        "realistic: collisions of play (default); regimes: the special cases of the tests; extreme: "
        "everything that carom accepts");
-OPTION(stress_job, option_cushions, "cushion", cushions, 0, "N", set_count, 1,
+OPTION(stress_job, option_cushions, "cushion", cushions, "N", set_count, 1,
        "instead: number of impacts on a cushion of each kind, those of play and any");
-OPTION(stress_job, option_coincidences, "coincidences", coincidences, 0, "N", set_count, 1,
+OPTION(stress_job, option_coincidences, "coincidences", coincidences, "N", set_count, 1,
        "instead: number of impacts of each kind of coincidence, of two balls and on a cushion: "
        "numbers that are exactly equal, zero or at the edge of a friction cone; planar motion; "
        "slips that are rounding errors; grazing impacts");

@@ -29,14 +29,14 @@ typedef struct learn_job {
   int rules, racks, shots, seed;
 } learn_job;
 
-OPTION(learn_job, learn_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES,
+OPTION(learn_job, learn_rules, "rules", rules, NULL, set_named, CAROM_WORDS_RULES,
        "the game (default eightball)");
 
-OPTION(learn_job, learn_racks, "racks", racks, 0, "N", set_count, 10,
+OPTION(learn_job, learn_racks, "racks", racks, "N", set_count, 10,
        "number of racks to play (default 100000)");
-OPTION(learn_job, learn_shots, "shots", shots, 0, "N", set_count, 100,
+OPTION(learn_job, learn_shots, "shots", shots, "N", set_count, 100,
        "shots of a plan (default 200)");
-OPTION(learn_job, learn_seed, "seed", seed, 0, "N", set_count, 0, "seed of the racks (default 0)");
+OPTION(learn_job, learn_seed, "seed", seed, "N", set_count, 0, "seed of the racks (default 0)");
 
 typedef enum chance_of { NEXT, LATER, FIRST } chance_of;
 

@@ -25,39 +25,38 @@ typedef struct strength_job {
   double errors, against, unsure, rating[CAROM_SEATS_MOST];
 } strength_job;
 
-OPTION(strength_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES,
+OPTION(strength_job, option_rules, "rules", rules, NULL, set_named, CAROM_WORDS_RULES,
        "the game (default eightball). If the break of a game is a stroke like others, two players "
        "play it from its rack");
-OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
-       "two players play each rack to the end; report the chances to win");
+FLAG(strength_job, option_games, "games", games,
+     "two players play each rack to the end; report the chances to win");
 
-OPTION(strength_job, option_players, "players", rating, 0, "A,B", set_ratings, 0,
+OPTION(strength_job, option_players, "players", rating, "A,B", set_ratings, 0,
        "play matches of two players of these ratings, who break in turn; report how many the first "
        "one wins");
-OPTION(
-    strength_job, option_told, "told", told, 0, NULL, set_flag, 0,
-    "with --players: they plan with --shots, see places of balls with errors and never think of "
-    "pots alone; report by kind of stroke the chances to play on, to foul, to lose at once and to "
-    "win that plans predict, beside what came; without --rules, of every game");
-OPTION(strength_job, option_run_out, "run-out", run_out, 0, NULL, set_flag, 0, "plan to run out");
-OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1,
+FLAG(strength_job, option_told, "told", told,
+     "with --players: they plan with --shots, see places of balls with errors and never think of "
+     "pots alone; report by kind of stroke the chances to play on, to foul, to lose at once and to "
+     "win that plans predict, beside what came; without --rules, of every game");
+FLAG(strength_job, option_run_out, "run-out", run_out, "plan to run out");
+OPTION(strength_job, option_racks, "racks", racks, "N", set_count, 1,
        "number of racks to play (default 100)");
-OPTION(strength_job, option_shots, "shots", shots, 0, "N", set_count, 100,
+OPTION(strength_job, option_shots, "shots", shots, "N", set_count, 100,
        "shots of a plan (default 2000)");
-OPTION(strength_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
+OPTION(strength_job, option_errors, "errors", errors, "SCALE", set_amount, 0,
        "scale of the player's errors (default 1)");
-OPTION(strength_job, option_against, "against", against, 0, "SCALE", set_amount, 0,
+OPTION(strength_job, option_against, "against", against, "SCALE", set_amount, 0,
        "with --games: scale of the errors of the second player (default: as --errors)");
-OPTION(strength_job, option_unsure, "unsure", unsure, 0, "SHARE", set_amount, 0,
+OPTION(strength_job, option_unsure, "unsure", unsure, "SHARE", set_amount, 0,
        "how little the player knows about the table, 0 to 1 (default 0)");
-OPTION(strength_job, option_seed, "seed", seed, 0, "N", set_count, 0,
+OPTION(strength_job, option_seed, "seed", seed, "N", set_count, 0,
        "seed of racks, plans and strokes (default 0)");
 
-OPTION(strength_job, option_left, "left", left, 0, "N", set_count, 1,
+OPTION(strength_job, option_left, "left", left, "N", set_count, 1,
        "end games: N balls of the player, one more of the opponent, and the eight; in nine-ball N "
        "balls");
 
-OPTION(strength_job, option_target, "target", target, 0, "N", set_count, 1,
+OPTION(strength_job, option_target, "target", target, "N", set_count, 1,
        "points that win: in straight pool (default 100), and of the matches of --players (default: "
        "those of the game)");
 

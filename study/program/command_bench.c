@@ -873,46 +873,43 @@ static OPTION_SET(set_budget) {
   return good;
 }
 
-OPTION(bench_job, option_kernel, "kernel", kernels, 0, "NAME,...", set_kernels, 0,
+OPTION(bench_job, option_kernel, "kernel", kernels, "NAME,...", set_kernels, 0,
        "only these kernels (see `carom-lab kernels`); may be repeated");
-OPTION(bench_job, option_config, "config", configs, 0, "NAME,...", set_names, 0,
+OPTION(bench_job, option_config, "config", configs, "NAME,...", set_names, 0,
        "these builds of the ladder's kernels, or all (default: default); without --kernel, only "
        "kernels of the ladder");
-OPTION(bench_job, option_counts, "steps", steps, 0, "N,...", set_counts, 1,
+OPTION(bench_job, option_counts, "steps", steps, "N,...", set_counts, 1,
        "steps of Euler's method (default 1000); several make a sweep");
+FLAG(bench_job, option_batch, "batch", batch,
+     "only batches: every solver of the library (with euler about a minute), and the ladder across "
+     "collisions");
 OPTION(
-    bench_job, option_batch, "batch", batch, 0, NULL, set_flag, 0,
-    "only batches: every solver of the library (with euler about a minute), and the ladder across "
-    "collisions");
-OPTION(
-    bench_job, option_isa, "isa", isas, 0, "NAME,...", set_isas, 0,
+    bench_job, option_isa, "isa", isas, "NAME,...", set_isas, 0,
     "only these instruction sets: scalar (single calls), plain, sse2, avx2, avx512, neon, or best");
-OPTION(bench_job, option_one_precision, "precision", shared.precision, 0, "double|single",
-       set_choice, 0, "only this precision (default: both)");
-OPTION(bench_job, option_thread_counts, "threads", threads, 0, "N,...", set_threads, 1,
+OPTION(bench_job, option_one_precision, "precision", shared.precision, "double|single", set_choice,
+       0, "only this precision (default: both)");
+OPTION(bench_job, option_thread_counts, "threads", threads, "N,...", set_threads, 1,
        "threads of a batch, or all: 1, 2, 4, ... up to the processor's (default 1,2; 1 on a single "
        "core)");
-OPTION(bench_job, option_pairs, "pairs", pairs, 0, "N,...", set_counts, 1,
+OPTION(bench_job, option_pairs, "pairs", pairs, "N,...", set_counts, 1,
        "pairs in a batch (default 65536, rounded up to whole turns of the cases); adds the column "
        "pairs");
-OPTION(bench_job, option_budget, "budget", budget, 0, "SECONDS", set_budget, 0,
+OPTION(bench_job, option_budget, "budget", budget, "SECONDS", set_budget, 0,
        "how long to measure (default 20; shots 0.06 each)");
-OPTION(bench_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "as CSV, with lines about the machine that begin with #");
-OPTION(
-    bench_job, option_spread, "spread", spread, 0, NULL, set_flag, 0,
-    "more columns in the CSV: spread of the time; least, greatest and spread of the speedup; core "
-    "cycles of a collision, by an addition timed before each sample");
-OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
-       "more columns in the CSV: slip, and the pair error against the exact reference, median and "
-       "largest");
-OPTION(bench_job, option_counters, "counters", counters, 0, NULL, set_flag, 0,
-       "more columns: what the processor counts for each collision, such as cycles and operations; "
-       "NA where the kernel or the processor does not count it");
-OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
+FLAG(bench_job, option_csv, "csv", csv, "as CSV, with lines about the machine that begin with #");
+FLAG(bench_job, option_spread, "spread", spread,
+     "more columns in the CSV: spread of the time; least, greatest and spread of the speedup; core "
+     "cycles of a collision, by an addition timed before each sample");
+FLAG(bench_job, option_errors, "errors", errors,
+     "more columns in the CSV: slip, and the pair error against the exact reference, median and "
+     "largest");
+FLAG(bench_job, option_counters, "counters", counters,
+     "more columns: what the processor counts for each collision, such as cycles and operations; "
+     "NA where the kernel or the processor does not count it");
+OPTION(bench_job, option_shots, "shots", shots, "IN.jsonl", set_text, 0,
        "instead: time the whole shots of this file, beside pooltool's recorded times");
-OPTION(bench_job, option_cushions, "cushions", cushions, 0, NULL, set_flag, 0,
-       "instead: time impacts on a cushion with each model, beside Han's");
+FLAG(bench_job, option_cushions, "cushions", cushions,
+     "instead: time impacts on a cushion with each model, beside Han's");
 static const char about[] =
     "Times kernels on the 204 reference collisions, one call each, in turns: A B C A B C ... Each "
     "kernel is verified first; one whose error is above its bound is not timed. Times are "

@@ -10,12 +10,12 @@ typedef struct bounds_job {
   int steps;
 } bounds_job;
 
-OPTION(bounds_job, bounds_kernels, "kernel", kernels, 0, "NAME,...", set_text, 0,
+OPTION(bounds_job, bounds_kernels, "kernel", kernels, "NAME,...", set_text, 0,
        "these kernels of the ladder, or all (default base,double,float,double_vec,float_vec)");
-OPTION(bounds_job, bounds_config, "config", config, 0, "NAME", set_text, 0,
+OPTION(bounds_job, bounds_config, "config", config, "NAME", set_text, 0,
        "the build that is counted (default clang-zen2, or gcc-zen2 without clang); valgrind, which "
        "counts, knows no AVX-512");
-OPTION(bounds_job, bounds_steps, "steps", steps, 0, "N", set_count, 10,
+OPTION(bounds_job, bounds_steps, "steps", steps, "N", set_count, 10,
        "steps of a collision (default 1000)");
 
 static const command_form form = {

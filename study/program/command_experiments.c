@@ -121,8 +121,8 @@ typedef struct experiments_job {
   bool csv;
 } experiments_job;
 
-OPTION(experiments_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "as CSV: shot,source,v_cue,v_object,angle_cue_deg,angle_object_deg");
+FLAG(experiments_job, option_csv, "csv", csv,
+     "as CSV: shot,source,v_cue,v_object,angle_cue_deg,angle_object_deg");
 
 static const command_form form = {
     .name = "experiments",

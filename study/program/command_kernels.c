@@ -11,10 +11,10 @@ typedef struct kernels_job {
   bool csv;
 } kernels_job;
 
-OPTION(kernels_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "as CSV: kernel,precision,parent,needs,paper,idea. The idea may be quoted. A solver has no "
-       "parent. A kernel of the ladder needs scalar, avx2 or avx512. paper is the speedup in the "
-       "seed paper, a number or words");
+FLAG(kernels_job, option_csv, "csv", csv,
+     "as CSV: kernel,precision,parent,needs,paper,idea. The idea may be quoted. A solver has no "
+     "parent. A kernel of the ladder needs scalar, avx2 or avx512. paper is the speedup in the "
+     "seed paper, a number or words");
 
 static const command_form form = {
     .name = "kernels",

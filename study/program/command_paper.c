@@ -12,14 +12,14 @@ typedef struct paper_job {
   const char *record;
 } paper_job;
 
-OPTION(paper_job, paper_source, "from", source, 0, "DIR", set_text, 0,
+OPTION(paper_job, paper_source, "from", source, "DIR", set_text, 0,
        "measure nothing: judge the CSV files of this report, such as build/results/report");
-OPTION(paper_job, paper_budget, "budget", budget, 0, "SECONDS", set_amount, 0,
+OPTION(paper_job, paper_budget, "budget", budget, "SECONDS", set_amount, 0,
        "how long to time the kernels (default 60); counting their operations comes on top");
-OPTION(paper_job, paper_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "as CSV: section,claim,unit,paper,here,uncertainty,verdict,cause");
+FLAG(paper_job, paper_csv, "csv", csv,
+     "as CSV: section,claim,unit,paper,here,uncertainty,verdict,cause");
 
-OPTION(paper_job, paper_record, "record", record, 0, "NAME", set_text, 0,
+OPTION(paper_job, paper_record, "record", record, "NAME", set_text, 0,
        "add this machine to study/machines.csv under that name, and to the table of "
        "docs/study/paper.md");
 

@@ -22,9 +22,9 @@ static void by_kernel(const void *context, const carom_options *options, bool si
     kernel_resolve(job->kernel, job->module, in, n, options, out, status);
 }
 
-OPTION(resolve_job, option_kernel, "kernel", kernel, 0, "NAME", set_kernel, 0,
+OPTION(resolve_job, option_kernel, "kernel", kernel, "NAME", set_kernel, 0,
        "how to compute (see `carom-lab kernels`)");
-OPTION(resolve_job, option_config, "config", config, 0, "NAME", set_text, 0,
+OPTION(resolve_job, option_config, "config", config, "NAME", set_text, 0,
        "which build of a ladder kernel (see `carom-lab kernels`; default: default)");
 
 static const command_form form = {

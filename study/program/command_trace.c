@@ -92,9 +92,9 @@ static int write_traces(const trace_job *job, const carom_impact *in) {
   return EXIT_GOOD;
 }
 
-OPTION(trace_job, option_trace_id, "id", id, 0, "X", set_text, 0,
+OPTION(trace_job, option_trace_id, "id", id, "X", set_text, 0,
        "the collision of data/collisions-204.csv with this id");
-OPTION(trace_job, option_points, "points", points, 0, "N", set_count, 2,
+OPTION(trace_job, option_points, "points", points, "N", set_count, 2,
        "points, 2 or more (default 201)");
 
 static const command_form form = {

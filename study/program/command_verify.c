@@ -273,13 +273,12 @@ static bool verify_all(verification *v) {
   return good;
 }
 
-OPTION(verification, option_kernel, "kernel", only, 0, "NAME", set_kernel, 0, "only this kernel");
-OPTION(verification, option_config, "config", config, 0, "NAME", set_text, 0,
+OPTION(verification, option_kernel, "kernel", only, "NAME", set_kernel, 0, "only this kernel");
+OPTION(verification, option_config, "config", config, "NAME", set_text, 0,
        "only this build of the ladder (see `carom-lab kernels`)");
-OPTION(verification, option_other_steps, "steps", steps, 0, "N", set_count, 1,
+OPTION(verification, option_other_steps, "steps", steps, "N", set_count, 1,
        "only the kernels of the ladder, with N steps, against the library's Euler with as many");
-OPTION(verification, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "as CSV; NA where the paper gives no count");
+FLAG(verification, option_csv, "csv", csv, "as CSV; NA where the paper gives no count");
 
 static const char about[] =
     "Solves the reference collisions with every kernel and compares the results with the "
