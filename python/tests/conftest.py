@@ -28,6 +28,11 @@ def columns(name: str, names: str) -> np.ndarray:
         )
 
 
+def same_bits(a: np.ndarray, b: np.ndarray) -> bool:
+    """Also of numbers that are none."""
+    return a.tobytes() == b.tobytes()
+
+
 BALL = "r{0}x r{0}y r{0}z v{0}x v{0}y v{0}z w{0}x w{0}y w{0}z R M u_s{0} "
 MOTION = "v1x v1y v1z w1x w1y w1z v2x v2y v2z w2x w2y w2z"
 

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import run_python
+from conftest import run_python, same_bits
 from numpy.testing import assert_array_equal
 
 import carom
@@ -96,7 +96,7 @@ def test_errors_can_be_pickled():
         stopped()
     )
     shot = stopped().shot
-    assert shot.states(shot.time).tobytes() == shot.final.tobytes()
+    assert same_bits(shot.states(shot.time), shot.final)
     with pytest.raises(carom.CaromError, match="time"):
         shot.states([0.0, shot.time + 1.0])
     for error in (caught.value, stopped(), *others):
