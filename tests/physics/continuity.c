@@ -8,7 +8,7 @@
  * neighbouring doubles is a jump. `least` is above the step of a square root between neighbours.
  *
  * The first event at which the two shots part gives the jump its kind (tests/shots/jumps.c), unless
- * it explains the jump. Every kind that may jump is a row of `known`; any other is an error, and so
+ * it explains the jump. Every kind that may jump is a row of jumps.txt; any other is an error, and so
  * is a jump beyond the bound of its kind. The size of a jump is its greatest change of a speed, R w
  * too, `shortly` after that event; places may jump as far as that speed goes by then.
  *
@@ -18,46 +18,7 @@
 #include "random.h"
 #include "support.h"
 
-/* A kind that may jump, by `share` of the speed of the cue or of the ball that moves, and by
- * `fixed` m/s. */
-typedef struct jump_kind {
-  const char *name;
-  double share, fixed;
-  const char *law;
-} jump_kind;
-
-static const jump_kind known[] = {
-    {"order of cushion, cushion", 1.5, 0.0, "two instants at once: one impact goes first"},
-    {"order of ball, cushion", 1.5, 0.0, "the same"},
-    {"order of cushion, slate", 1.5, 0.0, "the same; on the cloth a cushion stops a rise"},
-    {"order of ball, slate", 1.5, 0.0, "the same"},
-    {"split of ball at cushion", 1.0, 0.0, "the same, of a cluster and a cushion"},
-    {"split of ball at slate", 1.0, 0.0, "the same, of a cluster and the slate"},
-    {"order of ball, top", 1.5, 0.0, "the same"},
-    {"level tip", 2e-5, 0.0, "an elevation below 1e-6 degrees is level"},
-    {"pinched ball", 2.0, 0.0, "between tip and cushion: its nose is no contact of the push"},
-    {"raised tip", 1.5, 0.0, "the slate lets go before, or after, what is touched with it"},
-    {"split of tip at slate", 0.3, 0.0, "the same, and the slate meanwhile"},
-    {"split of tip", 0.3, 0.0, "the tip slides on, or a ball is met as its set recovers"},
-    {"after tip", 0.3, 0.0, "the same"},
-    {"tip alone", 0.3, 0.0, "the same"},
-    {"order of ball, tip", 0.3, 0.0, "the same"},
-    {"order of slate, tip", 0.3, 0.0, "the same"},
-    {"slow tip", 0.0, 0.01, "a tip that closes at less than 1 mm/s lies at the ball"},
-    {"unseen before tip", 0.0, 0.02, "the same"},
-    {"split of ball", 0.02, 0.0, "a step of the integrator, beside touches that overlap"},
-    {"unseen before ball", 0.0, 1e-3, "the same"},
-    {"after ball", 0.05, 0.0, "a step of the integrator, in which a contact sticks or slips"},
-    {"after cushion", 0.05, 0.0, "a nose near the cloth that hardly closes"},
-    {"slow ball", 1.0, 0.025, "slow contacts part at 1 mm/s, flying balls at 20 (resolve.c)"},
-    {"slow cushion", 0.0, 5e-3, "slow contacts part at 1 mm/s (resolve.c)"},
-    {"cushion or top", 1.0, 0.0, "a ball above the nose falls on the top, or meets the nose"},
-    {"top alone", 1.0, 0.0, "the outer edge of the top of a cushion"},
-    {"end of cushion", 1.5, 0.0, "beyond the end of a wall behind a pocket there is nothing"},
-};
-enum { KNOWN = COUNT_OF(known) };
-
-enum { LAYOUTS = 300, LONG = 10000, SWEEPS = 3, STEPS = 48, SHOWN = 30, OTHERS = 60 };
+enum { LAYOUTS = 300, LONG = 10000, SWEEPS = 3, STEPS = 48, SHOWN = 30, KINDS = 100 };
 static const double least = 1e-6;   /* m/s and m: smaller changes are no jumps */
 static const double smooth = 0.2;   /* of the change, behind three halvings */
 static const double shortly = 5e-3; /* s: longer than tip, slate and balls touch */
@@ -72,12 +33,27 @@ static bool play_at(recipe *r, const recipe_number *number, double x, played *p)
 
 /* ---- What was found */
 
+/* A kind of jump. One that is known may jump by `share` of the speed of the cue or of the ball that
+ * moves, and by `fixed` m/s, by a law in words. */
 static struct {
-  char name[JUMP_NAME];
+  char name[JUMP_NAME], law[100];
+  double share_most, fixed_most;
   int count, beyond;
   double share, speed, place; /* the greatest */
-} found[KNOWN + OTHERS];
-static int kinds = KNOWN, jumps, explained, red;
+} found[KINDS];
+static int known, kinds, jumps, explained, red;
+
+/* The known kinds: a row of jumps.txt has share, m/s, the name, a colon and the law. */
+static void read_kinds(void) {
+  FILE *const rows = fopen(CAROM_TEST_DATA "/../tests/physics/jumps.txt", "r");
+  ck_assert_ptr_nonnull(rows);
+  while (fscanf(rows, "%lf %lf %59[^:]: %99[^\n]", &found[kinds].share_most,
+                &found[kinds].fixed_most, found[kinds].name, found[kinds].law) == 4)
+    kinds++;
+  ck_assert(feof(rows));
+  fclose(rows);
+  known = kinds;
+}
 
 static void print_layout(const recipe *r) {
   recipe_layout l;
@@ -94,9 +70,9 @@ static void print_layout(const recipe *r) {
 
 static int kind_of(const char *name) {
   for (int k = 0; k < kinds; k++)
-    if (strcmp(k < KNOWN ? known[k].name : found[k].name, name) == 0)
+    if (strcmp(found[k].name, name) == 0)
       return k;
-  ck_assert_int_lt(kinds, KNOWN + OTHERS);
+  ck_assert_int_lt(kinds, KINDS);
   snprintf(found[kinds].name, JUMP_NAME, "%s", name);
   return kinds++;
 }
@@ -120,8 +96,8 @@ static void count_jump(const char *name, int layout, const recipe_number *number
   found[k].share = fmax(found[k].share, share);
   found[k].speed = fmax(found[k].speed, d.speed);
   found[k].place = fmax(found[k].place, d.place);
-  if (k < KNOWN) {
-    const double limit = known[k].share * V + known[k].fixed;
+  if (k < known) {
+    const double limit = found[k].share_most * V + found[k].fixed_most;
     if (d.speed <= limit && d.place <= limit * shortly + least)
       return;
   }
@@ -210,14 +186,14 @@ static void print_kinds(void) {
   printf("%6s %6s %9s %9s %9s  %s\n", "jumps", "red", "m/s", "of speed", "m", "kind");
   for (int k = 0; k < kinds; k++)
     printf("%6d %6d %9.1e %9.1e %9.1e  %s: %s\n", found[k].count, found[k].beyond, found[k].speed,
-           found[k].share, found[k].place, k < KNOWN ? known[k].name : found[k].name,
-           k < KNOWN ? known[k].law : "not known");
+           found[k].share, found[k].place, found[k].name, k < known ? found[k].law : "not known");
 }
 
 TEST(no_jump_without_a_law) {
   static recipe_number numbers[RECIPE_NUMBERS];
   const int layouts = draws_of_each(LAYOUTS);
   int looked = 0;
+  read_kinds();
   for (int n = 0; n < layouts; n++) {
     lab_random random = {test_seed() + (uint64_t)n};
     recipe r;
@@ -232,8 +208,8 @@ TEST(no_jump_without_a_law) {
   print_kinds();
   fflush(stdout);
   ck_assert_int_gt(looked, layouts * SWEEPS * STEPS / 2);
-  for (int k = 0; k < KNOWN; k++)
-    ck_assert_msg(found[k].count > 0 || layouts < LONG, "no jump of %s: take it off the table",
-                  known[k].name);
+  for (int k = 0; k < known; k++)
+    ck_assert_msg(found[k].count > 0 || layouts < LONG, "no jump of %s: take it out of jumps.txt",
+                  found[k].name);
   ck_assert_msg(red == 0, "%d jumps of no kind, or beyond what is known of their kind", red);
 }
