@@ -19,21 +19,14 @@ TEST(a_break_is_played_again) {
 
 /* A ball that hangs in a pocket is no shot: the plan banks another one, and tells a chance. */
 TEST(a_bank_is_planned) {
-  const int count = lay_out(CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 0x7);
+  lay_out(CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 0x7);
   put(0, 0.5, 1.0);
   put(1, 0.62, 1.5);
   put(2, 0.08, 0.08);
-  const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
-  const carom_player player = carom_player_of(0.2);
-  const carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_BANK);
-  const carom_plan_options options = {.shots = 4000};
-  carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
   carom_plan_stroke best;
-  int found;
-  expect_ok(carom_plan(&job, &best, 1, &found));
+  best_of(CAROM_RULES_BANK, 4000, &best, 1);
   ck_assert_msg(best.kind == CAROM_PLAN_BANK && best.cushions > 0 && best.keep > 0.4,
                 "kind %d, ball %d, keeps %g", best.kind, best.ball, best.keep);
-  free(job.memory);
 }
 
 /* The ruling counts the balls whose kind is a bank, of strokes in all directions. Some balls rub

@@ -32,10 +32,14 @@ static inline carom_facts facts_of(int first, int cushions, uint32_t down, uint3
 
 CK_ATTRIBUTE_UNUSED static carom_table table;
 CK_ATTRIBUTE_UNUSED static carom_shot_ball balls[CAROM_BALLS_MOST];
+CK_ATTRIBUTE_UNUSED static int balls_laid;
+CK_ATTRIBUTE_UNUSED static carom_game game_laid;
 
 /* All balls of a rack, of which those that are not in play are down. */
 static inline int lay_out(carom_rack_kind kind, carom_table_kind table_kind, uint32_t in_play) {
   const int count = carom_rack_size(kind);
+  balls_laid = count;
+  game_laid = carom_game_of_table(table_kind);
   carom_table_make(table_kind, &table);
   expect_ok(carom_rack(kind, &table, 1e-4, 1, balls, CAROM_BALLS_MOST));
   for (int k = 0; k < count; k++)
@@ -65,20 +69,36 @@ static inline bool knows_equal_innings(carom_rules_kind kind) {
   return carom_rules_fault(kind, &state, &range) == NULL;
 }
 
-/* A plan for the balls that lie here, with memory of its own. */
-static inline carom_plan_job job_of(int count, const carom_cue *cue, const carom_player *player,
-                                    const carom_plan_rules *game_rules,
-                                    const carom_plan_options *options) {
-  const size_t size = carom_plan_memory(options);
+/* A plan of so many shots for the balls that lie here, by a player whose errors are `scale`. All
+ * plans have one memory. */
+static inline carom_plan_job job_of(const carom_plan_rules *game_rules, double scale, int shots) {
+  static carom_cue cue;
+  static carom_player player;
+  static carom_plan_options options;
+  static void *memory;
+  cue = carom_cue_of(game_laid);
+  player = carom_player_of(scale);
+  options = (carom_plan_options){.shots = shots};
+  const size_t size = carom_plan_memory(&options);
+  memory = realloc(memory, size);
   return (carom_plan_job){.table = &table,
                           .balls = balls,
-                          .count = count,
-                          .cue = cue,
-                          .player = player,
+                          .count = balls_laid,
+                          .cue = &cue,
+                          .player = &player,
                           .rules = game_rules,
-                          .options = options,
-                          .memory = malloc(size),
+                          .options = &options,
+                          .memory = memory,
                           .memory_size = size};
+}
+
+/* The best strokes of such a plan by the rules of a game; returns how many. */
+static inline int best_of(carom_rules_kind kind, int shots, carom_plan_stroke *best, int most) {
+  const carom_plan_rules game_rules = carom_plan_rules_of(kind);
+  const carom_plan_job job = job_of(&game_rules, 0.2, shots);
+  int found;
+  expect_ok(carom_plan(&job, best, most, &found));
+  return found;
 }
 
 #endif
