@@ -31,7 +31,7 @@ int carom_serves(int header) {
   return minor <= CAROM_VERSION_MINOR;
 }
 
-/* The name and the text of a status. One that is in carom.h but not here is a warning (-Wswitch). */
+/* The name and the text of a status. One of carom.h that is not here is a warning (-Wswitch). */
 typedef struct status_words {
   const char *name, *text;
 } status_words;

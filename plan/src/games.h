@@ -168,11 +168,11 @@ static const learned learned_of[] = {
  * they would be odds of about 4 to 1. Games without a row have those of eight-ball. */
 static const double rating_steps[][2] = {
     [CAROM_RULES_EIGHTBALL] = {70.0, 95.0},    /* a rack */
-    [CAROM_RULES_NINEBALL] = {180.0, 110.0},   /* a rack */
+    [CAROM_RULES_NINEBALL] = {118.0, 110.0},   /* a rack */
     [CAROM_RULES_TENBALL] = {108.0, 88.0},     /* a rack */
-    [CAROM_RULES_ROTATION] = {110.0, 78.0},    /* a rack */
+    [CAROM_RULES_ROTATION] = {68.0, 78.0},     /* a rack */
     [CAROM_RULES_ONEPOCKET] = {60.0, 53.0},    /* a rack */
-    [CAROM_RULES_BANK] = {34.0, 34.0},         /* a rack */
+    [CAROM_RULES_BANK] = {48.0, 34.0},         /* a rack */
     [CAROM_RULES_STRAIGHT] = {52.0, 52.0},     /* 15 points, about a rack */
     [CAROM_RULES_SNOOKER] = {47.0, 47.0},      /* a frame */
     [CAROM_RULES_THREECUSHION] = {36.0, 36.0}, /* 15 points */
