@@ -8,8 +8,8 @@
  * neighbouring doubles is a jump. `least` is above the step of a square root between neighbours.
  *
  * The first event at which the two shots part gives the jump its kind (tests/shots/jumps.c), unless
- * it explains the jump. Every kind that may jump is a row of jumps.txt; any other is an error, as is
- * a jump beyond the bound of its kind. The size of a jump is its greatest change of a speed, R w
+ * it explains the jump. Every kind that may jump is a row of jumps.txt. Any other is an error, as
+ * is a jump beyond the bound of its kind. The size of a jump is its greatest change of a speed, R w
  * too, `shortly` after that event; places may jump as far as that speed goes by then.
  *
  * CAROM_SHOW="tip alone" prints all jumps of a kind. ./test --release has CAROM_TEST_DRAWS=10000,
