@@ -3,6 +3,7 @@
 #include "program/message.h"
 #include "shots/places.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -13,6 +13,7 @@
 #include "rated_match.h"
 #include "subcommands.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -13,6 +13,8 @@
 #include "random.h"
 #include "view.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { BLOCK = 16, STROKES_MOST = 20000, KINDS = CAROM_PLAN_KISS + 1 };

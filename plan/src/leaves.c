@@ -24,6 +24,9 @@
 #include "rows.h"
 #include "rules.h"
 
+#include <math.h>
+#include <string.h>
+
 typedef carom_candidate candidate;
 typedef carom_search search;
 

@@ -5,6 +5,8 @@
 #include "choice_kind.h"
 #include "platform/promise.h"
 
+#include <math.h>
+
 typedef carom_candidate candidate;
 typedef carom_search search;
 

@@ -2,6 +2,9 @@
 #include "pot_kind.h"
 #include "platform/arithmetic.h"
 
+#include <math.h>
+#include <stddef.h>
+
 /* Contacts with two balls so near in time are a split hit, s: a film of 1000 pictures a second
  * does not show which ball was met first. */
 static const double SPLIT = 1e-3;
