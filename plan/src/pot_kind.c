@@ -12,7 +12,7 @@ static const double SPLIT = 1e-3;
 /* ---- The terms */
 
 /* The terms beyond the kinds. */
-enum { SCRATCH = CAROM_PLAN_RAIL_FIRST + 1, DOUBLE_HIT, SPLIT_HIT, LEGAL_BREAK, FIRST_BALL, TERMS };
+enum { SCRATCH = CAROM_PLAN_KINDS, DOUBLE_HIT, SPLIT_HIT, LEGAL_BREAK, FIRST_BALL, TERMS };
 
 static const carom_term terms[TERMS] = {
     /* the kinds of a stroke that pots a ball, in their order of precedence */
@@ -71,7 +71,7 @@ const carom_term *carom_term_of(int k) {
 }
 
 const char *carom_plan_kind_name(carom_plan_kind kind) {
-  if ((int)kind < 0 || (int)kind >= SCRATCH)
+  if ((int)kind < 0 || (int)kind >= CAROM_PLAN_KINDS)
     return "";
   return terms[kind].name;
 }
