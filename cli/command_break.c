@@ -13,6 +13,7 @@
 #include "shots/shot_file.h"
 #include "subcommands.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

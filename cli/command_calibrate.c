@@ -5,6 +5,8 @@
 #include "shots/shot_table.h"
 #include "subcommands.h"
 
+#include <jansson.h>
+
 typedef struct calibrate_job {
   shared_options shared;
   int table; /* among `tables` */

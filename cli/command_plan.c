@@ -22,6 +22,7 @@
 
 #include "carom_coach.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -10,6 +10,7 @@
 #include "shots/shoot_aim.h"
 #include "shots/shot_story.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

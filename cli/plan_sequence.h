@@ -6,6 +6,8 @@
 
 #include "carom_coach.h"
 
+#include <stdbool.h>
+
 /* What is asked. */
 typedef struct sequence_question {
   bool hand, json;

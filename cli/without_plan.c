@@ -6,6 +6,8 @@
 #include "program/message.h"
 #include "subcommands.h"
 
+#include <stdio.h>
+
 static bool refuse(const char *what) {
   complain("%s: this build has no planner; it was configured with -DCAROM_PLAN=OFF", what);
   return false;

@@ -67,9 +67,8 @@ static status_words words_of(carom_status status) {
     STATUS(ERROR_COINCIDENT, "centres_coincide",
            "the centres coincide, so there is no line of centres")
     STATUS(ERROR_TOO_SLOW, "too_slow",
-           "Euler's method is too slow here: its steps are lost in rounding, or more than 16 N of "
-           "them "
-           "are needed")
+           "Euler's method is too slow here: its steps are lost in rounding, or more than 16 N "
+           "of them are needed")
     STATUS(ERROR_OVERFLOW, "overflow", "the collision overflows the range of double")
     STATUS(ERROR_MASSES_DIFFER, "masses_differ", "this model is for balls of equal mass only")
     STATUS(ERROR_THREADS, "bad_threads", "options.threads must be CAROM_ALL_THREADS, or 0 or more")
@@ -122,8 +121,7 @@ static status_words words_of(carom_status status) {
            "the tip misses the ball: a^2 + b^2 must be below miscue^2, which is 1 by default")
     STATUS(ERROR_TABLE, "bad_table",
            "the table has no part, a part that is not finite or has no length, friction or "
-           "restitution "
-           "outside 0 to 1, or a rail_width below the radius of a ball")
+           "restitution outside 0 to 1, or a rail_width below the radius of a ball")
     STATUS(ERROR_RACK, "bad_rack",
            "no such rack, or its gap is not between 0 and R, or there is too little room")
     STATUS(ERROR_EVENTS_LOST, "events_lost",

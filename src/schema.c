@@ -9,7 +9,11 @@
 #include "schema/rows.h"
 #include "schema/words.h"
 
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Numbers of a ball. */
 #define READ_ALWAYS .reader = CAROM_READ_ALWAYS

@@ -5,6 +5,7 @@
 #include "shots/places.h"
 #include "shots/shot_story.h"
 
+#include <math.h>
 #include <string.h>
 
 /* A way in words: " by a kick off the head rail" for rails before the first ball, " by ball 2", "

@@ -4,6 +4,7 @@
 #include "program/words.h"
 #include "shots/places.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

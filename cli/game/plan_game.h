@@ -7,6 +7,8 @@
 
 #include "carom_plan.h"
 
+#include <stdbool.h>
+
 enum { NOT_GIVEN = -1 };
 
 typedef struct plan_game {

@@ -7,6 +7,8 @@
 
 #include "carom_coach.h"
 
+#include <math.h>
+
 /* A share of the strokes, %. One that is not 0 is not told as 0. */
 static const char *percent(double share, char text[16]) {
   const double of_hundred = 100.0 * share;

@@ -7,6 +7,8 @@
 
 #include "carom_coach.h"
 
+#include <math.h>
+
 /* What a choice that names no ball does. */
 static const char *words_without_ball(const shot_line *line, const carom_plan_stroke *c) {
   static const double often = 0.15; /* fouls of a stroke that is no safe one */

@@ -6,6 +6,7 @@
 #include "game/ways.h"
 #include "program/message.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -5,6 +5,7 @@
 
 #include "carom_coach.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* Reads numbers with commas between them, each from `least` to `most`; returns how many, or 0 where

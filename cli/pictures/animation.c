@@ -7,6 +7,8 @@
 #include "program/program.h"
 #include "shots/shot_story.h"
 
+#include <jansson.h>
+
 static const double step = 1.0 / 40.0; /* s */
 
 bool is_moving_picture(const char *path) {

@@ -7,6 +7,7 @@
 #include "rows/quantities.h"
 #include "shots/ball_aim.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { MOST_EVENTS = 64, SAMPLES = 64, ARC_PIECES = 8, MOST_CHARACTERS = 200 };

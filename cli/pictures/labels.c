@@ -5,6 +5,8 @@
 #include "pictures/picture.h"
 #include "rows/quantities.h"
 
+#include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 enum { MOST_CHARACTERS = 200, TURNS = 16, ANCHORS = 3 };

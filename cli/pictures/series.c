@@ -9,6 +9,8 @@
 #include "rows/quantities.h"
 #include "rows/sink.h"
 
+#include <limits.h>
+
 enum { MOST_COMBINED = 1000000 }; /* of a table */
 
 static int inputs_of(const series *s) {

@@ -9,6 +9,8 @@
 #include "rows/quantities.h"
 #include "shots/shot_story.h"
 
+#include <stdint.h>
+
 enum { MOST_MARKED = 9 }; /* cushions of a shot */
 
 bool shot_has_id(const shot_line *line, const char *id) {

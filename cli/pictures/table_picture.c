@@ -5,6 +5,7 @@
 #include "pictures/picture.h"
 #include "shots/shot_story.h"
 
+#include <math.h>
 #include <string.h>
 
 /* pixels a metre; over the length of the table */

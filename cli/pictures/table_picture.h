@@ -6,6 +6,7 @@
 #include "pictures/labels.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 
 /* The table's axes on the picture. */
 typedef struct view {

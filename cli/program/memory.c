@@ -4,6 +4,7 @@
 #include "program/command.h"
 #include "program/message.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>

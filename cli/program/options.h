@@ -10,6 +10,7 @@
 #include "carom_shot.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 typedef struct option_row {
   const char *name;     /* without its dashes; NULL: it stands for several, see rows_of() */

@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <jansson.h>
+#include <limits.h>
 
 /* 2^53: greater whole numbers may not be doubles. */
 static const double WHOLE_MOST = 9007199254740992.0;

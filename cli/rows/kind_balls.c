@@ -3,6 +3,8 @@
 #include "rows/kind.h"
 #include "rows/quantities.h"
 
+#include <string.h>
+
 enum {
   NUMBERS = sizeof(carom_impact) / sizeof(double),
   RESULTS = sizeof(carom_result) / sizeof(double)

@@ -3,6 +3,9 @@
 #include "rows/kind.h"
 #include "rows/quantities.h"
 
+#include <math.h>
+#include <string.h>
+
 enum {
   NUMBERS = sizeof(carom_cushion_impact) / sizeof(double),
   RESULTS = sizeof(carom_motion) / sizeof(double)

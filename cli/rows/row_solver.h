@@ -4,6 +4,8 @@
 
 #include "program/options.h"
 
+#include <stdint.h>
+
 /* Resolves n collisions as carom_collide_batch() does, with `options` and what else stands in
  * `context`; where `single` is set the rows are in float. */
 typedef void row_solver(const void *context, const carom_options *options, bool single,

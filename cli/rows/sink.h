@@ -5,6 +5,9 @@
 
 #include "rows/kind.h"
 
+#include <stdbool.h>
+#include <stdio.h>
+
 /* Writes rows as source.h reads them: a header, and an id with the numbers of a row. */
 void write_row_header(FILE *out, const row_kind *kind);
 void write_row(FILE *out, const row_kind *kind, const char *id, const double *row);

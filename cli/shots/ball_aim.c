@@ -20,6 +20,7 @@
 
 #include "rows/quantities.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 

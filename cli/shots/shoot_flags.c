@@ -10,6 +10,8 @@
 #include "shots/places.h"
 #include "shots/shot_fault.h"
 
+#include <limits.h>
+
 enum { MOST_TEXT = 1024 };
 
 static OPTION_SET(set_table) {

@@ -9,6 +9,8 @@
 #include "shots/shoot_aim.h"
 #include "shots/shot_file.h"
 
+#include <stdio.h>
+
 #define GAP_MOST 0.02 /* m: below the radius of every ball */
 
 enum { MOST_SHOTS = 16, MOST_ROWS = 1001 };

@@ -7,6 +7,11 @@
 
 #include "carom_shot.h"
 
+#include <jansson.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
 /* Whether a ball is down or has left the table. */
 static inline bool is_out_of_play(const carom_ball_state *state) {
   return state->label == CAROM_BALL_POCKETED || state->label == CAROM_BALL_OFF;

@@ -6,6 +6,8 @@
 
 #include "carom_shot.h"
 
+#include <stdbool.h>
+
 /* A table by its id, with the ids of its parts. */
 typedef struct named_table {
   char *id;

@@ -5,6 +5,8 @@
 #include "python.h"
 #include "subcommands.h"
 
+#include <limits.h>
+
 typedef struct published_job {
   shared_options shared;
   bool csv, cushions;

@@ -4,6 +4,8 @@
  * zeros stay zero; so do all impacts on cushions but one in four. */
 #include "draws.h"
 
+#include <string.h>
+
 #define U(low, high) lab_uniform(r, low, high)
 #define COUNT(list) (sizeof(list) / sizeof(list)[0])
 

@@ -7,6 +7,9 @@
 
 #include "ball_ball/frame.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 /* Kinds of draws: collisions of play, with any speed, spin and cut that it has, mu_b <= 0.2, mu
  * <= 0.5, e >= 0.5, masses within 1 : 2; those of regimes.c, in turn; everything that is accepted
  * at all; impacts on a cushion; and impacts of both sorts with coincidences that no draw from a

@@ -4,6 +4,8 @@
 #include "ball_ball/reduced.h"
 #include "cushion/models.h"
 
+#include <math.h>
+
 carom_status collide_precisely(const carom_impact *in, carom_slip slip, double tolerance,
                                carom_result *out) {
   const carom_frame frame = carom_frame_of(in);

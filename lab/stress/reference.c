@@ -32,6 +32,7 @@
 #include "reference.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 typedef long double real;

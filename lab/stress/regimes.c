@@ -2,6 +2,8 @@
  * then turned by a random angle (in half of the draws by none, so that zeros stay exactly zero). */
 #include "draws.h"
 
+#include <string.h>
+
 /* clang-format off */
 static const char *const names[] = {
     "real_shot", "slow", "fast", "grazing", "head_on", "draw", "follow", "stun", "sidespin",

@@ -114,7 +114,7 @@ CAROM_API size_t carom_ways_memory(int64_t room);
 CAROM_API carom_status carom_ways(const carom_ways_job *job, carom_shot_way *ways, int64_t room,
                                   carom_ways_result *result);
 
-/* Plays a way's stroke 400 times with the errors of the player, those of his eye too, and sets
+/* Plays a way's stroke 400 times with the errors of the player, of the eye too, and sets
  * way->chance and way->error. The caller may change way->cue first. Statuses are those of
  * carom_ways(). */
 CAROM_API carom_status carom_way_chance(const carom_ways_job *job, carom_shot_way *way);
@@ -244,7 +244,7 @@ CAROM_API carom_status carom_sequence(const carom_plan_job *job, int in_hand, do
                                       carom_sequence_stroke *strokes, int room, int *found);
 
 /* Goes on with a run-out in slices, as carom_plan_continue() does with a plan: *found is 0 until
- * the run-out has ended, and strokes[] of carom_sequence(), which is in use until then, has the
+ * the run-out has ended. Until then strokes[] of carom_sequence() is in use; at the end it has the
  * bits of one call. Returns CAROM_OK; CAROM_ERROR_NULL as in carom_sequence(); CAROM_ERROR_STATE
  * if the memory has no run-out of this job; or an error of carom_plan() for the first layout. */
 CAROM_API carom_status carom_sequence_continue(const carom_plan_job *job, int *found);

@@ -20,7 +20,9 @@
 #include "platform/threads.h"
 #include "view.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { STROKES_MOST = 20, BLOCK = 256, STEPS = 30 };
 

@@ -4,6 +4,7 @@
  * many a visit makes. */
 #include "comparison.h"
 #include "game/ratings.h"
+#include "pot_kind.h"
 #include "program/command.h"
 #include "program/memory.h"
 #include "program/message.h"
@@ -13,10 +14,11 @@
 #include "rated_match.h"
 #include "subcommands.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { BINS = 10, STROKES_MOST = 2000, KINDS = CAROM_PLAN_RAIL_FIRST + 1 };
+enum { BINS = 10, STROKES_MOST = 2000 };
 
 typedef struct strength_job {
   shared_options shared;
@@ -64,7 +66,7 @@ typedef struct tally {
   long racks, wins, strokes, pots, plans, fouls, visits;
   double points, best; /* of all visits, of one */
   double seconds;
-  lab_comparison bins[BINS], games[BINS], kinds[KINDS];
+  lab_comparison bins[BINS], games[BINS], kinds[CAROM_PLAN_KINDS];
   double *odds; /* of the values of all strokes, logarithms, */
   bool *won;    /* and whether that player won */
   size_t values, odds_room, won_room;
@@ -140,7 +142,7 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
   }
   lab_compare_end(sums->bins, BINS);
   lab_compare_end(sums->games, BINS);
-  lab_compare_end(sums->kinds, KINDS);
+  lab_compare_end(sums->kinds, CAROM_PLAN_KINDS);
 }
 
 static void tell_bins(const lab_comparison *bins, int count, const char *const names[],
@@ -186,10 +188,10 @@ static void report(const tally *t, const strength_job *job) {
     printf("%g points in %ld visits: %.2f a visit, at most %g\n", t->points, t->visits,
            t->points / (double)t->visits, t->best);
   tell_bins(t->bins, BINS, NULL, "kept");
-  const char *kinds[KINDS];
-  for (int k = 0; k < KINDS; k++)
+  const char *kinds[CAROM_PLAN_KINDS];
+  for (int k = 0; k < CAROM_PLAN_KINDS; k++)
     kinds[k] = carom_plan_kind_name((carom_plan_kind)k);
-  tell_bins(t->kinds, KINDS, kinds, "kept");
+  tell_bins(t->kinds, CAROM_PLAN_KINDS, kinds, "kept");
   if (job->games) {
     printf("planned to foul: %ld of %ld strokes\n", t->fouls, t->strokes);
     tell_bins(t->games, BINS, NULL, "won");

@@ -7,15 +7,18 @@
 #include "comparison.h"
 #include "eye.h"
 #include "platform/threads.h"
+#include "pot_kind.h"
 #include "program/memory.h"
 #include "program/message.h"
 #include "program/monotonic.h"
 #include "random.h"
 #include "view.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
-enum { BLOCK = 16, STROKES_MOST = 20000, KINDS = CAROM_PLAN_KISS + 1 };
+enum { BLOCK = 16, STROKES_MOST = 20000 };
 
 /* What plans predict of a stroke. */
 enum { KEEP, FOUL, LOSE, WIN, CHANCES };
@@ -221,11 +224,11 @@ bool lab_play_ratings(const lab_ratings *wanted) {
   return true;
 }
 
-/* A row of CSV for each chance of a kind of stroke; `kind` KINDS: of all strokes. */
+/* A row of CSV for each chance of a kind of stroke; kind CAROM_PLAN_KINDS: of all strokes. */
 static void print_told(const lab_ratings *wanted, int kind, const lab_comparison rows[CHANCES]) {
   static const char *const chances[CHANCES] = {"keep", "foul", "lose", "win"};
   const char *name = "all";
-  if (kind < KINDS)
+  if (kind < CAROM_PLAN_KINDS)
     name = carom_plan_kind_name((carom_plan_kind)kind);
   const bool is_alone = carom_plan_rules_of(wanted->rules).race == CAROM_RACE_ALONE;
   const int chances_told = is_alone ? WIN : CHANCES; /* who is alone plays for points */
@@ -238,7 +241,7 @@ static void print_told(const lab_ratings *wanted, int kind, const lab_comparison
 }
 
 bool lab_play_told(const lab_ratings *wanted) {
-  lab_comparison rows[KINDS + 1][CHANCES] = {0};
+  lab_comparison rows[CAROM_PLAN_KINDS + 1][CHANCES] = {0};
   block b = {.wanted = wanted};
   while (b.first < wanted->matches) {
     const int count = play_block(&b);
@@ -250,14 +253,14 @@ bool lab_play_told(const lab_ratings *wanted) {
         for (int chance = 0; chance < CHANCES && match->ended; chance++) {
           const told_stroke *stroke = &match->told[n];
           lab_compare(&rows[stroke->kind][chance], stroke->told[chance], stroke->came[chance]);
-          lab_compare(&rows[KINDS][chance], stroke->told[chance], stroke->came[chance]);
+          lab_compare(&rows[CAROM_PLAN_KINDS][chance], stroke->told[chance], stroke->came[chance]);
         }
-      lab_compare_end(&rows[0][0], (KINDS + 1) * CHANCES);
+      lab_compare_end(&rows[0][0], (CAROM_PLAN_KINDS + 1) * CHANCES);
       free(match->told);
     }
   }
   progress_clear();
-  for (int kind = 0; kind <= KINDS; kind++)
+  for (int kind = 0; kind <= CAROM_PLAN_KINDS; kind++)
     print_told(wanted, kind, rows[kind]);
   fflush(stdout);
   return true;

@@ -26,6 +26,9 @@
 #include "table/table.h"
 #include "view.h"
 
+#include <math.h>
+#include <string.h>
+
 enum { LINKS = CAROM_VIA_MOST + 1, EVENTS = 96, SAMPLES = 180, HALVINGS = 48, SWEPT = 600 };
 static const carom_shot_options no_options;
 /* a part of the time since the start: a velocity before an event is taken so much earlier */

@@ -4,6 +4,9 @@
 #include "rules.h"
 #include "table/marks.h"
 
+#include <math.h>
+#include <string.h>
+
 carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, double radius,
                                carom_bounds *bounds) {
   if (table == NULL || bounds == NULL)

@@ -5,6 +5,8 @@
 #include "rules.h"
 #include "table/marks.h"
 
+#include <math.h>
+
 /* Candidates of a search, and those that are left of them; the number of the first break that
  * chooses nothing. */
 enum { BLOCK = 64, CANDIDATES = 64, FINALISTS = CAROM_BREAK_CHOICES, FRESH = 1 << 20 };

@@ -11,6 +11,8 @@
 #include "rows.h"
 #include "table/marks.h"
 
+#include <math.h>
+
 typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 typedef carom_search search;

@@ -6,6 +6,9 @@
 #include "platform/elementary.h"
 #include "view.h"
 
+#include <math.h>
+#include <string.h>
+
 static double chance(const double *w, const double *x, int n) {
   double sum = 0.0;
   for (int k = 0; k < n; k++)

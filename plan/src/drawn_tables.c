@@ -16,6 +16,8 @@
 
 #include "platform/elementary.h"
 
+#include <math.h>
+
 enum { RESTITUTION, FRICTION, ROLLING, SLIDING, NUMBERS };
 static const double spread[NUMBERS] = {0.1155, 0.1681, 0.2887, 0.2624};
 

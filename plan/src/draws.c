@@ -4,6 +4,8 @@
 #include "platform/elementary.h"
 #include "view.h"
 
+#include <math.h>
+
 double carom_angle_of(double x, double y) {
   if (x == 0.0 && y == 0.0)
     return 0.0;

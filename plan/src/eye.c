@@ -22,6 +22,8 @@
 #include "rules.h"
 #include "table/table.h"
 
+#include <math.h>
+
 enum { SWEEPS = 100 };
 static const double moved_least = 1e-7; /* m: sweeps end when no ball is moved farther */
 /* standard deviations within which a gap may be beyond its bounds */

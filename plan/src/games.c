@@ -1,6 +1,8 @@
 /* The games by their rows, for programs that ask; and whether a state is one of a game. */
 #include "games.h"
 
+#include <stddef.h>
+
 /* Members of a state, and as bits. */
 #define MEMBER(NAME, ...) PLACE_OF_##NAME,
 enum { CAROM_ALL_MEMBERS(MEMBER) MEMBERS };

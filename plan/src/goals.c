@@ -5,6 +5,8 @@
 
 #include "rules.h"
 
+#include <math.h>
+
 static bool is_in_play(const carom_plan_job *job, int ball) {
   return ball >= 0 && ball < job->count && job->balls[ball].state.label != CAROM_BALL_POCKETED &&
          job->balls[ball].state.label != CAROM_BALL_OFF;

@@ -5,6 +5,8 @@
 #include "choice_kind.h"
 #include "platform/promise.h"
 
+#include <math.h>
+
 typedef carom_candidate candidate;
 typedef carom_search search;
 
@@ -98,6 +100,7 @@ carom_plan_stroke carom_search_choice(const search *plan, const candidate *c) {
     value -= 0.75 * chances.error;
   if (value < 0.0)
     value = 0.0;
+  const double unsure = (double)c->leave_error;
   carom_plan_stroke choice = {.cue = *plan->job.cue,
                               .place = {c->r[0], c->r[1]},
                               .kind = kind_of(c, &pot),
@@ -105,7 +108,7 @@ carom_plan_stroke carom_search_choice(const search *plan, const candidate *c) {
                               .pocket = pot.pocket,
                               .cushions = pot.cushions,
                               .value = value,
-                              .error = hypot(chances.error, (double)c->leave_error),
+                              .error = sqrt(chances.error * chances.error + unsure * unsure),
                               .leave = {(double)c->leave[0], (double)c->leave[1]},
                               .keep = chances.keep,
                               .foul = chances.foul,

@@ -11,7 +11,9 @@
 #include "rules.h"
 #include "seats.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* ---- Refusals */
 

@@ -8,6 +8,7 @@
 #include "seats.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* What the next line must be, of those that the last act made. */
 static size_t line_due(const carom_match *match) {

@@ -8,6 +8,8 @@
 
 #include "platform/elementary.h"
 
+#include <math.h>
+
 typedef carom_candidate candidate;
 typedef carom_search search;
 

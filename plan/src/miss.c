@@ -16,6 +16,9 @@
 #include "platform/elementary.h"
 #include "rows.h"
 
+#include <math.h>
+#include <string.h>
+
 typedef carom_candidate candidate;
 typedef carom_search search;
 

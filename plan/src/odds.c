@@ -13,6 +13,9 @@
 #include "platform/elementary.h"
 #include "view.h"
 
+#include <math.h>
+#include <string.h>
+
 /* A chain of games, or of sets. */
 typedef struct series {
   int32_t needed[2]; /* of each side, to win */

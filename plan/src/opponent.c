@@ -10,6 +10,8 @@
 #include "rules.h"
 #include "seats.h"
 
+#include <math.h>
+
 static const double ln2 = 0x1.62e42fefa39efp-1, usual_speed = 2.0; /* m/s */
 
 /* The logarithm of error k of the sum, degrees, at the usual speed. */

@@ -4,6 +4,8 @@
 #include "platform/elementary.h"
 #include "rows.h"
 
+#include <math.h>
+
 typedef carom_search search;
 
 enum { PLACES = 120 }; /* that are tried */

@@ -33,6 +33,10 @@
 #include "rules.h"
 #include "search.h"
 
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
 typedef carom_candidate candidate;
 typedef carom_search search;
 

@@ -3,6 +3,8 @@
 #include "shot/shot.h"
 #include "view.h"
 
+#include <math.h>
+
 /* The errors of a stroke of 2 m/s: of its direction, degrees, of its tip, radii, and of its speed,
  * a share. They grow with the speed. */
 static carom_player player_with(double aim, double tip, double share) {

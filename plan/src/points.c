@@ -26,6 +26,9 @@
 #include "rules.h"
 #include "table/marks.h"
 
+#include <math.h>
+#include <string.h>
+
 typedef struct visits {
   double later, first; /* a, e */
   double mean_points;  /* V */

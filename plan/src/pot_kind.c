@@ -2,6 +2,9 @@
 #include "pot_kind.h"
 #include "platform/arithmetic.h"
 
+#include <math.h>
+#include <stddef.h>
+
 /* Contacts with two balls so near in time are a split hit, s: a film of 1000 pictures a second
  * does not show which ball was met first. */
 static const double SPLIT = 1e-3;
@@ -9,7 +12,7 @@ static const double SPLIT = 1e-3;
 /* ---- The terms */
 
 /* The terms beyond the kinds. */
-enum { SCRATCH = CAROM_PLAN_RAIL_FIRST + 1, DOUBLE_HIT, SPLIT_HIT, LEGAL_BREAK, FIRST_BALL, TERMS };
+enum { SCRATCH = CAROM_PLAN_KINDS, DOUBLE_HIT, SPLIT_HIT, LEGAL_BREAK, FIRST_BALL, TERMS };
 
 static const carom_term terms[TERMS] = {
     /* the kinds of a stroke that pots a ball, in their order of precedence */
@@ -68,7 +71,7 @@ const carom_term *carom_term_of(int k) {
 }
 
 const char *carom_plan_kind_name(carom_plan_kind kind) {
-  if ((int)kind < 0 || (int)kind >= SCRATCH)
+  if ((int)kind < 0 || (int)kind >= CAROM_PLAN_KINDS)
     return "";
   return terms[kind].name;
 }

@@ -19,10 +19,9 @@
  * the cue ball's counts. A second contact with the cue ball is no kiss. Which cushions count is
  * decided once, where the facts of a shot are noted (carom_facts.approach and banked, facts.c), so
  * rulings and kinds say the same. A jaw or a cut of a pocket is no cushion. A ball that touches a
- * cushion from the start is not driven to it (WPA rules of play, 8.4). In a bank, contacts with
- * cushions are clear and distinct, and one as the ball approaches its pocket is incidental (BCA,
- * bank pool); here a cushion that ends beside the pocket never counts, because a ball that meets it
- * and falls was on its way into that pocket. */
+ * cushion from the start is not driven to it (WPA rules of play, 8.4). A cushion that ends beside
+ * the pocket makes no bank, because a ball that meets it and falls was on its way into that pocket.
+ */
 #ifndef CAROM_PLAN_POT_KIND_H
 #define CAROM_PLAN_POT_KIND_H
 
@@ -36,7 +35,10 @@ typedef struct carom_term {
   const char *name, *meaning;
 } carom_term;
 
-/* Term k, or NULL beyond the last one. The first ones are those of carom_plan_kind. */
+/* The number of kinds of strokes. */
+enum { CAROM_PLAN_KINDS = CAROM_PLAN_RAIL_FIRST + 1 };
+
+/* Term k, or NULL beyond the last one. The first CAROM_PLAN_KINDS are those of carom_plan_kind. */
 const carom_term *carom_term_of(int k);
 
 /* Whether rules call it a double hit, with a push through a ball that was not frozen. */

@@ -17,6 +17,9 @@
 #include "table/table.h"
 #include "view.h"
 
+#include <math.h>
+#include <string.h>
+
 /* The direction of the cushion that ends nearest to a jaw, to its end; 0 where there is none. */
 static void find_rail(const carom_table *table, const double jaw[3], double direction[2]) {
   double least = INFINITY;

@@ -12,6 +12,9 @@
 #include "coach.h"
 #include "rules.h"
 
+#include <math.h>
+#include <string.h>
+
 /* The strokes with errors; farther off an aim, degrees, another ball or pocket was meant. */
 enum { STROKES = 100 };
 static const double FARTHEST = 10.0, THIN = 45.0, STRAIGHT = 15.0, LONG = 1.2;

@@ -9,6 +9,9 @@
 #include "rules.h"
 #include "schema/options.h"
 
+#include <math.h>
+#include <string.h>
+
 typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 typedef carom_search search;

@@ -9,6 +9,8 @@
 #include "platform/elementary.h"
 #include "view.h"
 
+#include <math.h>
+
 enum { CELLS = 1024 };
 static const double LEAST = 200.0, MOST = 850.0, LN2 = 0x1.62e42fefa39efp-1;
 

@@ -6,6 +6,8 @@
 #include "seats.h"
 #include "state_members.h"
 
+#include <string.h>
+
 #define MEMBER_FIELD(NAME, member, ...) CAROM_MEMBER_FIELD(#member, carom_record, standing.member)
 static const carom_field game_fields[] = {
     CAROM_RECORD_FIELD("rules", INT64, true, 1, rules),

@@ -8,6 +8,7 @@
 #include "rules.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* Balls that fell, the first one first. */
 static int64_t list_falls(const carom_facts *facts, int count, carom_fall *fall) {

@@ -4,6 +4,8 @@
 #include "rules.h"
 #include "games.h"
 
+#include <stddef.h>
+
 enum { OPEN = CAROM_GROUP_OPEN, SOLIDS = CAROM_GROUP_SOLIDS, STRIPES = CAROM_GROUP_STRIPES };
 static const uint32_t balls_of[] = {0xfefe, 0xfe, 0xfe00}, eight = 0x100;
 

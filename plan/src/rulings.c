@@ -2,6 +2,9 @@
 #include "rules.h"
 #include "table/marks.h"
 
+#include <math.h>
+#include <stddef.h>
+
 static void swap(int32_t pair[2]) {
   const int32_t first = pair[0];
   pair[0] = pair[1];

@@ -14,6 +14,9 @@
 #include "rules.h"
 #include "steer.h"
 
+#include <math.h>
+#include <string.h>
+
 typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 typedef carom_search search;

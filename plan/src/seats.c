@@ -5,7 +5,9 @@
 #include "record/lines.h"
 #include "rules.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* ---- Checks */
 

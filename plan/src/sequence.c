@@ -20,6 +20,8 @@
 #include "search.h"
 
 #include <limits.h>
+#include <math.h>
+#include <string.h>
 
 /* VALUE: about as many events of a shot take as long as a value */
 enum { STRAYS = 8, STRAY_SHOTS = 200, HALVINGS = 4, VALUE = 25 };

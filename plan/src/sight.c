@@ -7,6 +7,8 @@
  * of that ball or of another one, so only these are tried, and the one to its middle. */
 #include "rules.h"
 
+#include <math.h>
+
 /* m: so much nearer to a ball is in its way; one that touches is not in the way of others. */
 static const double GRAZE = 1e-9;
 

@@ -12,6 +12,8 @@
 #include "rules.h"
 #include "table/marks.h"
 
+#include <math.h>
+
 enum { YELLOW = 16, PINK = 20, BLACK = 21, COLOURS = 27, LEAST = 4, MOST = 7 };
 static const uint32_t reds = 0xfffe, colours = 0x3f0000, black = UINT32_C(1) << BLACK;
 

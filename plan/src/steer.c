@@ -8,6 +8,8 @@
 #include "ranking.h"
 #include "rows.h"
 
+#include <math.h>
+
 typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 typedef carom_search search;

@@ -18,6 +18,8 @@
 #include "platform/ranges.h"
 #include "view.h"
 
+#include <math.h>
+
 /* m: a cue of usual make; its radius grows evenly from the tip on */
 static const double stick_end = 1.47, tip_radius = 0.0065, radius_growth = 0.0055;
 

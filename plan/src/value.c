@@ -18,6 +18,9 @@
 #include "platform/promise.h"
 #include "view.h"
 
+#include <math.h>
+#include <string.h>
+
 const carom_facts carom_no_facts = {.first = {-1, -1}};
 
 uint32_t carom_in_play(const carom_ball_state *balls, int count) {

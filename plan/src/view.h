@@ -6,6 +6,8 @@
 #include "carom_plan.h"
 #include "platform/arithmetic.h"
 
+#include <stdbool.h>
+
 static const double pi = 3.14159265358979323846, degree = 3.14159265358979323846 / 180.0;
 
 /* s: contacts with one rail that follow so soon are one, as a hop along it. */

@@ -10,6 +10,9 @@
 #include "pot_kind.h"
 #include "view.h"
 
+#include <math.h>
+#include <string.h>
+
 typedef carom_shot_way way;
 
 /* strokes with errors for a chance; those of one batch */

@@ -15,6 +15,9 @@
 #include "rules.h"
 #include "shot/shot.h"
 
+#include <math.h>
+#include <string.h>
+
 enum { EVENTS = 64, ALL_ERRORS = (1 << CAROM_WHY_ERRORS) - 1 };
 
 /* What the job's memory has behind the rows of a plan, for a stroke that is ruled. */

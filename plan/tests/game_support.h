@@ -5,6 +5,11 @@
 #include "carom_match.h"
 #include "support.h"
 
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
 enum {
   LEGAL = CAROM_FOUL_NONE,
   FIRST = CAROM_FOUL_FIRST,

@@ -2,6 +2,8 @@
  * one, else by the strokes so far, whoever reads them. */
 #include "match_support.h"
 
+#include <stdlib.h>
+
 static carom_plan_options options;
 static carom_plan_job job;
 

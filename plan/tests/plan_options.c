@@ -4,6 +4,8 @@
 
 #include "carom_plan.h"
 
+#include <string.h>
+
 TEST(options_of_plans_are_those_of_the_library) {
   const option_row for_all = {.part = CAROM_PART_PLAN_OPTIONS};
   option_row rows[MOST_OF_LIBRARY];

@@ -5,6 +5,11 @@
 #include "carom_plan.h"
 #include "support.h"
 
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
 enum { BALLS = 16, ROOM_OF_BALLS = 22, SOLIDS = 1, STRIPES = 2 };
 CK_ATTRIBUTE_UNUSED static const double per_degree = 3.14159265358979323846 / 180.0;
 

@@ -114,12 +114,12 @@ TEST(terms_have_words) {
     ck_assert(t->name != NULL && t->name[0] != '\0' && t->meaning != NULL);
     for (int k = 0; k < terms; k++)
       ck_assert_str_ne(carom_term_of(k)->name, t->name);
-    if (terms <= CAROM_PLAN_RAIL_FIRST)
+    if (terms < CAROM_PLAN_KINDS)
       ck_assert_str_eq(carom_plan_kind_name((carom_plan_kind)terms), t->name);
     else
       ck_assert(t->meaning[0] != '\0');
   }
-  ck_assert(terms > CAROM_PLAN_RAIL_FIRST + 3 && carom_term_of(-1) == NULL);
+  ck_assert(terms > CAROM_PLAN_KINDS + 2 && carom_term_of(-1) == NULL);
   ck_assert_str_eq(carom_plan_kind_name((carom_plan_kind)-1), "");
-  ck_assert_str_eq(carom_plan_kind_name((carom_plan_kind)(CAROM_PLAN_RAIL_FIRST + 1)), "");
+  ck_assert_str_eq(carom_plan_kind_name((carom_plan_kind)CAROM_PLAN_KINDS), "");
 }

@@ -2,6 +2,8 @@
  * handicaps, and the shot that a match owns. */
 #include "match_support.h"
 
+#include <math.h>
+
 static carom_match_setup setup;
 static carom_seating seating;
 

@@ -3,6 +3,8 @@
  * with how the match must stand. */
 #include "match_support.h"
 
+#include <stddef.h>
+
 /* What a row says: before the bar the state and the stroke, behind it the ruling and the state; of
  * a match, how it stands. */
 typedef struct situation {

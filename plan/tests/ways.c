@@ -2,6 +2,7 @@
  * those at rails. The kind is read off the events here too, from the ball's side. */
 #include "carom_coach.h"
 #include "plan_support.h"
+#include "pot_kind.h"
 
 /* LEAST, ASKED: directions of the narrowest windows that are listed, of any ball and of one that is
  * asked for */
@@ -177,7 +178,7 @@ TEST(every_window_is_a_way) {
  * reading of this test say the same. */
 TEST(a_pot_has_one_name) {
   random_source r = {test_seed()};
-  int of_kind[CAROM_PLAN_RAIL_FIRST + 1] = {0}, all = 0;
+  int of_kind[CAROM_PLAN_KINDS] = {0}, all = 0;
   for (int layout = 0; layout < draws_of_each(FEWER(12)); layout++) {
     make_balls(&r, layout, layout % 3 == 0);
     find(SPEEDS, -1);
@@ -196,7 +197,7 @@ TEST(a_pot_has_one_name) {
     }
   }
   printf("%d ways", all);
-  for (int kind = 0; kind <= CAROM_PLAN_RAIL_FIRST; kind++)
+  for (int kind = 0; kind < CAROM_PLAN_KINDS; kind++)
     if (of_kind[kind] > 0)
       printf(", %s %d", carom_plan_kind_name((carom_plan_kind)kind), of_kind[kind]);
   puts("");

@@ -9,6 +9,10 @@
 #include "platform/ranges.h"
 #include "schema/options.h"
 
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
 /* Radii, heights and vertical velocities come out of other programs' arithmetic; an amount below
  * this share of the radius, of the distance or of the speed moves no result beyond rounding of
  * the solvers' own size. */

@@ -19,6 +19,10 @@
 #include "platform/promise.h"
 #include "platform/threads.h"
 
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
 /* Rows wait for a register of their kind, so a list rarely holds two. More room would take
  * stack. */
 enum { ROOM = 2 * MOST_LANES };

@@ -10,6 +10,9 @@
 #include "ball_ball/reduced.h"
 #include "friction/laws.h"
 
+#include <math.h>
+#include <stdbool.h>
+
 /* ---- carom_detail ---------------------------------------- */
 
 /* The impulses over a whole collision follow from the changes. With Δ the change, C = 5/(2 M

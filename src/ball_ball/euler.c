@@ -42,6 +42,10 @@
  */
 #include "ball_ball/euler.h"
 
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+
 /* Twice the greatest number of steps that exact arithmetic can need; 0 if that is too many. See
  * Termination above. */
 static int64_t step_bound(const carom_local *c, double M, int N) {

@@ -5,6 +5,8 @@
 #include "ball_ball/frame.h"
 #include "platform/arithmetic.h"
 
+#include <stdint.h>
+
 enum { CAROM_EULER_MOST = 16 }; /* times N: more steps are not begun */
 
 /* How far a run came. */

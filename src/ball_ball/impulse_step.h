@@ -29,6 +29,8 @@
 #include "ball_ball/problem.h"
 #include "ball_ball/quadrature.h"
 
+#include <stdbool.h>
+
 /* ---- The nodes ------------------------------------------------------------------------------- */
 
 /* Where the nodes of a step lie: X, the share of its length, over the variable x of the rule. In

@@ -8,6 +8,8 @@
 
 #include "platform/isa.h"
 
+#include <stdint.h>
+
 /* In what a collision is computed. MIXED, of CAROM_SOLVER_FAST: rows in double precision around
  * collocation in single precision. */
 typedef enum carom_precision {

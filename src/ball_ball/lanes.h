@@ -21,7 +21,11 @@
 
 #include "platform/arithmetic.h"
 
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_SSE2)
 #include <immintrin.h>

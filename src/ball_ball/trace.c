@@ -6,6 +6,10 @@
 #include "ball_ball/frame.h"
 #include "ball_ball/reduced.h"
 
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+
 /* Contact A is ball on ball, D and B are the first and the second ball on the cloth; see
  * carom_trace_point. */
 static void put_point(const carom_frame *frame, const carom_local *c, double P, double work,

@@ -39,6 +39,8 @@
 #include "platform/promise.h"
 #include "platform/ranges.h"
 
+#include <math.h>
+
 typedef carom_cluster_state state;
 typedef carom_cluster_contact_state contact;
 typedef carom_cluster_ball ball;

@@ -54,6 +54,8 @@
 
 #include "platform/arithmetic.h"
 
+#include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 #define CAROM_TOUCHING 1e-9       /* m: a ball that is nearer touches */

@@ -7,6 +7,8 @@
 #include "platform/ranges.h"
 #include "platform/vectors.h"
 
+#include <math.h>
+
 /* Along the axis of a cue, and to its left and above it, across the axis; its angles are in
  * degrees. */
 static inline void carom_cue_axes(double phi, double theta, double axis[3], double left[3],

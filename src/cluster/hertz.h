@@ -16,6 +16,8 @@
 #include "platform/arithmetic.h"
 #include "platform/promise.h"
 
+#include <math.h>
+
 #define CAROM_HERTZ_DURATION 2.9432
 
 /* d_max grows with d. */

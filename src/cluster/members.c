@@ -15,6 +15,9 @@
 #include "platform/promise.h"
 #include "platform/ranges.h"
 
+#include <math.h>
+#include <string.h>
+
 static const double reach = 2.0; /* of delta */
 static const double far = 5.0;   /* of delta: the reach, and as far as a ball gets in T; those
                                         that are farther apart meet later */

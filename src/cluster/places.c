@@ -33,6 +33,8 @@
 #include "platform/promise.h"
 #include "platform/ranges.h"
 
+#include <math.h>
+
 int carom_cluster_begin_touch(carom_cluster_state *c, int contact_index, int last, double time,
                               double approach) {
   if (last >= 0 && c->repeated == CAROM_CLUSTER_REPEATED)

@@ -4,6 +4,9 @@
 #include "cluster/tip.h"
 #include "cluster/vectors.h"
 
+#include <math.h>
+#include <string.h>
+
 static const double least_tip_restitution = 0.05; /* a tip that gives nothing back parts at once */
 
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T) {

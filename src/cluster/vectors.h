@@ -5,6 +5,9 @@
 
 #include "platform/vectors.h"
 
+#include <math.h>
+#include <stdbool.h>
+
 static inline double cluster_dot(bool flat, const double a[3], const double b[3]) {
   return flat ? carom_plane_dot(a, b) : carom_space_dot(a, b);
 }

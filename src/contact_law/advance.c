@@ -22,6 +22,8 @@
 #include "contact_law/variation_step.h"
 #include "platform/elementary.h"
 
+#include <float.h>
+
 /* Found by trial with `carom-lab stress --cushion 20000`, whose largest error is 1.1e-7 in play
  * and 1.5e-6 anywhere, and the times of docs/understanding/cushion.md.
  * Times vary by about 3 %. At twice and at half:

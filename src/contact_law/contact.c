@@ -28,6 +28,8 @@
  * A frictionless contact has no direction and no cone. */
 #include "contact_law/impact.h"
 
+#include <math.h>
+
 static const double EDGE = 1e-9;          /* share of the cone that is not used */
 static const double MOST_DRIVEN = 2. / 3; /* h / d: see the head */
 static const double NEARLY_JAMMED = 5e-8; /* v and both slips together, of a ball that is about

@@ -12,6 +12,8 @@
 
 #include "platform/isa.h"
 
+#include <math.h>
+
 static const double NO_SLIP = 1e-9;    /* a slip that counts as zero; */
 static const double ROUNDING = 1e-15;  /* at least this share of all slips; where H < 0, which
                                           would amplify it, no more */

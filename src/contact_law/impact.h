@@ -8,6 +8,8 @@
 #include "carom.h"
 #include "contact_law/law.h"
 
+#include <stdbool.h>
+
 /* A point of an impact, in units of the speed of approach at its beginning: slips, speed of
  * approach, int v dp since the phase began, and p. growth: logarithm by which an error of the
  * direction of b may have grown, where H < 0. */

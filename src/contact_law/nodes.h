@@ -12,6 +12,8 @@
 
 #include "contact_law/quadrature.h"
 
+#include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 #ifdef CAROM_LANES_AVX2

@@ -45,6 +45,10 @@
  * slip that passes through zero. A kink is seen there by the differences to each side. */
 #include "contact_law/variation.h"
 
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
 static const double TOLERANCE = 1e-2;   /* of the solver: see impact.h */
 static const double UNRESOLVED = 1e-5;  /* of a slip's derivative, that is left where the slip
                                            ends */

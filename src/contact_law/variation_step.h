@@ -13,6 +13,8 @@
 
 #include "contact_law/step.h"
 
+#include <stddef.h>
+
 /* Found on the shots of seeds 7 and 28 of tests/agree/tangents.c, which reports errors for
  * another seed. With ESTIMATE = 3e-7 impacts on cushions take 6 % longer. With ESTIMATE in stiff
  * steps too, an error of 5e-5 remains; with ESTIMATE_STIFF = 1e-9 they take 3 % longer. With

@@ -5,6 +5,10 @@
 #include "platform/ranges.h"
 #include "schema/options.h"
 
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
 /* A vertical velocity that is no more than this share of the others is rounding of the caller's. */
 static const double level = 1e-9;
 

@@ -31,6 +31,8 @@
 #include "platform/elementary.h"
 #include "platform/ranges.h"
 
+#include <stdbool.h>
+
 void carom_apply_han(carom_contact *c) {
   const double v = c->v_y;
   c->e = carom_limited(0.0, 0.39 + 0.257 * v - 0.044 * v * v);

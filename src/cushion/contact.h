@@ -21,6 +21,8 @@
 #include "platform/arithmetic.h"
 #include "platform/ranges.h"
 
+#include <math.h>
+
 typedef struct carom_contact {
   double v_x, v_y;      /* m/s */
   double W_x, W_y, W_z; /* R times the angular velocity, m/s */

@@ -4,6 +4,9 @@
 #include "platform/threads.h"
 #include "platform/vectors.h"
 
+#include <stdbool.h>
+#include <string.h>
+
 static const carom_cushion_options defaults = {.steps = 0};
 
 /* By the row of list.h. */

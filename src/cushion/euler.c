@@ -14,6 +14,8 @@
  * Slips that vanish chatter between two steps, so results jump in fine sweeps of the input. */
 #include "cushion/models.h"
 
+#include <stdbool.h>
+
 enum { HALVINGS = 8, MOST_TURNS = 10 };
 
 /* A direction: the slip over its size. Without one there is no friction; but with pooltool it is

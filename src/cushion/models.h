@@ -11,6 +11,9 @@
 #include "platform/ranges.h"
 #include "schema/numbers.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 /* The exact limit. See mathavan.c. */
 carom_status carom_mathavan(carom_contact *contact, int plain);
 

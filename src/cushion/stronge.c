@@ -33,6 +33,8 @@
 #include "cushion/models.h"
 #include "platform/elementary.h"
 
+#include <stdbool.h>
+
 static const double BETA = 3.5, HALF_PI = 1.57079632679489661923;
 static const double ROOT_WIDTH = 1e-10;
 /* how pooltool tells that rho is at a limit */

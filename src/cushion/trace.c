@@ -3,6 +3,8 @@
  * way, once for each sample. */
 #include "cushion/models.h"
 
+#include <stdbool.h>
+
 static const double TOLERANCE = 1e-3; /* see contact_law/impact.h */
 
 /* The impact that is followed. */

@@ -12,6 +12,8 @@
 
 #include "motion/path.h"
 
+#include <math.h>
+
 /* The first s >= 0 at which y + y1 s + m s^2 is 0, for y > 0; infinite where it is not. Where
  * the usual form of the zero would lose half of its digits, or all of them, it has the other. */
 static inline double carom_first_fall(double y, double y1, double m) {

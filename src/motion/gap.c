@@ -19,6 +19,8 @@
 #include "motion/first_zero.h"
 #include "platform/promise.h"
 
+#include <math.h>
+
 /* c0 + c1 t + ... + c4 t^4 */
 typedef struct quartic {
   double c[5];

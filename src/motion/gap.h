@@ -3,9 +3,13 @@
 #ifndef CAROM_SRC_MOTION_GAP_H
 #define CAROM_SRC_MOTION_GAP_H
 
+#include <math.h>
+
 #include "platform/arithmetic.h"
 #include "platform/ranges.h"
 #include "platform/vectors.h"
+
+#include <stdbool.h>
 
 /* Touching things that close at less than this, m/s, do so by rounding. */
 #define CAROM_NO_SPEED 1e-11

@@ -21,6 +21,9 @@
 #include "motion/orientation.h"
 #include "platform/elementary.h"
 
+#include <math.h>
+#include <string.h>
+
 /* rad, of a part: its turn, and h^2 |b|. Found with tests/unit/games.c, which prints the largest
  * error. */
 static const double most_turn = 0.5, most_bend = 0.02;

@@ -1,6 +1,10 @@
 /* The motion of a ball between events, in closed form; path.h has the equations. */
 #include "motion/path.h"
 
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
 enum { RUNGE_STEPS = 4 }; /* of a pair on a slope */
 
 carom_ball_rates carom_rates_of(const carom_ball_kind *kind) {

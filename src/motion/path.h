@@ -65,6 +65,8 @@
 #include "platform/ranges.h"
 #include "platform/vectors.h"
 
+#include <stdbool.h>
+
 /* Numbers that follow from a ball's kind, once for a shot. */
 typedef struct carom_ball_rates {
   double radius, slide, roll; /* R; mu_s g and mu_r g, m/s^2 */

@@ -18,6 +18,9 @@
 #include "platform/ranges.h"
 #include "schema/numbers.h"
 
+#include <math.h>
+#include <stddef.h>
+
 carom_status carom_check_cue(const carom_cue *cue) {
   const carom_cue *k = cue;
   CAROM_CUE_NUMBERS(CAROM_CHECK_ROW, CAROM_NO_ROW)

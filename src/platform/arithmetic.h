@@ -7,17 +7,11 @@
  * refused: here by their macros; in isa.c, those of which clang has no macro. No source can see
  * -ffp-contract=fast in clang's flags, which overrides the pragma: our CMake files override that
  * flag, others must not give it. Nor can a source see that a program is linked with -ffast-math:
- * gcc then has it flush subnormal numbers to zero.
- *
- * The headers of C that most sources need come with it. */
+ * gcc then has it flush subnormal numbers to zero. */
 #ifndef CAROM_SRC_PLATFORM_ARITHMETIC_H
 #define CAROM_SRC_PLATFORM_ARITHMETIC_H
 
 #include <float.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <string.h>
 
 /* In spite of -ffp-contract=off gcc 12 fuses alternate sums and differences of products where it
  * packs straight-line code into vectors (fmaddsub), and reportedly gcc 16 fuses in loops too for

@@ -16,7 +16,10 @@
  * tests/unit/elementary.c compares them with the functions of the C library in long double. */
 #include "platform/elementary.h"
 
+#include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 enum { HIGHEST = 20 };
 /* 1/n! */

@@ -23,8 +23,12 @@
 #endif
 #define secure_getenv(name) (getauxval(AT_SECURE) ? NULL : getenv(name))
 #endif
+#include <math.h>
 #include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* clang has no macro for some flags by which it changes results. They show in the expressions it
  * takes for constant whatever x is; the call that this leads to is then an error of the compiler.

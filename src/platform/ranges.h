@@ -7,6 +7,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 
 /* fmin() and fmax() without their care for NaN, which costs a call. */
 static inline double carom_lesser(double a, double b) {

@@ -4,6 +4,8 @@
 
 #include "platform/arithmetic.h"
 
+#include <stddef.h>
+
 /* Works on the rows from `from` to before `end` of a job; returns the first of them that is in
  * error, or `end`. Called from several threads at once. */
 typedef size_t carom_part_worker(const void *job, size_t start, size_t end);

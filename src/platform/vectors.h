@@ -5,6 +5,8 @@
 
 #include "platform/arithmetic.h"
 
+#include <math.h>
+
 static inline double carom_plane_dot(const double a[2], const double b[2]) {
   return a[0] * b[0] + a[1] * b[1];
 }

@@ -7,6 +7,9 @@
 #include "carom_record.h"
 #include "platform/arithmetic.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+
 typedef enum carom_value_type {
   CAROM_VALUE_DOUBLE,
   CAROM_VALUE_INT32,

@@ -8,7 +8,9 @@
 
 #include "platform/arithmetic.h"
 
+#include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 enum { TENS = 23, MANTISSA = 52, BIAS = 1023 };
 

@@ -12,6 +12,10 @@
 #include "record/number_text.h"
 #include "schema/options.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+
 /* ---- The format ------------------------------------------------------------------------------ */
 
 #define RAIL_KEY(member, ...) CAROM_MEMBER_FIELD(#member, carom_rail, member)

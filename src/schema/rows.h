@@ -6,6 +6,8 @@
 #include "carom_shot.h"
 
 #include <math.h>
+#include <stddef.h>
+#include <stdint.h>
 
 /* A row of any struct; behind its text stand the members of carom_number that it has besides. */
 #define CAROM_TYPE_OF(x) \

@@ -21,6 +21,8 @@
 #include "platform/arithmetic.h"
 #include "platform/ranges.h"
 
+#include <math.h>
+
 static const carom_bank banks[CAROM_BANKS] = {{2.5, 1.3, 1.0}, {3.0, 1.3, 1.0}, {3.5, 5.0, 0.0}};
 
 static const double sight = 0.094; /* m, behind the noses */

@@ -8,6 +8,10 @@
 #include "schema/options.h"
 #include "shot/rules.h"
 
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
 static bool is_flat(const carom_shot_options *o) {
   return carom_rules_of(o->world)->flat || o->space == CAROM_SPACE_FLAT;
 }

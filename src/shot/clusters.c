@@ -4,6 +4,9 @@
 #include "platform/promise.h"
 #include "shot/rules.h"
 
+#include <math.h>
+#include <string.h>
+
 static const double neighborhood = 0.01; /* m; members.c looks closer */
 static const double simultaneous = 1e-9; /* of a contact's duration: touches that are nearer in
                                             time count as one */

@@ -15,6 +15,8 @@
 #include "platform/promise.h"
 #include "shot/rules.h"
 
+#include <math.h>
+
 _Static_assert((int)CAROM_COLUMN == (int)CAROM_BALLS_MOST, "a column has a place for each ball");
 
 /* A path seen from now on: r + v t + a t^2. */

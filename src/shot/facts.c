@@ -2,6 +2,9 @@
 #include "shot/facts.h"
 #include "table/marks.h"
 
+#include <math.h>
+#include <string.h>
+
 void carom_facts_begin(carom_facts *facts) {
   memset(facts, 0, sizeof *facts);
   facts->second_time = INFINITY;

@@ -3,6 +3,11 @@
 #include "platform/arithmetic.h"
 #include "table/table.h"
 
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 /* The value of element k of a number. */
 static double value_of(const carom_number *n, const void *object, int k) {
   const void *value = (const char *)object + n->offset;

@@ -31,6 +31,8 @@
 #include "motion/gap.h"
 #include "shot/sim.h"
 
+#include <math.h>
+
 static const double on_top = 1e-9; /* m: rounding of the edges of tops, and of a ball's height on
                                       them */
 

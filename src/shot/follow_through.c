@@ -16,6 +16,8 @@
 #include "shot/clusters.h"
 #include "shot/rules.h"
 
+#include <math.h>
+
 void carom_follow_on(carom_play *play, double V, double lead) {
   const carom_sim *sim = &play->sim;
   const carom_cue *cue = sim->cue;

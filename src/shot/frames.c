@@ -4,6 +4,10 @@
 #include "platform/fingerprint.h"
 #include "shot/sim.h"
 
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
 /* The steps of a call that turns balls: about a second. All balls of a break turn by some 1,000
  * parts. */
 static const double most_steps = 1e7;

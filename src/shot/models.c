@@ -6,6 +6,9 @@
 #include "schema/numbers.h"
 #include "shot/rules.h"
 
+#include <math.h>
+#include <string.h>
+
 /* Across the line of centres: along t = n x z, and up; the slip of the first ball's surface on
  * the second's. */
 typedef struct contact_slip {

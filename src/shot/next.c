@@ -3,6 +3,8 @@
 #include "platform/promise.h"
 #include "shot/rules.h"
 
+#include <math.h>
+
 enum { MOST_DUE = 128 };
 
 static int type_of_end(const carom_sim *sim, int i) {

@@ -19,6 +19,10 @@
 #include "platform/ranges.h"
 #include "shot/shot.h"
 
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
 /* Where a ball lies. */
 typedef struct lying {
   int64_t pocket;

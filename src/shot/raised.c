@@ -40,6 +40,10 @@
 #include "platform/ranges.h"
 #include "shot/clusters.h"
 
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
 enum { PHASES_MOST = 400, STEPS_OF_PHASE = 3000, FINER_MOST = 5 };
 static const double STEP = 0.6;      /* of a phase's faster mode, rad */
 static const double FINER = 6.0;     /* parts of a step whose ends do not tell what happens in it */

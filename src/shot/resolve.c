@@ -69,6 +69,8 @@
 #include "platform/promise.h"
 #include "shot/sim.h"
 
+#include <math.h>
+
 static const double slow_first = 1e-3, slow_most = 0.2; /* m/s */
 static const double slow_instants = 1500.0;
 /* ON TOP: n_z, the s there in m/s, the bound of q, and the speed of a balanced ball, m/s */

@@ -12,6 +12,9 @@
 #include "motion/gap.h"
 #include "shot/rules.h"
 
+#include <math.h>
+#include <stddef.h>
+
 static const double equal_speeds = 1e-9; /* relative */
 
 /* ---- The order of simultaneous events */

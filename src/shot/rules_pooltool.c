@@ -20,6 +20,9 @@
 #include "motion/gap.h"
 #include "shot/rules.h"
 
+#include <math.h>
+#include <stddef.h>
+
 /* s: pooltool's EPS; earlier zeros are no contact with a rail */
 static const double root_least = 2.220446049250313e-14;
 static const double spacer = 1e-6, longest = 5e-6; /* m */

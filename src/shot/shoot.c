@@ -8,6 +8,10 @@
 #include "shot/facts.h"
 #include "shot/rules.h"
 
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
 /* Counts an event, and gives the place where its states go: in the caller's list, or a spare one
  * where that has no room. */
 static inline carom_event *note(carom_sim *sim, carom_event *spare,

@@ -29,6 +29,9 @@
 #include "platform/ranges.h"
 #include "shot/sim.h"
 
+#include <math.h>
+#include <stdbool.h>
+
 static const double hop_loss = 0.02, least_hop = 1e-9; /* m/s: s, and the least speed of a hop */
 
 carom_touch carom_touch_of(const double N[3], double R, const carom_ball_state *s) {

@@ -1,6 +1,9 @@
 /* The slip of an event, for sounds: how fast the two surfaces pass each other as they meet. */
 #include "shot/sim.h"
 
+#include <math.h>
+#include <stdint.h>
+
 static carom_ball moving(const carom_ball_kind *kind, const carom_ball_state *s) {
   return (carom_ball){
       .v = {s->v[0], s->v[1], s->v[2]}, .w = {s->w[0], s->w[1], s->w[2]}, .radius = kind->radius};

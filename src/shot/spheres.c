@@ -22,6 +22,9 @@
  */
 #include "shot/sim.h"
 
+#include <math.h>
+#include <stdbool.h>
+
 /* Closing speed and slip. */
 static double relative_motion(const carom_impact *in, const double n[3], double u[3]) {
   double v[3], turn[3], W[3];

@@ -12,6 +12,9 @@
 #include "schema/options.h"
 #include "shot/rules.h"
 
+#include <math.h>
+#include <string.h>
+
 /* The result so far. The events are the caller's; of those are fingerprints. */
 typedef struct result {
   int64_t events;

@@ -11,6 +11,9 @@
 #include "table/marks.h"
 #include "table/table.h"
 
+#include <math.h>
+#include <string.h>
+
 static inline float lesser(float a, float b) {
   return a < b ? a : b;
 }

@@ -3,6 +3,9 @@
 #include "platform/arithmetic.h"
 #include "schema/numbers.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+
 carom_cue carom_cue_of(carom_game game) {
   const bool snooker = game == CAROM_GAME_SNOOKER || game == CAROM_GAME_POOLTOOL_SNOOKER;
   const bool pooltool = game == CAROM_GAME_POOLTOOL_POOL || game == CAROM_GAME_POOLTOOL_SNOOKER ||

@@ -1,6 +1,8 @@
 /* The marks of a table for callers, and what lies in the D. */
 #include "table/marks.h"
 
+#include <stddef.h>
+
 carom_status carom_table_marks(const carom_table *table, carom_marks *marks) {
   if (table == NULL || marks == NULL)
     return CAROM_ERROR_NULL;

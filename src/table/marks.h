@@ -6,6 +6,8 @@
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
+#include <stdbool.h>
+
 static inline carom_marks carom_marks_of(double width, double length) {
   const double middle = 0.5 * width;
   return (carom_marks){.head_spot = {middle, 0.25 * length},

@@ -14,6 +14,8 @@
  */
 #include "table/table.h"
 
+#include <math.h>
+
 double carom_nose_height(const carom_ball_kind *kind, double height) {
   return carom_or_usual(kind->nose_height, height);
 }

@@ -2,6 +2,9 @@
  * are beside each other. */
 #include "table/table.h"
 
+#include <math.h>
+#include <stddef.h>
+
 /* rails shorter than this part of the longest one are cuts of pockets */
 static const double cut_most = 0.2;
 /* A rail whose end is so near to the centre of a pocket is beside it: radii of the pocket. A corner

@@ -2,6 +2,8 @@
  * carom_shot.h; and the table of a caller, with its ring (ring.c). */
 #include "table/table.h"
 
+#include <math.h>
+
 /* 0 where all are finite, else NaN. The parts of a table are checked for each shot that is
  * played alone, so without a branch for each number. */
 static inline double zero_if_finite(const double *x, int n) {

@@ -6,6 +6,8 @@
  * the table too. Other places are looked at more closely (ring.c), which takes longer. */
 #include "table/table.h"
 
+#include <math.h>
+
 static double distance_to(const carom_features *f, int rail, const double r[2]) {
   return carom_plane_dot(f->line[rail], r) + f->line[rail][2];
 }

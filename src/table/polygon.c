@@ -14,6 +14,9 @@
  * corner itself. */
 #include "table/table.h"
 
+#include <math.h>
+#include <string.h>
+
 static const double CLEARLY = 0.17; /* sine of the turn at a corner where rails need no jaw */
 static const double SAFE = 0.9;     /* part of the greatest d */
 

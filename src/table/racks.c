@@ -3,6 +3,12 @@
 #include "platform/arithmetic.h"
 #include "table/marks.h"
 
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
 /* Racks as rows. A triangle has `rows` rows, of which row `spot` has its middle on the foot spot; a
  * diamond of nine balls has its widest row in the middle. Balls of `fixed` have their places, from
  * the front and from the left; the others have none of their own. Other balls stand on spots. */

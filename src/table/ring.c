@@ -19,6 +19,10 @@
 #include "platform/promise.h"
 #include "table/table.h"
 
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
 static const double touching = 1e-6; /* m: parts so near to each other have no hole between them */
 
 typedef struct shape {

@@ -18,6 +18,8 @@
  * prepare those of all jaws for each shot costs as much as half of a short shot. */
 #include "table/table.h"
 
+#include <math.h>
+
 static const double passage = 8e-3;   /* m, of chord */
 static const double tolerance = 1e-4; /* m: of a seam, across the circle and along the rail; tables
                                          may be drawn to tenths of a millimetre */

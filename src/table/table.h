@@ -8,6 +8,8 @@
 #include "platform/ranges.h"
 #include "platform/vectors.h"
 
+#include <stdbool.h>
+
 /* m: a ball that is deeper than this in the table overlaps it. */
 #define CAROM_MOST_OVERLAP 1e-6
 /* m: a ball that is deeper than this in another overlaps it. Rules allow balls so much smaller than

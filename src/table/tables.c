@@ -11,6 +11,10 @@
 #include "platform/elementary.h"
 #include "table/table.h"
 
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
 /* What follows of the measures: cut - 90 degrees, of both pockets; what the facings lose to the
  * back for each m of depth; q; and d. */
 typedef struct openings {

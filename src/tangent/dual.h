@@ -13,6 +13,12 @@
 #ifndef CAROM_SRC_TANGENT_DUAL_H
 #define CAROM_SRC_TANGENT_DUAL_H
 
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
 /* Macros where there is only the header of C. */
 #undef isfinite
 #undef isnan

@@ -22,6 +22,10 @@
 #include "cluster/cue.h"
 #include "shot/shot.h"
 
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
 static const double NEAR = 0.2;      /* m: gaps beyond are not asked for; */
 static const double TOUCHING = 2e-4; /* nor those up to this, of bodies that touched or nearly did
                                         as the way began */

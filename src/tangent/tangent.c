@@ -6,6 +6,10 @@
 #include "shot/shot.h"
 #include "tangent/reach.h"
 
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
 typedef carom_tangent_work work;
 
 /* The work after the checks of arguments. */

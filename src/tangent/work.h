@@ -7,6 +7,8 @@
 #include "motion/path.h"
 #include "platform/arithmetic.h"
 
+#include <stdbool.h>
+
 /* Derivatives that a number carries, of which the last is that by time. */
 enum { CAROM_TANGENT_WIDTH = 8, CAROM_TANGENT_COLUMNS = CAROM_TANGENT_WIDTH - 1 };
 

@@ -6,6 +6,7 @@
 
 #include <stdarg.h>
 #include <sys/utsname.h>
+#include <time.h>
 #include <unistd.h>
 
 void machine_note(FILE *out, const char *what, const char *format, ...) {

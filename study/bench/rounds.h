@@ -11,6 +11,8 @@
 #include "counters.h"
 
 #include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
 /* Tells the compiler that somebody reads what `pointer` points to, so that it must have been
  * computed. */

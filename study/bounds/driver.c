@@ -15,6 +15,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static bool read_ball(carom_ball *ball) {
   double *field[] = {&ball->r[0], &ball->r[1],   &ball->r[2], &ball->v[0],

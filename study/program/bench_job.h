@@ -6,6 +6,8 @@
 #include "program/options.h"
 #include "rounds.h"
 
+#include <stdio.h>
+
 /* Names, or whole numbers as text, with commas between; repeating an option adds to its list. They
  * point into the argument vector, whose commas become ends. */
 typedef struct name_list {

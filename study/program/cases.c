@@ -5,6 +5,9 @@
 #include "rows/number.h"
 #include "rows/source.h"
 
+#include <limits.h>
+#include <stdint.h>
+
 bool cases_load(const char *folder, const char *name, case_set *out) {
   char path[PATH_MAX];
   snprintf(path, sizeof path, "%s/%s", folder, name);

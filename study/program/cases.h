@@ -5,6 +5,9 @@
 #include "carom.h"
 #include "rows/records.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 typedef struct case_set {
   size_t count;
   char **id;

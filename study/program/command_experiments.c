@@ -7,6 +7,8 @@
 #include "sheet.h"
 #include "subcommands.h"
 
+#include <limits.h>
+
 static const double degree = 3.14159265358979323846 / 180.0;
 
 /* What is compared, in the order of the columns: m/s and degrees. */

@@ -2,6 +2,7 @@
 #include "python.h"
 #include "program/program.h"
 
+#include <stdlib.h>
 #include <sys/wait.h>
 
 /* Adds a word in single quotes, in which only the quote itself is special to the shell. */

@@ -15,6 +15,8 @@
 #include "precise_solver.h"
 #include "schema/numbers.h"
 
+#include <stddef.h>
+
 enum { STEPS = 13, MOST = NUMBERS * LAYOUT_BALLS };
 
 typedef struct number {

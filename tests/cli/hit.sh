@@ -118,7 +118,10 @@ for cut, spin, more in (
     expected = said(row, after, spin, cut)
     picture = open("hit.svg", encoding="utf-8").read().splitlines()
     in_picture = " ".join(re.sub("<[^>]*>", "", line) for line in picture if "xml:space" in line)
-    print(*asked, words == expected or [pair for pair in zip(words, expected) if pair[0] != pair[1]], in_picture.split()[-len(" ".join(words).split()):] == " ".join(words).split(), small_letters("hit.svg"))
+    differ = [pair for pair in zip(words, expected) if pair[0] != pair[1]]
+    shown = " ".join(words).split()
+    are_shown = in_picture.split()[-len(shown):] == shown
+    print(*asked, words == expected or differ, are_shown, small_letters("hit.svg"))
     print(*(line for line in picture if "xml:space" not in line), sep="\n")
 PYTHON
 python said.py

@@ -77,7 +77,8 @@ for options in "--why --csv" "--why --value"; do try carom plan --rules potting 
 echo "--- three-cushion"
 carom shoot --table threecushion --cue 0.4,0.9 --balls 0.3,1.9:1.1,2.2 --aim 90 --json > three.jsonl
 carom plan --rules threecushion --shots 600 three.jsonl | sed 's/[0-9]*[.][0-9]*/N/g' | sed -n 1,3p
-carom plan --rules threecushion --shots 600 --csv three.jsonl | awk -F , 'NR > 1 { print ($12 <= $14), ($2 == "carom" || $2 == "kick" || $2 == "rail first" || $2 == "safety"), $4 == "" }' | sort | uniq
+carom plan --rules threecushion --shots 600 --csv three.jsonl | awk -F , '
+  NR > 1 { print ($12 <= $14), ($2 ~ /^(carom|kick|rail first|safety)$/), $4 == "" }' | sort | uniq
 try carom plan --rules threecushion layout.jsonl
 try carom plan --rules threecushion --value three.jsonl
 echo "--- straight pool and snooker"

@@ -6,6 +6,8 @@
 #include "carom_plan.h"
 #include "draws.h"
 
+#include <math.h>
+
 enum { ROOM = 4 };
 
 static carom_table table;

@@ -4,6 +4,7 @@
 #include "recipes.h"
 #include "random.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 

@@ -5,6 +5,9 @@
 
 #include "carom_shot.h"
 
+#include <stddef.h>
+#include <stdint.h>
+
 enum { RECIPE_BALLS = 5 };
 
 typedef struct recipe {

@@ -3,6 +3,8 @@
 #include "platform/elementary.h"
 #include "support.h"
 
+#include <float.h>
+
 enum { DRAWN = 100000 };
 
 /* The error in units in the last place of the exact result, or of 1. */

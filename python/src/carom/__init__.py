@@ -125,17 +125,17 @@ if _TYPE_CHECKING:
 _OFFERED = (
     "ALL_THREADS Calibration CaromError Drill EventType Facts Features Flag Foul Goal Hessian "
     "Label Match Odds Options Outcome Pot Rating Review Rules Ruling RunOut Shot Shots Status "
-    "Table Tangents Turn aim aim_slope alciatore balls best_breaks by_number calibrate chances cite collide "
-    "cue cushion cushion_impacts cushion_trace dtypes hessian impacts isa_in_force jacobian "
-    "mu_ball odds physics_revision place_ball plan player racks rating referee resume review "
+    "Table Tangents Turn aim aim_slope alciatore balls best_breaks by_number calibrate chances "
+    "cite collide cue cushion cushion_impacts cushion_trace dtypes hessian impacts isa_in_force "
+    "jacobian mu_ball odds physics_revision place_ball plan player racks rating referee resume review "
     "sequence simulate simulate_arrow simulate_batch struck tables tangents trace value "
     "with_errors"
 ).split()
 
 # Names of the folder games, and modules of folders, which are loaded when they are asked for.
 _OF_GAMES = frozenset(
-    "Drill Facts Foul Goal Match Odds Pot Rating Review Rules Ruling RunOut Turn aim best_breaks chances odds "
-    "plan player rating referee review sequence value with_errors".split()
+    "Drill Facts Foul Goal Match Odds Pot Rating Review Rules Ruling RunOut Turn aim best_breaks "
+    "chances odds plan player rating referee review sequence value with_errors".split()
 )
 _MODULES_OF_FOLDERS = frozenset(
     "drills fit gymnasium matches pettingzoo plans pool potting rules sb3".split()

@@ -6,7 +6,7 @@ import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import { type Host as MatchHost, Match } from "./match.js";
 import type { Build, Memory, Pointer } from "./memory.js";
-import { Plans } from "./plans.js";
+import { Plans, resultOf } from "./plans.js";
 import { type Replayed, replayed } from "./recording.js";
 import { type Kept, type Reader, Shot } from "./shot.js";
 import {
@@ -1384,7 +1384,7 @@ export class Carom {
    * landing zone of the cue ball, and the chance of the whole by run-outs that are played.
    */
   sequence(table: Table, balls: readonly ShotBall[], options: SequenceOptions = {}): Sequence {
-    return this.#plans.sequence(table, balls, options, 0).next().value as Sequence;
+    return resultOf(this.#plans.sequence(table, balls, options, 0));
   }
 
   /** The same in slices, as `think`. Each run-out that is played is a slice. */

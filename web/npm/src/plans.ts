@@ -82,6 +82,12 @@ const fieldsOf = (state: object, keys: readonly string[]): object =>
   Object.fromEntries(
     Object.entries(state).filter(([key, value]) => keys.includes(key) && value !== undefined),
   );
+/** The result of a search without slices. */
+export function resultOf<T>(search: Generator<undefined, T>): T {
+  const { done, value } = search.next();
+  if (!done) throw new RangeError("carom: a plan at once has not ended");
+  return value;
+}
 const SCORE = layout.carom_score;
 const BREAK = layout.carom_break_choice;
 const BREAK_JOB = layout.carom_break_job;
@@ -380,7 +386,7 @@ export class Plans {
     cues: readonly Partial<Cue>[] | undefined,
     options: PlanOptions,
   ): PlanStroke[] {
-    return this.think(table, balls, cues, options, 0, 0).next().value as PlanStroke[];
+    return resultOf(this.think(table, balls, cues, options, 0, 0));
   }
 
   /**

@@ -167,12 +167,13 @@ contact = record_of(
 recording's clock (s); where ball a was (m); indices of ball a, and of ball b or -1; whether one of
 them is the struck ball; the rail, 0 to 3 for y = 0, x = W, y = L, x = 0, 4 for a pocket's facing,
 or -1. Before it: the speed V that kicks are over, that of ball a at a cushion, that of closing of
-two balls (m/s); the speed into the cushion, or V; the angle to the normal (degrees), and R w_z (m/s) of ball a. The
-kicks, over V: at a cushion velocity along and away from it, roll along and away from it, R w_z,
-where `along` is the direction in which the ball moves along the cushion, and w_z is positive where
-the ball rolls that way on the cushion; of balls those of loops.h, with t the direction in which the
-surface of a slips along b. Their errors, by the noise of the recording alone; which share of a kick
-the track tells, 0 to 1; and what the RMSE of the shot owes to the kicks of this contact alone, m.
+two balls (m/s); the speed into the cushion, or V; the angle to the normal (degrees), and R w_z
+(m/s) of ball a. The kicks, over V: at a cushion velocity along and away from it, roll along and
+away from it, R w_z, where `along` is the direction in which the ball moves along the cushion, and
+w_z is positive where the ball rolls that way on the cushion; of balls those of loops.h, with t the
+direction in which the surface of a slips along b. Their errors, by the noise of the recording
+alone; which share of a kick the track tells, 0 to 1; and what the RMSE of the shot owes to the
+kicks of this contact alone, m.
 """
 
 OUTPUTS = {
