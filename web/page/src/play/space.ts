@@ -350,6 +350,13 @@ export class Space implements SpaceView {
     const { first, play } = this.s;
     return play.table.pockets[guessOf(play.table, first, [first?.ball ?? -1]).pocket]?.centre;
   }
+  readonly sideOf = (place: ArrayLike<number>): number => {
+    const { film } = this.s;
+    const scene = this.isOn ? this.#scene : undefined;
+    const { 0: x = 0, 1: y = 0, 2: z = 0 } = place;
+    const [px] = scene ? scene.place(x, y, z) : film.place(x, y);
+    return (2 * px) / (scene?.canvas ?? film.canvas).clientWidth - 1;
+  };
   /** A device that is too slow for a film gets a coarser scene. */
   #time(): void {
     const film = this.#film;
