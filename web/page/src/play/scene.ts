@@ -240,11 +240,6 @@ export class Scene {
     }
     return performance.now() - start;
   }
-  /** What the last picture cost. */
-  get counts(): { calls: number; triangles: number } {
-    const { calls, triangles } = this.#renderer.info.render;
-    return { calls, triangles };
-  }
 
   /** Where a place is seen, pixels of the page; NaN: behind the camera. */
   place(x: number, y: number, z: number): [number, number] {

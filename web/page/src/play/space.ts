@@ -394,12 +394,13 @@ export class Space implements SpaceView {
       const [x, y] = scene.place(r[0]!, r[1]!, r[2]!);
       const [u, v] = scene.place(r[0]!, r[1]!, r[2]! + kind.radius);
       const radius = Math.hypot(u - x, v - y);
-      const isShown = seen && (settings.numbers || (radius < READABLE && !play.breaks));
+      const isAsked = settings.numbers || (radius < READABLE && !play.breaks);
+      const isShown = seen && isAsked && r[2]! > 0 && x > 0 && x < width;
       return {
         kind: { ...kind, radius: 1.1 * radius },
         state: {
           r: [x, y, 0] as const,
-          label: isShown && x > 0 && x < width ? ("rolling" as const) : ("pocketed" as const),
+          label: isShown ? ("rolling" as const) : ("pocketed" as const),
         },
       };
     });
