@@ -16,13 +16,13 @@ import {
   TOP,
   woodAround,
 } from "./cushions.js";
+import { acrossOf } from "./ribbons.js";
 import { FLOOR } from "./room.js";
 import {
   angleFrom,
   arcAround,
   bodyOf,
   box,
-  distance,
   joined,
   laid,
   painted,
@@ -30,6 +30,7 @@ import {
   type Point,
   ringBody,
   shapeOf,
+  stripOf,
   turned,
 } from "./shapes.js";
 import { grain, type Style, weave } from "./surfaces.js";
@@ -164,15 +165,12 @@ function addPockets(
 function drawnOn(table: Table): THREE.BufferGeometry[] {
   const { lines, spots } = markingsOf(table);
   const high = 0.0006;
-  const parts = lines.flatMap((points) =>
-    points.slice(1).map((end, k) => {
-      const start = points[k]!;
-      const part = new THREE.PlaneGeometry(distance(start, end) + 0.002, 0.003);
-      return part
-        .rotateZ(angleFrom(start, end))
-        .translate((start[0] + end[0]) / 2, (start[1] + end[1]) / 2, high);
-    }),
-  );
+  const parts = lines.map((points) => {
+    const across = acrossOf(points);
+    const side = (far: number): Place[] =>
+      points.map(([x, y], k) => [x + far * across[k]![0], y + far * across[k]![1], high]);
+    return stripOf([side(0.0014), side(-0.0014)]);
+  });
   const dots = spots.map(([x, y]) => new THREE.CircleGeometry(0.005, 12).translate(x, y, high));
   return [...parts, ...dots];
 }

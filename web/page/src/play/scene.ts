@@ -29,6 +29,8 @@ const BEHIND = 0.8;
 const FARTHEST = 1.3;
 /** The width of a line's pixel in the views from behind, m. */
 const LINE = 0.0035;
+/** The same from above, at most. */
+const FINE = 0.0045;
 /** How many pictures are drawn before one is timed: the first ones make programs and shadows. */
 const WARM = 2;
 
@@ -96,7 +98,8 @@ export class Scene {
     const camera = this.#camera;
     this.#isFlat = true;
     this.#shot = undefined;
-    this.#pixel = 1 / scale;
+    // A line of a table that is small on the screen is no wider than a part of a ball.
+    this.#pixel = Math.min(1 / scale, FINE);
     Object.assign(this.#fog, { near: 9, far: 30 });
     // From above, wood and metal would show nothing but the lamps.
     this.#scene.environmentIntensity = 0.4;
