@@ -255,6 +255,14 @@ export class Scene {
         ];
   }
 
+  /** Whether a number on a ball faces the camera. */
+  isFacing({ r, q }: Pose): boolean {
+    const axis = new THREE.Vector3(0, 0, 1).applyQuaternion(
+      new THREE.Quaternion(q[1]!, q[2]!, q[3]!, q[0]!),
+    );
+    const way = new THREE.Vector3(r[0]!, r[1]!, r[2]!).sub(this.#camera.position).normalize();
+    return Math.abs(axis.dot(way)) > 0.6;
+  }
   /** The place at a height that is seen at a pixel of the page; none above the horizon. */
   unplace(px: number, py: number, z: number): [number, number] | undefined {
     const eye = this.#camera.position;
