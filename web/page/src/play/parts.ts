@@ -75,7 +75,6 @@ export interface Watching {
 /** Drills, a table from a photo, and one's own rating (practice.ts). */
 export interface Training {
   readonly parts: HTMLElement[];
-  readonly photo: HTMLDialogElement;
   wordsOfStart(name: string): string;
   drill(name: string): Drill;
   /** Judges a try of a drill, and counts one that the player aimed alone. */

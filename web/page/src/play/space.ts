@@ -1,6 +1,5 @@
-// The table as a scene, below the flat view or in its stead, from behind the cue. Its module is in the
-// page as compressed text, and starts behind the first view. A browser without WebGL, and a device
-// that is too slow for it, keep the drawn table.
+// The table as a scene, below the flat view or in its stead, from behind the cue. It starts behind the
+// first view. A browser without WebGL, and a device that is too slow for it, keep the drawn table.
 import type { Cue } from "carom";
 import { colourOf } from "../../../player/words.js";
 import type { FlatView, Pose } from "../../../player/words.js";
@@ -16,19 +15,6 @@ import { aimed, free, isHinted, says } from "./session.js";
 import type { Stick } from "./stick.js";
 import { texts } from "../texts/texts.js";
 
-async function load(): Promise<typeof import("./scene.js")> {
-  const text = document.getElementById("scene-module")!.textContent!.trim();
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const source = await new Response(
-    new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")),
-  ).blob();
-  const url = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
-  try {
-    return (await import(/* @vite-ignore */ url)) as typeof import("./scene.js");
-  } finally {
-    URL.revokeObjectURL(url);
-  }
-}
 const isStill = (): boolean => window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 /** How drivers are named that draw by the processor. */
 const BY_PROCESSOR = /swiftshader|llvmpipe|software|basic render/i;
@@ -123,7 +109,7 @@ export class Space implements SpaceView {
   async #start(): Promise<void> {
     if (this.#scene) return;
     if (!document.createElement("canvas").getContext("webgl2")) throw new Error(texts.itHasNoWebgl);
-    this.#module ??= await load();
+    this.#module ??= await import("./scene.js");
     if (!this.#isClosed) this.#current();
   }
   #end(): void {
