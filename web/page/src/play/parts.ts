@@ -9,7 +9,7 @@ import type { Drill } from "./drills.js";
 import type { Aimer, Play, Stroke } from "./game.js";
 import type { OwnRating } from "./ladder.js";
 import type { Look } from "./look.js";
-import type { Sound } from "./sound.js";
+import type { Side, Sound } from "./sound.js";
 
 /**
  * What was chosen to be called, -1: nothing, pocket -2: a safety, and the ball that the aim met
@@ -104,6 +104,8 @@ export interface SpaceView {
   /** Looks from behind the cue, or from above again. */
   toggle(): Promise<void>;
   draw(): void;
+  /** Where a place is seen: from -1, the left edge, to 1, the right one. */
+  readonly sideOf: Side;
   close(): void;
 }
 

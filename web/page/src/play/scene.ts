@@ -9,6 +9,7 @@ import { Balls, type PaintedBall } from "./balls.js";
 import { furnish } from "./furniture.js";
 import { light, roomOf, surroundings } from "./room.js";
 import { Ribbons } from "./ribbons.js";
+import { clamp, turned } from "./shapes.js";
 import { layStick, type Stick, stickMesh } from "./stick.js";
 import { styleOf } from "./surfaces.js";
 
@@ -23,8 +24,9 @@ const DEGREES = 180 / Math.PI;
 const CEILING = 5;
 /** How fast a camera glides to another place: the share of its way that is left falls by e^-1 in this, s. */
 const GLIDE = 0.18;
-/** Behind the cue ball, m. */
+/** Behind the cue ball, m; and at most, where the pocket would not be seen. */
 const BEHIND = 0.8;
+const FARTHEST = 1.3;
 /** The width of a line's pixel in the views from behind, m. */
 const LINE = 0.0035;
 /** How many pictures are drawn before one is timed: the first ones make programs and shadows. */
@@ -129,13 +131,19 @@ export class Scene {
     const half = angle / 2;
     const direction = phi / DEGREES;
     const along = [Math.cos(direction), Math.sin(direction)] as const;
-    const back = Math.min(this.#wayToWood(place, along, -1) + 0.55, BEHIND);
-    const eye = new THREE.Vector3(place[0]! - back * along[0], place[1]! - back * along[1], height);
-    // The cue ball stays in the picture as well as the pocket.
     const aside = Math.atan(aspect * Math.tan(half / DEGREES));
-    const seen = pocket ? Math.atan2(pocket[1]! - eye.y, pocket[0]! - eye.x) - direction : 0;
-    const turn = Math.atan2(Math.sin(seen), Math.cos(seen)) / 2;
-    const gaze = direction + Math.min(Math.max(turn, -0.75 * aside), 0.75 * aside);
+    const most = this.#wayToWood(place, along, -1) + 0.55;
+    let back = Math.min(most, BEHIND);
+    const eye = new THREE.Vector3();
+    let seen = 0;
+    // The cue ball stays in the picture as well as the pocket, for which the eye goes back.
+    for (; ; back += 0.1) {
+      eye.set(place[0]! - back * along[0], place[1]! - back * along[1], height);
+      if (pocket) seen = turned(Math.atan2(pocket[1]! - eye.y, pocket[0]! - eye.x) - direction);
+      if (Math.abs(seen) < 1.5 * aside || back + 0.1 > Math.min(most, FARTHEST)) break;
+    }
+    if (Math.abs(seen) > 1.2) seen = 0;
+    const gaze = direction + clamp(seen / 2, -0.65 * aside, 0.65 * aside);
     // The far wood is near the upper edge, and the cue ball not above the middle by much.
     const far = back + this.#wayToWood(place, along, 1);
     const down =
