@@ -109,9 +109,10 @@ function showWords(s: Session): void {
 /** The part of the ball that the aim meets, where the lines of the game may show it. */
 function showContact(s: Session): void {
   const { play, first, stroke } = s;
+  // A stroke may meet a cushion alone.
   const meetsBall = free(s) && first !== undefined && first.ball >= 0;
-  const isShown = meetsBall && (play.practice || linesOf(s) !== "none");
-  stroke.showContact(isShown ? first : undefined, translate(play.names[first?.ball ?? 0]!));
+  if (!meetsBall || (!play.practice && linesOf(s) === "none")) return stroke.showContact(undefined);
+  stroke.showContact(first, translate(play.names[first.ball]!));
 }
 
 /** Shows a button or hides it; one that appears is brought into view. */
