@@ -1,7 +1,7 @@
 // The table as a scene, below the flat view or in its stead, from behind the cue. Its module is in the
 // page as compressed text, and starts behind the first view. A browser without WebGL, and a device
 // that is too slow for it, keep the drawn table.
-import type { Cue } from "carom";
+import type { Cue, Vec3 } from "carom";
 import { colourOf } from "../../../player/words.js";
 import type { FlatView, Pose } from "../../../player/words.js";
 import { drawLabels, drawZones, labelsOf, stickEnd } from "../table/drawing.js";
@@ -227,10 +227,16 @@ export class Space implements SpaceView {
   #under(scene: Scene, [x, y]: Point): Grip {
     const { balls, table } = this.s.play;
     const far = (px: number, py: number): number => Math.hypot(px - x, py - y);
+    /** How far off a ball is, beyond its edge: one before the eye is larger than a finger. */
+    const farOff = ([bx, by, bz]: Vec3, radius: number): number => {
+      const [px, py] = scene.place(bx, by, bz);
+      const [tx, ty] = scene.place(bx, by, bz + radius);
+      return far(px, py) - Math.hypot(tx - px, ty - py);
+    };
     const grips = [
-      ...balls.map(({ state: { r } }, ball) => ({
+      ...balls.map(({ state: { r }, kind }, ball) => ({
         grip: { kind: "ball", ball } as Grip,
-        d: onTable(balls[ball]!.state) ? far(...scene.place(r[0], r[1], r[2])) : 99,
+        d: onTable(balls[ball]!.state) ? farOff(r, kind.radius) : 99,
       })),
       ...table.pockets.map(({ centre }, pocket) => ({
         grip: { kind: "pocket", pocket } as Grip,
