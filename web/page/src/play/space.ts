@@ -4,7 +4,7 @@
 import type { Cue, Vec3 } from "carom";
 import { colourOf } from "../../../player/words.js";
 import type { FlatView, Pose } from "../../../player/words.js";
-import { drawLabels, drawZones, labelsOf, stickEnd } from "../table/drawing.js";
+import { drawLabels, drawSketches, labelsOf, stickEnd } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 import { type Grip, pixelsOf, type Point } from "../table/grip.js";
 import { drags, el, wrong } from "../ui.js";
@@ -12,7 +12,8 @@ import { linesOfAim, move, movable, tap } from "./aim.js";
 import { guessOf } from "./look.js";
 import type { Scene } from "./scene.js";
 import type { Session, SpaceView } from "./parts.js";
-import { aimed, free, isHinted, says } from "./session.js";
+import { seenSketches } from "./sketches.js";
+import { aimed, free, says } from "./session.js";
 import type { Stick } from "./stick.js";
 import { texts } from "../texts/texts.js";
 
@@ -368,11 +369,11 @@ export class Space implements SpaceView {
     film.last = time;
   }
   /**
-   * Draws the zones of a run-out; and, if the settings ask for it, the label of each ball where it
+   * Draws the sketches of the coach; and, if the settings ask for it, the label of each ball where it
    * lies over no other one.
    */
   #label(scene: Scene, poses: readonly Pose[]): void {
-    const { play, sequence, settings, film } = this.s;
+    const { play, settings } = this.s;
     const over = this.#over;
     const { balls, names } = play;
     const { clientWidth: width, clientHeight: height } = scene.canvas;
@@ -382,7 +383,7 @@ export class Space implements SpaceView {
     const g = over.getContext("2d")!;
     g.scale(sharp, sharp);
     const onCloth = { g, scale: 1, place: (x: number, y: number) => scene.place(x, y, 0.002) };
-    if (isHinted(this.s) && film.time === 0) drawZones(onCloth, sequence);
+    drawSketches(onCloth, seenSketches(this.s));
     if (!settings.numbers) return;
     const seen = poses.map(({ r, seen }, k) => {
       const { kind } = balls[k]!;
