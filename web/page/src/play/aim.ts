@@ -144,7 +144,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
       pen,
       poses.map(({ r, seen }, k) => ({
         kind: play.balls[k]!.kind,
-        state: { r: r as Vec3, label: seen ? "rolling" : "pocketed" },
+        state: { r: r as Vec3, label: seen && r[2]! > 0 ? "rolling" : "pocketed" },
       })),
       labels,
     );

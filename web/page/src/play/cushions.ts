@@ -90,7 +90,7 @@ function clipped(nose: Point, edge: readonly Point[], outward: Point): Point[] {
   return clip;
 }
 /** Wood begins below its cushion, so that its rounded edge is hidden there. */
-const HIDDEN = 0.008;
+const HIDDEN = 0.009;
 const INNER = CUSHION - HIDDEN;
 /** How far wood keeps off the middle of a pocket. */
 export const woodAround = ({ radius }: Pocket): number => radius + 0.004;

@@ -29,6 +29,8 @@ const BEHIND = 0.8;
 const FARTHEST = 1.3;
 /** The width of a line's pixel in the views from behind, m. */
 const LINE = 0.0035;
+/** The same from above, at most. */
+const FINE = 0.0045;
 /** How many pictures are drawn before one is timed: the first ones make programs and shadows. */
 const WARM = 2;
 
@@ -96,7 +98,8 @@ export class Scene {
     const camera = this.#camera;
     this.#isFlat = true;
     this.#shot = undefined;
-    this.#pixel = 1 / scale;
+    // A line of a table that is small on the screen is no wider than a part of a ball.
+    this.#pixel = Math.min(1 / scale, FINE);
     Object.assign(this.#fog, { near: 9, far: 30 });
     // From above, wood and metal would show nothing but the lamps.
     this.#scene.environmentIntensity = 0.4;
@@ -240,11 +243,6 @@ export class Scene {
     }
     return performance.now() - start;
   }
-  /** What the last picture cost. */
-  get counts(): { calls: number; triangles: number } {
-    const { calls, triangles } = this.#renderer.info.render;
-    return { calls, triangles };
-  }
 
   /** Where a place is seen, pixels of the page; NaN: behind the camera. */
   place(x: number, y: number, z: number): [number, number] {
@@ -257,6 +255,14 @@ export class Scene {
         ];
   }
 
+  /** Whether a number on a ball faces the camera. */
+  isFacing({ r, q }: Pose): boolean {
+    const axis = new THREE.Vector3(0, 0, 1).applyQuaternion(
+      new THREE.Quaternion(q[1]!, q[2]!, q[3]!, q[0]!),
+    );
+    const way = new THREE.Vector3(r[0]!, r[1]!, r[2]!).sub(this.#camera.position).normalize();
+    return Math.abs(axis.dot(way)) > 0.6;
+  }
   /** The place at a height that is seen at a pixel of the page; none above the horizon. */
   unplace(px: number, py: number, z: number): [number, number] | undefined {
     const eye = this.#camera.position;

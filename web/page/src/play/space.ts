@@ -367,8 +367,8 @@ export class Space implements SpaceView {
     film.last = time;
   }
   /**
-   * Draws the sketches of the coach; and the labels of balls that are too small to be read, or of all
-   * if the settings ask for it, where they lie over no other one.
+   * Draws the sketches of the coach; and the labels of balls that cannot be read, or of all if the
+   * settings ask for it, where they lie over no other one.
    */
   #label(scene: Scene, poses: readonly Pose[]): void {
     const { play, settings } = this.s;
@@ -387,12 +387,14 @@ export class Space implements SpaceView {
       const [x, y] = scene.place(r[0]!, r[1]!, r[2]!);
       const [u, v] = scene.place(r[0]!, r[1]!, r[2]! + kind.radius);
       const radius = Math.hypot(u - x, v - y);
-      const isShown = seen && (settings.numbers || (radius < READABLE && !play.breaks));
+      const isRead = radius > READABLE && (film.playing || scene.isFacing(poses[k]!));
+      const isAsked = settings.numbers || !(isRead || play.breaks);
+      const isShown = seen && isAsked && r[2]! > 0 && x > 0 && x < width;
       return {
         kind: { ...kind, radius: 1.1 * radius },
         state: {
           r: [x, y, 0] as const,
-          label: isShown && x > 0 && x < width ? ("rolling" as const) : ("pocketed" as const),
+          label: isShown ? ("rolling" as const) : ("pocketed" as const),
         },
       };
     });
