@@ -371,7 +371,7 @@ export class Space implements SpaceView {
    * settings ask for it, where they lie over no other one.
    */
   #label(scene: Scene, poses: readonly Pose[]): void {
-    const { play, settings } = this.s;
+    const { play, settings, film } = this.s;
     const over = this.#over;
     const { balls, names } = play;
     const { clientWidth: width, clientHeight: height } = scene.canvas;
