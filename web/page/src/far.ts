@@ -1,6 +1,7 @@
 // The library in workers, for calls that take longer than a frame. The page is one file, so a
-// worker runs the page's own script, which serves where there is no document. Each kind of call has
-// a worker: the chance of a stroke does not wait for a plan.
+// worker runs the page's first part, which serves where there is no document. Each kind of call has
+// a worker: the chance of a stroke does not wait for a plan. A search runs in slices, between which
+// it can be stopped.
 import { type Carom, load } from "carom";
 import { drillStroke } from "./play/drill_search.js";
 import { wrong } from "./ui.js";
@@ -8,30 +9,57 @@ import { texts } from "./texts/texts.js";
 
 /** What runs in workers, by name. */
 const callsOf = (carom: Carom) => ({
-  plan: carom.plan.bind(carom),
+  plan: (...[table, balls, options]: Parameters<Carom["plan"]>) =>
+    carom.think(table, balls, options, SLICE),
   chances: carom.chances.bind(carom),
-  sequence: carom.sequence.bind(carom),
+  sequence: (...[table, balls, options]: Parameters<Carom["sequence"]>) =>
+    carom.thinkSequence(table, balls, options, SLICE),
   bestBreaks: carom.bestBreaks.bind(carom),
   review: carom.review.bind(carom),
-  drill: (...args: Rest<typeof drillStroke>) => drillStroke(carom, ...args),
+  drill: (...args: Parameters<typeof drillStroke> extends [Carom, ...infer R] ? R : never) =>
+    drillStroke(carom, ...args),
 });
-type Rest<F> = F extends (first: Carom, ...rest: infer R) => unknown ? R : never;
 type Calls = ReturnType<typeof callsOf>;
 type Name = keyof Calls;
+type Search<T> = Generator<undefined, T>;
+type Answer<T> = T extends Search<infer R> ? R : T;
+/** A call with its number; or the number of one that is to stop. */
+type Message = [number, Name, unknown[]] | [number];
+/** The calls that run in slices, of so many events each: some 50 ms. */
+const SEARCHES: readonly Name[] = ["plan", "sequence"];
+const SLICE = 25_000;
 
-/** Answers calls, in the worker. */
+/** What a search finds, unless it is stopped between two slices. */
+async function resultOf<T>(search: Search<T>, isStopped: () => boolean): Promise<T | undefined> {
+  for (;;) {
+    const { done, value } = search.next();
+    if (done) return value;
+    await new Promise((later) => setTimeout(later)); // messages are read here
+    if (isStopped()) return void search.return(undefined as never);
+  }
+}
+/** Answers calls, in the worker, one after the other. */
 export async function serve(): Promise<void> {
   const calls = load().then(callsOf);
-  self.addEventListener(
-    "message",
-    async ({ data: [number, name, args] }: MessageEvent<[number, Name, never]>) => {
-      try {
-        self.postMessage([number, ((await calls)[name] as (...args: never) => unknown)(...args)]);
-      } catch (error) {
-        self.postMessage([number, undefined, wrong(error)]);
-      }
-    },
-  );
+  const stopped = new Set<number>();
+  async function answer(number: number, name: Name, args: unknown[]): Promise<void> {
+    const isStopped = (): boolean => stopped.has(number);
+    try {
+      if (isStopped()) return;
+      const found = ((await calls)[name] as (...args: unknown[]) => unknown)(...args);
+      const value = SEARCHES.includes(name)
+        ? await resultOf(found as Search<unknown>, isStopped)
+        : found;
+      self.postMessage([number, value]);
+    } catch (error) {
+      self.postMessage([number, undefined, wrong(error)]);
+    }
+  }
+  let last = Promise.resolve();
+  self.addEventListener("message", ({ data: [number, name, args] }: MessageEvent<Message>) => {
+    if (name === undefined) stopped.add(number);
+    else last = last.then(() => answer(number, name, args!));
+  });
 }
 
 interface Lane {
@@ -42,16 +70,17 @@ const lanes = new Map<Name, Lane>();
 let count = 0;
 
 function open(name: Name): Lane {
-  const script = document.querySelector('script[type="module"]')!.textContent!;
+  const script = document.querySelector("#first")!.textContent!;
   const worker = new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
   const lane: Lane = { worker, waiting: new Map() };
   worker.addEventListener(
     "message",
     ({ data: [number, value, error] }: MessageEvent<[number, never, string?]>) => {
-      const { done, failed } = lane.waiting.get(number)!;
+      const call = lane.waiting.get(number);
+      if (!call) return; // it was stopped
       lane.waiting.delete(number);
-      if (error === undefined) done(value);
-      else failed(new Error(error));
+      if (error === undefined) call.done(value);
+      else call.failed(new Error(error));
     },
   );
   worker.addEventListener("error", (event) => {
@@ -67,7 +96,7 @@ function open(name: Name): Lane {
 export function far<K extends Name>(
   name: K,
   ...args: Parameters<Calls[K]>
-): Promise<ReturnType<Calls[K]>> {
+): Promise<Answer<ReturnType<Calls[K]>>> {
   const { worker, waiting } = lanes.get(name) ?? open(name);
   return new Promise((done, failed) => {
     waiting.set(count, { done, failed });
@@ -82,6 +111,11 @@ export function far<K extends Name>(
 export function drop(name: Name): void {
   const lane = lanes.get(name);
   if (!lane || lane.waiting.size === 0) return;
-  lane.worker.terminate();
-  lanes.delete(name);
+  if (SEARCHES.includes(name)) {
+    for (const number of lane.waiting.keys()) lane.worker.postMessage([number]);
+    lane.waiting.clear();
+  } else {
+    lane.worker.terminate();
+    lanes.delete(name);
+  }
 }

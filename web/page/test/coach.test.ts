@@ -1,5 +1,6 @@
 // The coach and the view in three dimensions, in a browser.
 import { expect, test } from "vitest";
+import type { Page } from "playwright-core";
 import {
   act,
   boxOf,
@@ -20,6 +21,13 @@ import {
   shows,
   violations,
 } from "./page.js";
+
+/** Hides what lies over the scene, for a picture of the scene alone, or shows it again. */
+const hideChrome = (page: Page, isHidden: boolean) =>
+  page.evaluate((isHidden) => {
+    for (const part of document.querySelectorAll<HTMLElement>(".play > :not(.felt)"))
+      part.style.visibility = isHidden ? "hidden" : "";
+  }, isHidden);
 
 describePages("beside the game", () => {
   const { open, click, colour, frames, text, turnTo } = pages();
@@ -74,8 +82,14 @@ describePages("beside the game", () => {
     const lay = "0.635,1.2 0.3,2.2 in in 0.9,0.6 in in in in 0.9,1.9";
     const page = await open("", PHONE, gameOf("nineball", "person", lay));
     const ask = async (...steps: string[]) => act(page, "#coach-menu", ...steps);
+    // A question ends the search of the one before.
+    await act(page, "#hint");
     await ask("#ask-safety");
-    await comesToSay(page, "said", /^Hint: a safety, .* wins the game in \d+ %/);
+    await comesToSay(
+      page,
+      "said",
+      /^Hint: a safety, .* wins the game in \d+ %.* Also drawn: 2 wins in \d+ %.* Tap a number/,
+    );
     await ask("#ask-hidden");
     await comesToSay(page, "said", /^Hint: .* leaves the cue ball hidden in \d+ %, fouls in \d+ %/);
     await ask("#snooker-on=4", "#ask-snooker");
@@ -94,10 +108,10 @@ describePages("beside the game", () => {
     await comesToSay(page, "said", /leaves the cue ball within 20 cm/);
     await says(page, "turn", /^Player 1's turn/);
 
-    // What a stroke cost: an aim at the 1 that misses by a degree.
+    // What a stroke cost: an aim at the 1 that is too far off the hint to be the hint's.
     await act(page, "#hint");
     await comesToSay(page, "said", /^Hint: ball 1 into/);
-    await turnTo(page, (await numberIn(page, "phi")) + 1);
+    await turnTo(page, (await numberIn(page, "phi")) + 2.5);
     await act(page, "#shoot", "#skip");
     await comesToSay(page, "turn", /^Player 2's turn/);
     const rows = () => page.evaluate(() => localStorage.getItem("carom-reviews") ?? "");
@@ -171,8 +185,7 @@ describePages("beside the game", () => {
     await act(page, "#new-game", "#numbers=on", "#menu .close", "#space");
     await page.locator("#scene").waitFor();
     expect(await violations(page)).toEqual([]);
-    // The picture is of the scene alone.
-    await page.addStyleTag({ content: ".play > :not(.felt) { visibility: hidden }" });
+    await hideChrome(page, true);
     const { width, height, bytes } = await pictureOf(page, "#scene");
     /** The places in a rectangle whose colour is so. */
     const where = (
@@ -207,12 +220,11 @@ describePages("beside the game", () => {
     expect(room).toBeLessThan(0.3);
     // The aim: a light line before the cue ball, which is in the middle, to the far cushion.
     const middle = Math.round(width / 2);
-    const far = Math.round(0.15 * height);
     const line = where(
-      [middle - 3, far, middle + 3, far + 100],
+      [middle - 3, Math.round(0.15 * height), middle + 3, Math.round(0.5 * height)],
       (r, g, b) => Math.min(r, g, b) > 80,
     );
-    expect(new Set(line.map(([, y]) => y)).size).toBeGreaterThan(60);
+    expect(new Set(line.map(([, y]) => y)).size).toBeGreaterThan(0.2 * height);
     // The number: dark on white in the upper half of the yellow ball; its shadow is below.
     const yellow = where([0, 0, width, height], (r, g, b) => r > 120 && g > 80 && b < 0.3 * g);
     const xs = yellow.map(([x]) => x);
@@ -256,7 +268,9 @@ describePages("beside the game", () => {
     const box = await boxOf(page, "#scene");
     /** Where the view has marks: what is called, or in hand. */
     const marks = async () => {
+      await hideChrome(page, true);
       const { width, height, bytes } = await pictureOf(page, "#scene");
+      await hideChrome(page, false);
       return Array.from({ length: width * height }, (_, k) => k)
         .filter(
           (k) =>

@@ -17,9 +17,9 @@ const files = readdirSync(source, { recursive: true, encoding: "utf8" }).filter(
   (name) => name.endsWith(".ts") && !name.startsWith("texts"),
 );
 
-/** Strings that no reader sees: markup, classes, fonts, names of keys, media queries. */
+/** Strings that no reader sees: markup, classes, fonts, shaders, names of keys, media queries. */
 const TECHNICAL =
-  /^(<|bold |translate|\(pointer|\(prefers|#|\.|(row|panel|numbers|error) [a-z-]+$|carom |(Enter|Escape|Tab|Files|Arrow\w+)$)/;
+  /^(<|bold |700 …px |\s*(attribute|uniform|varying|vec3) |translate|\(pointer|\(prefers|#|\.|(row|panel|numbers|error) [a-z-]+$|carom |(Enter|Escape|Tab|Files|Arrow\w+)$)/;
 const UNITS = /\b(m\/s|rad\/s|mJ|N s|cm|mm|ms|px|m|s|R)\b/g;
 /** Names of the library, which told() translates, and the page's own name. */
 const NAMES = ["red …", "… pocket", " carom …."];

@@ -6,8 +6,8 @@ import {
   circleOf,
   drawLabels,
   drawLine,
+  drawSketches,
   drawStick,
-  drawZones,
   labelsOf,
   type Line,
 } from "../table/drawing.js";
@@ -43,6 +43,7 @@ import {
   says,
   valid,
 } from "./session.js";
+import { seenSketches, sketchedAt } from "./sketches.js";
 import { aimAtNearest, shoot, undo } from "./turns.js";
 import { texts } from "../texts/texts.js";
 
@@ -116,7 +117,7 @@ export function linesOfAim(s: Session): Line[] {
   const { film, first, play } = s;
   if (film.time > 0 || film.playing) return [];
   const cueBall = play.balls[play.cueBall]!;
-  const lines = marksOf(s);
+  const lines = [...marksOf(s), ...seenSketches(s).flatMap((sketch) => sketch.lines)];
   if (!first || !aimed(s) || !onTable(cueBall.state)) return lines;
   return [
     ...lines,
@@ -148,7 +149,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
       labels,
     );
   }
-  if (isHinted(s)) drawZones(pen, s.sequence);
+  drawSketches(pen, seenSketches(s));
   if (!space.isLive) {
     for (const line of linesOfAim(s)) drawLine(pen, line);
     const cueBall = play.balls[play.cueBall]!;
@@ -222,6 +223,8 @@ function strike(s: Session, ball: number): void {
 export function tap(s: Session, grip: Grip, place: Point): void {
   const cueBall = s.play.balls[s.play.cueBall]!;
   if (s.asksPlace) return void s.coach.leaveNear(place);
+  const sketched = sketchedAt(s, place);
+  if (sketched) return s.coach.take(sketched);
   if (grip.kind === "pocket") return choose(s, { pocket: grip.pocket });
   if (grip.kind === "ball" && grip.ball !== s.play.cueBall) {
     if (s.play.strikable.includes(grip.ball)) return strike(s, grip.ball);

@@ -36,13 +36,15 @@ import {
   why,
   wordsOfLevel,
 } from "./session.js";
+import { runOutSketches, safetySketches } from "./sketches.js";
 import { texts } from "../texts/texts.js";
 
 /** Shots of a plan, and of the chances of one stroke. */
 const PLAN = 1000;
 const TRY = 200;
-/** How many strokes of a plan are compared. */
+/** How many strokes of a plan are compared, and how many safeties are drawn. */
 const LISTED = 6;
+const SAFETIES = 3;
 /** Shots of the plans of a run-out, and how often it is played. */
 const RUN_OUT = { shots: 300, plays: 40 };
 /** Breaks of each break that is compared. */
@@ -83,15 +85,16 @@ function requestOf(play: Play, level: number): Request {
   };
 }
 
-/** The best stroke. Among strokes of equal worth, within their errors, it is one that scores. */
-async function best(
+/** The best strokes, so many at most. */
+const plan = (
   { table, balls, options }: Request,
-  more: PlanOptions = {},
-): Promise<PlanStroke> {
-  const isFree = more.goal === undefined && !more.safeties;
-  const wanted = { ...options, ...more, best: isFree ? LISTED : 1, shots: PLAN };
-  const [first, ...others] = await far("plan", table, balls, wanted);
-  const scores = (choice: PlanStroke): boolean => namesBall(table, choice);
+  more: PlanOptions,
+  best: number,
+): Promise<PlanStroke[]> => far("plan", table, balls, { ...options, ...more, best, shots: PLAN });
+/** The best stroke. Among strokes of equal worth, within their errors, it is one that scores. */
+async function best(request: Request, more: PlanOptions = {}): Promise<PlanStroke> {
+  const [first, ...others] = await plan(request, more, more.goal === undefined ? LISTED : 1);
+  const scores = (choice: PlanStroke): boolean => namesBall(request.table, choice);
   if (scores(first!) || first!.kind !== "safety") return first!;
   const isAsGood = ({ value, error }: PlanStroke): boolean =>
     first!.value - value <= Math.hypot(first!.error, error);
@@ -155,7 +158,7 @@ function setAim(s: Session, { cue, place }: { cue: Cue; place: readonly number[]
   play.strike(cue.ball);
   aimAt(s, cue);
   look(s);
-  s.sequence = [];
+  s.sketches = [];
   s.place = undefined;
   s.hint = cue; // the words of the turn make room for the hint
 }
@@ -172,6 +175,18 @@ function setHint(s: Session, choice: PlanStroke): void {
   };
   s.special = choice.kind === "push" ? "push" : undefined;
   s.showing.rest();
+}
+
+/** Draws safeties, of which one is aimed, and says what that does and how often the others win. */
+function showSafeties(s: Session, choices: readonly PlanStroke[], aimed: PlanStroke): void {
+  setHint(s, aimed);
+  s.sketches = safetySketches(s.play, choices);
+  s.showing.rest();
+  const others = choices.flatMap((choice, k) =>
+    choice === aimed ? [] : texts.numberWins(k + 1, percent(choice.value)),
+  );
+  const more = others.length > 0 ? ` ${texts.alsoDrawn(others.join(", "))}` : "";
+  says(s, wordsOfHint(s, aimed, undefined) + more);
 }
 
 /** The best stroke of the drill that is practised. */
@@ -204,7 +219,7 @@ async function tellRunOut(
   const { strokes, chance } = await far("sequence", table, balls, more);
   // One that begins with another ball than the hint would contradict it.
   if (!isWanted() || !isHinted(s) || strokes.length < 2 || strokes[0]!.choice.ball !== ball) return;
-  s.sequence = strokes;
+  s.sketches = runOutSketches(s.play, strokes);
   s.showing.rest();
   if (generation !== s.chancesGeneration) return;
   const list = strokes.map(({ choice }) => wordsOfPlan(s.play, choice)).join(", ");
@@ -234,7 +249,13 @@ const advise = (s: Session, question?: Question): Promise<void> =>
     const { drill } = s.play.setup;
     if (drill !== undefined && !question) return await adviseDrill(s, drill, isWanted);
     drop("plan"); // a search for another stroke
-    const choice = await best(requestOf(s.play, levelOf(s)), question?.options);
+    const request = requestOf(s.play, levelOf(s));
+    if (question?.options.safeties) {
+      const choices = await plan(request, question.options, SAFETIES);
+      if (isWanted()) showSafeties(s, choices, choices[0]!);
+      return;
+    }
+    const choice = await best(request, question?.options);
     if (!isWanted()) return;
     setHint(s, choice);
     s.place = question?.options.goal?.place;
@@ -364,6 +385,10 @@ export const coaching = (s: Session): Coach => ({
   advise: (question) => advise(s, question),
   adviseBreak: () => adviseBreak(s),
   leaveNear: (place) => leaveNear(s, place),
+  take(choice) {
+    const choices = s.sketches.flatMap((sketch) => sketch.choice ?? []);
+    showSafeties(s, choices, choice);
+  },
   chances: () => chances(s),
   review() {
     const request = requestOf(s.play, levelOf(s));

@@ -316,7 +316,11 @@ export function menu(
   );
   const more = button(
     texts.more,
-    () => more.setAttribute("aria-expanded", String(fold.classList.toggle("open"))),
+    () => {
+      const isOpen = fold.classList.toggle("open");
+      more.setAttribute("aria-expanded", String(isOpen));
+      if (isOpen) fold.scrollIntoView({ block: "center" });
+    },
     "#new-more",
     { "aria-expanded": "false" },
   );

@@ -1,8 +1,9 @@
 // What a game at the page is played by, and how it stands: the types of the session, which the
 // files of its parts share.
-import type { Call, Carom, Choice, Cue, PlanOptions, SequenceStroke, Vec2 } from "carom";
+import type { Call, Carom, Choice, Cue, PlanOptions, PlanStroke, Vec2 } from "carom";
 import type { player as filmPlayer } from "../../../player/player.js";
 import type { FlatView } from "../../../player/words.js";
+import type { Sketch } from "../table/drawing.js";
 import type { filmOf, Quaternion } from "../table/filmed.js";
 import type { Stroke as StrokeValues } from "../table/stroke.js";
 import type { Drill } from "./drills.js";
@@ -75,7 +76,6 @@ export interface Watching {
 /** Drills, a table from a photo, and one's own rating (practice.ts). */
 export interface Training {
   readonly parts: HTMLElement[];
-  readonly photo: HTMLDialogElement;
   wordsOfStart(name: string): string;
   drill(name: string): Drill;
   /** Judges a try of a drill, and counts one that the player aimed alone. */
@@ -149,6 +149,8 @@ export interface Coach {
   adviseBreak(): Promise<void>;
   /** Sets the stroke that leaves the cue ball near a place. */
   leaveNear(place: readonly [number, number]): Promise<void>;
+  /** Aims a stroke that a hint has drawn. */
+  take(choice: PlanStroke): void;
   /** Says the chances of the stroke that is aimed. */
   chances(): Promise<void>;
   /** Begins the review of a stroke of this layout; what it returns takes the stroke, and whether its
@@ -209,8 +211,8 @@ export interface Progress {
   verdict: string;
   /** The stroke of the last hint that was asked for at this stroke. */
   hint: Cue | undefined;
-  /** The run-out behind the hint, which is drawn while there is one. */
-  sequence: readonly SequenceStroke[];
+  /** What is drawn behind the hint: the run-out, or other safeties. */
+  sketches: readonly Sketch[];
   /** Whether the next tap names the place of a leave; and the place of the leave that is hinted. */
   asksPlace: boolean;
   place: Vec2 | undefined;

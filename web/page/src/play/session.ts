@@ -27,7 +27,7 @@ export const progressOf = (play: Play): Progress => ({
   special: undefined,
   verdict: "",
   hint: undefined,
-  sequence: [],
+  sketches: [],
   asksPlace: false,
   place: undefined,
   first: undefined,

@@ -1,11 +1,10 @@
-// The table as a scene, below the flat view or in its stead, from behind the cue. Its module is in the
-// page as compressed text, and starts behind the first view. A browser without WebGL, and a device
-// that is too slow for it, keep the drawn table.
-import type { Cue } from "carom";
+// The table as a scene, below the flat view or in its stead, from behind the cue. It starts behind the
+// first view. A browser without WebGL, and a device that is too slow for it, keep the drawn table.
+import type { Cue, Vec3 } from "carom";
 import { trailsOf } from "../../../player/film.js";
 import { colourOf } from "../../../player/words.js";
 import type { FlatView, Pose } from "../../../player/words.js";
-import { drawLabels, drawZones, labelsOf, type Line, stickEnd } from "../table/drawing.js";
+import { drawLabels, drawSketches, labelsOf, type Line, stickEnd } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 import { type Grip, pixelsOf, type Point } from "../table/grip.js";
 import { drags, el, wrong } from "../ui.js";
@@ -13,23 +12,11 @@ import { linesOfAim, move, movable, READABLE, tap } from "./aim.js";
 import { guessOf } from "./look.js";
 import type { Scene } from "./scene.js";
 import type { Session, SpaceView } from "./parts.js";
-import { aimed, free, isHinted, says } from "./session.js";
+import { seenSketches } from "./sketches.js";
+import { aimed, free, says } from "./session.js";
 import type { Stick } from "./stick.js";
 import { texts } from "../texts/texts.js";
 
-async function load(): Promise<typeof import("./scene.js")> {
-  const text = document.getElementById("scene-module")!.textContent!.trim();
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const source = await new Response(
-    new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")),
-  ).blob();
-  const url = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
-  try {
-    return (await import(/* @vite-ignore */ url)) as typeof import("./scene.js");
-  } finally {
-    URL.revokeObjectURL(url);
-  }
-}
 const isStill = (): boolean => window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 /** How drivers are named that draw by the processor. */
 const BY_PROCESSOR = /swiftshader|llvmpipe|software|basic render/i;
@@ -124,7 +111,7 @@ export class Space implements SpaceView {
   async #start(): Promise<void> {
     if (this.#scene) return;
     if (!document.createElement("canvas").getContext("webgl2")) throw new Error(texts.itHasNoWebgl);
-    this.#module ??= await load();
+    this.#module ??= await import("./scene.js");
     if (!this.#isClosed) this.#current();
   }
   #end(): void {
@@ -228,10 +215,16 @@ export class Space implements SpaceView {
   #under(scene: Scene, [x, y]: Point): Grip {
     const { balls, table } = this.s.play;
     const far = (px: number, py: number): number => Math.hypot(px - x, py - y);
+    /** How far off a ball is, beyond its edge: one before the eye is larger than a finger. */
+    const farOff = ([bx, by, bz]: Vec3, radius: number): number => {
+      const [px, py] = scene.place(bx, by, bz);
+      const [tx, ty] = scene.place(bx, by, bz + radius);
+      return far(px, py) - Math.hypot(tx - px, ty - py);
+    };
     const grips = [
-      ...balls.map(({ state: { r } }, ball) => ({
+      ...balls.map(({ state: { r }, kind }, ball) => ({
         grip: { kind: "ball", ball } as Grip,
-        d: onTable(balls[ball]!.state) ? far(...scene.place(r[0], r[1], r[2])) : 99,
+        d: onTable(balls[ball]!.state) ? farOff(r, kind.radius) : 99,
       })),
       ...table.pockets.map(({ centre }, pocket) => ({
         grip: { kind: "pocket", pocket } as Grip,
@@ -374,11 +367,11 @@ export class Space implements SpaceView {
     film.last = time;
   }
   /**
-   * Draws the zones of a run-out; and the labels of balls that cannot be read, or of all if the
+   * Draws the sketches of the coach; and the labels of balls that cannot be read, or of all if the
    * settings ask for it, where they lie over no other one.
    */
   #label(scene: Scene, poses: readonly Pose[]): void {
-    const { play, sequence, settings, film } = this.s;
+    const { play, settings, film } = this.s;
     const over = this.#over;
     const { balls, names } = play;
     const { clientWidth: width, clientHeight: height } = scene.canvas;
@@ -388,7 +381,7 @@ export class Space implements SpaceView {
     const g = over.getContext("2d")!;
     g.scale(sharp, sharp);
     const onCloth = { g, scale: 1, place: (x: number, y: number) => scene.place(x, y, 0.002) };
-    if (isHinted(this.s) && film.time === 0) drawZones(onCloth, sequence);
+    drawSketches(onCloth, seenSketches(this.s));
     const seen = poses.map(({ r, seen }, k) => {
       const { kind } = balls[k]!;
       const [x, y] = scene.place(r[0]!, r[1]!, r[2]!);

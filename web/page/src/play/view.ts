@@ -209,27 +209,26 @@ function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typ
     games.open();
   });
   return {
-    overlays: [games.root, games.calibration, coach.root, log.root, diagram.root, s.training.photo],
+    overlays: [games.root, games.calibration, coach.root, log.root, diagram.root],
     diagram,
   };
 }
 
 /** So long a text is shown, ms: three seconds, or as long as one reads it. */
 const readingTime = (text: string): number => Math.max(3000, 75 * text.length);
-/** What is said, over a part of the stage: it fades when it was read. */
-function fadingWords({ words }: Session, clock: HTMLElement): HTMLElement {
+/** What is said, over a part of the stage: it fades when it was read, or the table is touched. */
+function fadingWords({ words }: Session, clock: HTMLElement, felt: HTMLElement): HTMLElement {
   let timer = 0;
+  const fade = (): void => words.message.classList.add("read");
   const show = (): void => {
     words.message.classList.remove("read");
     window.clearTimeout(timer);
-    timer = window.setTimeout(
-      () => words.message.classList.add("read"),
-      readingTime(words.message.textContent!),
-    );
+    timer = window.setTimeout(fade, readingTime(words.message.textContent!));
   };
   new MutationObserver(show).observe(words.message, { childList: true });
   const root = el("div.words", { tabindex: "0" }, words.turn, words.score, clock, words.message);
   root.addEventListener("pointerdown", show);
+  felt.addEventListener("pointerdown", fade);
   return root;
 }
 /** What is needed now and then, behind one button: numbers, sound, the other views. */
@@ -278,7 +277,7 @@ export function playView(
   const bar = el(
     "section.play-bar",
     { "aria-label": texts.game },
-    fadingWords(s, clock.root),
+    fadingWords(s, clock.root, felt),
     el(
       "div.row.tools",
       buttons.menu,

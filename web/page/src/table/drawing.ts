@@ -1,6 +1,6 @@
 // What is drawn over the table while one aims: the stick, the ghost ball, lines, and rings around
 // balls.
-import type { Contact, Cue, SequenceStroke, ShotBall } from "carom";
+import type { Contact, Cue, PlanStroke, ShotBall } from "carom";
 import { line } from "../../../player/table.js";
 import { onTable } from "./filmed.js";
 
@@ -101,19 +101,41 @@ export function drawContact(
   pen.g.setLineDash([]);
 }
 
-/** Where the cue ball may land after each stroke of a run-out, with the number of the stroke. */
-export function drawZones({ g, place }: Pen, strokes: readonly SequenceStroke[]): void {
+/**
+ * A stroke that the coach draws: its lines, the zone where the cue ball may land, and the place of
+ * its number; and the stroke itself, where a tap on the number aims it.
+ */
+export interface Sketch {
+  lines: readonly Line[];
+  zone: readonly (readonly number[])[];
+  place: readonly number[];
+  choice?: PlanStroke;
+}
+/** The colour of a sketch, as dense as it is to be. */
+export const colourOfSketch = (k: number, density = 1): string =>
+  `hsla(${47 + 70 * k}, 90%, 65%, ${density})`;
+/** Draws zones, and the number of each sketch. Its lines are among those of the aim. */
+export function drawSketches({ g, place }: Pen, sketches: readonly Sketch[]): void {
   g.save();
   g.font = "bold 13px sans-serif";
-  for (const [k, { zone, ruling }] of strokes.entries()) {
-    if (ruling.turn !== "keep") continue;
+  g.textAlign = "center";
+  g.textBaseline = "middle";
+  for (const [k, sketch] of sketches.entries()) {
     g.beginPath();
-    for (const [x, y] of zone) g.lineTo(...place(x, y));
-    g.fillStyle = `hsl(${47 + 70 * k} 90% 65% / 0.28)`;
+    for (const [x, y] of sketch.zone) g.lineTo(...place(x!, y!));
+    g.fillStyle = colourOfSketch(k, 0.28);
     g.fill();
-    const [x, y] = ruling.balls[0]!.state.r;
+    if (sketch.zone.length === 0 && !sketch.choice) continue;
+    const [x, y] = place(sketch.place[0]!, sketch.place[1]!);
+    g.beginPath();
+    g.arc(x, y, 9, 0, 7);
+    g.fillStyle = "#000b";
+    g.strokeStyle = colourOfSketch(k);
+    g.lineWidth = 2;
+    g.fill();
+    g.stroke();
     g.fillStyle = "#fff";
-    g.fillText(String(k + 1), ...place(x, y));
+    g.fillText(String(k + 1), x, y + 0.5);
   }
   g.restore();
 }
