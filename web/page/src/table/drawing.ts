@@ -140,23 +140,40 @@ export function drawSketches({ g, place }: Pen, sketches: readonly Sketch[]): vo
   g.restore();
 }
 
+/** The parts of a stick from its butt on: how far each begins behind the tip, m, and its colour. */
+const STICK = [
+  [1.3, "#2a1a12"],
+  [0.74, "#d9b077"],
+  [0.03, "#f4efe2"],
+  [0.01, "#3f7fbf"],
+] as const;
+/** Half the width of a stick at its tip, m, and how much that grows with each m. */
+const TIP = 0.006;
+const TAPER = 0.007;
 /** The stick behind the cue ball, drawn back by its speed. */
 export function drawStick(pen: Pen, cueBall: ShotBall, { phi, theta, speed }: Cue): void {
+  const { g, scale } = pen;
   const { r } = cueBall.state;
   const dx = Math.cos(phi / DEGREES);
   const dy = Math.sin(phi / DEGREES);
-  const point = (s: number): [number, number] => [r[0] - dx * s, r[1] - dy * s];
   const gap = stickEnd(cueBall.kind.radius, speed);
-  const thick = Math.max(0.012 * pen.scale, 3);
-  pen.g.lineCap = "round";
-  stroke(
-    pen,
-    point(gap),
-    point(gap + 1.3 * Math.max(Math.cos(theta / DEGREES), 0.15)),
-    thick,
-    "#d9b077",
-  );
-  stroke(pen, point(gap), point(gap + 0.017), 0.8 * thick, "#3f7fbf");
+  // A raised stick is seen shorter.
+  const seen = Math.max(Math.cos(theta / DEGREES), 0.15);
+  /** A corner of the outline: so far behind the tip, on a side. */
+  const corner = (far: number, side: number): [number, number] => {
+    const behind = gap + far * seen;
+    const half = side * Math.max(TIP + TAPER * far, 1.2 / scale);
+    return pen.place(r[0] - behind * dx - half * dy, r[1] - behind * dy + half * dx);
+  };
+  for (const [far, colour] of STICK) {
+    g.fillStyle = colour;
+    g.beginPath();
+    g.moveTo(...corner(far, 1));
+    g.lineTo(...corner(far, -1));
+    g.lineTo(...corner(0, -1));
+    g.lineTo(...corner(0, 1));
+    g.fill();
+  }
 }
 
 /**
