@@ -415,8 +415,8 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
     "photo-page",
     texts.aTableFromA,
     el("div.row", file, wide.root, long.root),
-    message,
     el("div.photo-frame", canvas),
+    message,
     ask,
     el("div.row", ball.root, button(texts.takeBack, back, "#photo-back"), done),
   );
