@@ -243,7 +243,7 @@ static bool play_stroke(players *p) {
       !keep(p, carom_match_choose(&match, player, CAROM_CHOICE_PUSH), player, rulings))
     return false;
   const carom_call call = {best.ball, best.pocket};
-  if (match.rules.calls != 0 && best.ball >= 0 &&
+  if (match.rules.calls != 0 && best.pocket >= 0 &&
       !keep(p, carom_match_call(&match, player, call), player, rulings))
     return false;
   carom_player_strike(&p->player[player], (uint64_t)p->job->seed, (uint64_t)match.record.shots,

@@ -51,7 +51,7 @@ void plan_describe(const shot_line *line, const carom_plan_stroke *c, char text[
     snprintf(text, PLAN_TEXT, "a %s", carom_plan_kind_name((carom_plan_kind)c->kind));
   else if (!carom_names_ball(c))
     snprintf(text, PLAN_TEXT, "%s", words_without_ball(line, c));
-  else if (line->table->table.pockets == 0)
+  else if (c->pocket < 0)
     snprintf(text, PLAN_TEXT,
              c->kind == CAROM_PLAN_CAROM ? "a point, %s first" : "a point, off a cushion, %s first",
              named_ball(line->name[c->ball], ball));

@@ -25,8 +25,8 @@ typedef struct place_list {
 int rack_of_game(const char *text);
 
 /* For a place_list: X,Y:X,Y:..., each perhaps behind NAME=, where balls are named, or the name of a
- * rack or of a game, by row->words. Of a ball on a spot of snooker that is its name. RAIL,X in place of X,Y
- * touches a rail, frozen-BALL,X a ball. */
+ * rack or of a game, by row->words. Of a ball on a spot of snooker that is its name. RAIL,X in place
+ * of X,Y touches a rail, frozen-BALL,X a ball. */
 OPTION_SET(set_places);
 
 /* Places that have a name, as help and complaints list them. */

@@ -609,7 +609,8 @@ typedef struct carom_plan_options {
 typedef enum carom_plan_kind {
   CAROM_PLAN_POT = 0,   /* a direct pot of `ball` into `pocket`: the ball meets nothing else on its
                            way except a cushion beside the pocket */
-  CAROM_PLAN_SCAN = 1,  /* `ball` falls in half of the strokes, in several ways */
+  CAROM_PLAN_SCAN = 1,  /* `ball` falls in half of the strokes, in several ways; or no ball is
+                           named, and which one falls is luck */
   CAROM_PLAN_FOUL = 2,  /* the plan found no shot without a foul; this one is gentle */
   CAROM_PLAN_GIVEN = 3, /* a stroke of the caller, for carom_plan_try() */
   CAROM_PLAN_PUSH = 4,  /* a push-out, if the rules allow one */
@@ -620,7 +621,7 @@ typedef enum carom_plan_kind {
   CAROM_PLAN_COMBINATION = 9, /* another ball meets `ball`, which falls */
   CAROM_PLAN_CAROM = 10,      /* the cue ball meets another ball before `ball`; without pockets: it
                                  meets two */
-  CAROM_PLAN_SAFETY = 11,     /* no ball is named */
+  CAROM_PLAN_SAFETY = 11,     /* no ball is named: at most one stroke in ten keeps the turn */
   CAROM_PLAN_KISS = 12,       /* the cue ball meets `ball`, which meets another ball and falls */
   CAROM_PLAN_RAIL_FIRST = 13  /* the cue ball meets the cushion beside its first ball, then that */
 } carom_plan_kind;

@@ -8,7 +8,8 @@
  * was left to him. In straight pool and snooker the break is as hard as in eight-ball, and in a
  * quarter of the racks of snooker no red is left, in a quarter a colour is on after a red. Where
  * balls count for each player it is gentle or hard, and those that are down are shared out at
- * random.
+ * random. A game in which any ball may be struck is played as a match, of which all visits are
+ * looked at.
  */
 #include "program/command.h"
 #include "program/memory.h"
@@ -17,6 +18,7 @@
 #include "rack_play.h"
 #include "subcommands.h"
 
+#include "carom_match.h"
 #include "platform/threads.h"
 #include "view.h"
 
@@ -50,9 +52,10 @@ typedef struct sample {
 } sample;
 
 /* The layouts of a rack. */
+enum { SAMPLES_MOST = STROKES_MOST + STROKES_MOST * (STROKES_MOST - 1) / 2 + 1 };
 typedef struct visit {
   int count;
-  sample samples[STROKES_MOST + STROKES_MOST * (STROKES_MOST - 1) / 2 + 1];
+  sample samples[SAMPLES_MOST];
 } visit;
 
 typedef struct block {
@@ -70,22 +73,22 @@ static int objects_of(uint32_t in_play) {
   return n;
 }
 
-static sample look(const lab_rack *rack) {
+static sample look(const carom_plan_job *job, bool in_hand) {
   static const int seat = 0;
+  const carom_plan_rules *rules = job->rules;
   carom_view view;
-  carom_view_make(&view, &rack->plan, &rack->options);
-  carom_ball_state state[RACK_BALLS];
-  const int count = (int)rack->plan.count;
+  carom_view_make(&view, job, job->options);
+  carom_ball_state state[CAROM_BALLS_MOST];
+  const int count = (int)job->count;
   for (int k = 0; k < count; k++)
-    state[k] = rack->balls[k].state;
-  const uint32_t in_play = carom_in_play(state, count) | 1;
+    state[k] = job->balls[k].state;
+  const uint32_t in_play = carom_in_play(state, count) | UINT32_C(1) << job->cue->ball;
   sample s = {.keeps = 0};
-  carom_plan_features(&view, state, in_play, rack->rules.on(&rack->rules.state, in_play),
-                      carom_pockets_of(&rack->rules, &rack->rules.state), seat, rack->hand, NULL,
-                      s.x);
+  carom_plan_features(&view, state, in_play, rules->on(&rules->state, in_play),
+                      carom_pockets_of(rules, &rules->state), seat, in_hand, NULL, s.x);
   int32_t left[2];
-  rack->rules.left(&rack->rules.state, in_play, left);
-  s.left = rack->rules.race == CAROM_RACE_POINTS ? objects_of(in_play) : left[0];
+  rules->left(&rules->state, in_play, left);
+  s.left = rules->race == CAROM_RACE_POINTS ? objects_of(in_play) : left[0];
   return s;
 }
 
@@ -184,16 +187,78 @@ static bool keeps(const carom_turn *turn) {
 }
 
 /* Of each pair of strokes of a visit the later one, by the mean before the first one. */
-static void add_pairs(visit *added) {
+static void add_pairs(visit *added, int first) {
   const int strokes = added->count;
-  for (int k = 0; k < strokes; k++)
-    for (int j = k + 1; j < strokes; j++) {
+  for (int k = first; k < strokes; k++)
+    for (int j = k + 1; j < strokes && added->count < SAMPLES_MOST; j++) {
       sample s = added->samples[j];
       s.what = LATER;
       s.x[2] = 1.0 / s.left;
       s.x[3] = added->samples[k].x[2];
       added->samples[added->count++] = s;
     }
+}
+
+/* The first of a visit, which the other has left. */
+static void add_first(visit *added, sample s) {
+  s.what = FIRST;
+  s.x[2] = 1.0 / s.left;
+  if (added->count < SAMPLES_MOST)
+    added->samples[added->count++] = s;
+}
+
+/* Plays a match of two such players, and looks at each stroke behind the break. */
+static void play_match(const learn_job *job, lab_random *draw, double scale, visit *played) {
+  carom_table table;
+  const carom_rules_kind game = (carom_rules_kind)job->rules;
+  carom_table_make(lab_table_of(game), &table);
+  const carom_player player = carom_player_of(scale);
+  carom_plan_options options = {.shots = job->shots};
+  carom_plan_job plan = {.player = &player, .options = &options};
+  plan.memory_size = carom_plan_memory(&options);
+  plan.memory = allocate(1, plan.memory_size);
+  carom_match *match = allocate(1, sizeof *match);
+  carom_status status = carom_match_begin(match, game, &table, lab_bits(draw), 0);
+  played->count = 0;
+  int first = 0; /* of the samples of a visit, which begins */
+  bool begins = true;
+  while (status == CAROM_OK && match->phase != CAROM_MATCH_OVER && played->count < SAMPLES_MOST) {
+    const bool opens = match->rules.state.opening != 0;
+    const int seat = match->seat;
+    carom_plan_stroke choice;
+    int found;
+    options.seed = lab_bits(draw);
+    status = carom_match_plan(match, &plan, &choice, 1, &found);
+    plan.table = &match->record.table;
+    plan.balls = match->record.balls;
+    plan.count = match->record.count;
+    plan.cue = &choice.cue;
+    plan.rules = &match->rules;
+    sample s = look(&plan, true);
+    if (status == CAROM_OK)
+      status = carom_match_prepare(match, seat, &choice);
+    carom_player_strike(&player, options.seed, 0, &choice.cue);
+    if (status == CAROM_OK)
+      status = carom_match_stroke(match, seat, &choice.cue, NULL, NULL);
+    plan = (carom_plan_job){.player = &player,
+                            .options = &options,
+                            .memory = plan.memory,
+                            .memory_size = plan.memory_size};
+    s.keeps = keeps(&match->ruling.turn);
+    if (opens || status != CAROM_OK)
+      continue;
+    if (begins)
+      add_first(played, s);
+    if (begins)
+      first = played->count;
+    begins = !s.keeps;
+    if (played->count < SAMPLES_MOST)
+      played->samples[played->count++] = s;
+    if (begins)
+      add_pairs(played, first);
+  }
+  free(match);
+  free(plan.memory);
 }
 
 /* Plays a visit until the turn ends, and the other's first stroke. */
@@ -203,6 +268,10 @@ static void play(const learn_job *job, int number, visit *played) {
   lab_random draw = {((uint64_t)job->seed << 32) + 104729 * ((uint64_t)number + 1)};
   const carom_rules_kind game = (carom_rules_kind)job->rules;
   const double scale = errors[(int)lab_uniform(&draw, 0.0, PLAYERS)];
+  if (carom_plan_rules_of(game).any_cue_ball != 0) {
+    play_match(job, &draw, scale, played);
+    return;
+  }
   lab_rack rack = {.options = {.shots = job->shots}};
   lab_rack_begin(&rack, game, scale);
   make_rack(&rack, game, &draw);
@@ -211,20 +280,18 @@ static void play(const learn_job *job, int number, visit *played) {
   carom_plan_stroke choice;
   played->count = 0;
   while (turn.outcome == CAROM_TURN_KEEP && played->count < STROKES_MOST) {
-    sample s = look(&rack);
+    sample s = look(&rack.plan, rack.hand);
     if (!lab_rack_stroke(&rack, &choice, &turn))
       break;
     s.keeps = keeps(&turn);
     played->samples[played->count++] = s;
   }
-  add_pairs(played);
+  add_pairs(played, 0);
   if (turn.outcome == CAROM_TURN_PASS) {
-    sample s = look(&rack);
-    s.what = FIRST;
-    s.x[2] = 1.0 / s.left;
+    sample s = look(&rack.plan, rack.hand);
     if (lab_rack_stroke(&rack, &choice, &turn)) {
       s.keeps = keeps(&turn);
-      played->samples[played->count++] = s;
+      add_first(played, s);
     }
   }
   free(rack.plan.memory);

@@ -383,7 +383,7 @@ bool carom_search_scan(search *plan) {
   if (plan->tried >= 4 * plan->scan || plan->count >= plan->scan_end || carom_is_stopped(plan))
     return false;
   carom_search_next_place(plan);
-  const bool is_caroms = plan->job.rules->rack == CAROM_RACK_BILLIARDS; /* and in-offs */
+  const bool is_caroms = carom_has_cannons(plan->job.rules); /* and in-offs */
   const bool to_balls = plan->places > 0 || is_caroms || (plan->blind && plan->view.pockets > 0);
   const int slowest = plan->cushions == 3; /* the least speed seldom meets three cushions */
   const double begin = carom_uniform(plan->options.seed, DRAW_SCAN, 0, 0);

@@ -49,8 +49,10 @@ static int32_t seen_kind(search *plan, const carom_candidate *c, const carom_pla
 int32_t carom_search_kind(search *plan, carom_candidate *c, const carom_plan_stroke *choice) {
   if (choice->kind != CAROM_PLAN_SCAN)
     return choice->kind;
-  if (choice->ball < 0)
+  if (choice->ball < 0 && choice->keep < carom_luck)
     return CAROM_PLAN_SAFETY;
+  if (choice->ball < 0)
+    return CAROM_PLAN_SCAN;
   const bool is_seen = c->seen_kind > 0 && c->seen_ball == choice->ball;
   if (!is_seen || c->seen_pocket != choice->pocket) {
     c->seen_kind = (int16_t)(1 + seen_kind(plan, c, choice));

@@ -160,6 +160,18 @@ static const learned learned_of[] = {
          .width = 1.27,
          .stretch = 1.0,
          .edge = 1.0},
+    [CAROM_RULES_PYRAMID] =
+        {/* of 10849 strokes: carom-lab learn --rules pyramid --racks 256 --shots 200 --seed 0 */
+         /* log-likelihood of a stroke -0.3373; of one number for all, -0.5443 */
+         .next = {-1.878, -0.772, -0.196, 4.276, 1.462, 0.000, -1.878},
+         /* log-likelihood of a stroke -0.5426; of one number for all, -0.6871 */
+         .later = {0.256, -0.880, -4.707, 3.030},
+         /* log-likelihood of a stroke -0.3801; of one number for all, -0.4423 */
+         .first = {-0.098, -1.478, -1.065},
+         .mean = 0.177,
+         .width = 1.775,
+         .stretch = 1.0,
+         .edge = 1.0},
 };
 
 /* By how many points of carom_player_fargo() players differ who differ by 100 points in a game:

@@ -127,19 +127,13 @@ carom_plan_stroke carom_search_choice(const search *plan, const candidate *c) {
   return choice;
 }
 
-/* Whether a choice is meant to pass the turn: balls fall by luck, if any do. */
-static bool is_safe(const carom_plan_stroke *choice) {
-  return choice->kind == CAROM_PLAN_SAFETY && choice->keep < carom_luck;
-}
-
 /* Whether two choices have the same ball, pocket and kind; of safeties alone, also about the same
  * direction. */
 static bool is_same(const search *plan, const carom_plan_stroke *a, const carom_plan_stroke *b) {
   static const double apart = 5.0; /* degrees */
   const double turn = fabs(a->cue.phi - b->cue.phi);
   const bool is_near = !plan->only_safeties || fmin(turn, 360.0 - turn) <= apart;
-  return a->ball == b->ball && a->pocket == b->pocket && a->kind == b->kind &&
-         is_safe(a) == is_safe(b) && is_near;
+  return a->ball == b->ball && a->pocket == b->pocket && a->kind == b->kind && is_near;
 }
 
 /* Whether n choices hold the same one. */
@@ -218,7 +212,7 @@ bool carom_search_list(search *plan) {
 
   bool safe = false;
   for (int k = 0; k < plan->listed; k++)
-    safe |= is_safe(&listed[k]);
+    safe |= listed[k].kind == CAROM_PLAN_SAFETY;
   const bool alone = plan->job.rules->race == CAROM_RACE_ALONE;
   if (plan->choices_most > 1 && !safe && !alone && !plan->breaks && plan->view.pockets > 0)
     list_safeties(plan);
@@ -270,7 +264,7 @@ int carom_search_give(search *plan, carom_plan_stroke *choices, int room) {
   /* the best of each ball, pocket and kind; the best safety takes the last place at least, and a
    * player who may pass is told so */
   for (int k = 0; k < n; k++) {
-    const bool safety = is_safe(&choice_list[k]);
+    const bool safety = choice_list[k].kind == CAROM_PLAN_SAFETY;
     const bool is_close = choice_list[k].value >= choice_list[0].value - points_most ||
                           choice_list[k].kind == CAROM_PLAN_PASS;
     if (has_same(plan, choices, written, &choice_list[k]) || !(is_close || safety))

@@ -826,7 +826,7 @@ static carom_status prepare(carom_match *match, int player, const carom_plan_str
     status = place_cue_ball(match, player, choice->place[0], choice->place[1]);
   if (status == CAROM_OK && choice->kind == CAROM_PLAN_PUSH)
     status = take_choice(match, player, CAROM_CHOICE_PUSH);
-  const bool calls = match->rules.calls != 0 && choice->ball >= 0;
+  const bool calls = match->rules.calls != 0 && choice->ball >= 0 && choice->pocket >= 0;
   if (status != CAROM_OK || !calls)
     return status;
   return call_pocket(match, player, (carom_call){choice->ball, choice->pocket});

@@ -79,8 +79,8 @@ static carom_call call_of(const search *plan, const carom_facts *facts) {
       call = (carom_call){k, facts->pocket[k]};
   if (call.ball < 0 && (facts->down >> cue_ball & 1) != 0) /* off a ball: cowboy's last point */
     call = (carom_call){facts->first[0], facts->pocket[cue_ball]};
-  if (call.ball < 0 && plan->job.rules->rack == CAROM_RACK_BILLIARDS && facts->first[1] >= 0)
-    call.ball = facts->first[0]; /* a cannon */
+  if (call.ball < 0 && carom_has_cannons(plan->job.rules) && facts->first[1] >= 0)
+    call.ball = facts->first[0];
   return call;
 }
 

@@ -63,6 +63,11 @@ static inline bool carom_has_d(const carom_plan_rules *rules) {
   return rules->rack == CAROM_RACK_SNOOKER || rules->rack == CAROM_RACK_BILLIARDS;
 }
 
+/* Whether a cue ball that meets two balls scores on a table with pockets. */
+static inline bool carom_has_cannons(const carom_plan_rules *rules) {
+  return rules->rack == CAROM_RACK_BILLIARDS || rules->rack == CAROM_RACK_COWBOY;
+}
+
 /* The points of a ball if it falls in the next stroke, or with ball -1 the mean of a later pot; 1
  * in games without points. */
 static inline double carom_points_of(const carom_plan_rules *rules, const carom_rules_state *game,

@@ -81,9 +81,8 @@ TEST(lists_have_safeties) {
     expect_ok(carom_plan(&job, best, 5, &found));
     bool is_safe = false;
     for (int k = 0; k < found; k++) {
-      const bool names_none = best[k].kind == CAROM_PLAN_SAFETY;
-      is_safe |= names_none && best[k].keep < 0.1 && best[k].foul <= 0.25;
-      lucky += names_none && best[k].keep >= 0.1;
+      is_safe |= best[k].kind == CAROM_PLAN_SAFETY && best[k].foul <= 0.25;
+      lucky += best[k].kind == CAROM_PLAN_SCAN && best[k].ball < 0;
     }
     lists += is_safe;
     edge_free(&memory);

@@ -485,8 +485,8 @@ TEST(points_are_those_of_who_made_them) {
     carom_rules_kind kind;
     int64_t handicap;
     int ends; /* of 20 games, at least */
-  } rows[] = {{CAROM_RULES_PYRAMID, 5, 20},     {CAROM_RULES_BILLIARDS, 96, 20},
-              {CAROM_RULES_ROTATION, 60, 15},   {CAROM_RULES_FOURBALL, 9, 1},
+  } rows[] = {{CAROM_RULES_PYRAMID, 5, 20},      {CAROM_RULES_BILLIARDS, 96, 20},
+              {CAROM_RULES_ROTATION, 60, 15},    {CAROM_RULES_FOURBALL, 9, 1},
               {CAROM_RULES_STRAIGHTRAIL, 99, 1}, {CAROM_RULES_COWBOY, 0, 0}};
   int scored = 0;
   for (size_t k = 0; k < COUNT_OF(rows); k++) {
@@ -515,8 +515,8 @@ TEST(points_are_those_of_who_made_them) {
         continue;
       ends++;
       ck_assert_msg(later.points[match.winner - 1] >= later.points[2 - match.winner],
-                    "game %d, seed %d: %d has won at %d : %d", (int)k, (int)seed,
-                    (int)match.winner, (int)later.points[0], (int)later.points[1]);
+                    "game %d, seed %d: %d has won at %d : %d", (int)k, (int)seed, (int)match.winner,
+                    (int)later.points[0], (int)later.points[1]);
     }
     printf("%s: %d of 20 games ended\n", carom_rules_about_of(rows[k].kind)->name, ends);
     ck_assert(ends >= rows[k].ends);

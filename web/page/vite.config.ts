@@ -2,32 +2,9 @@ import { spawnSync } from "node:child_process";
 import { readdirSync, readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
-import { build, defineConfig, type Plugin, type Rollup, transformWithEsbuild } from "vite";
+import { defineConfig, type Plugin, type Rollup } from "vite";
 
 const pathOf = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
-
-/** The view in three dimensions as a module by itself, and the modules in it. */
-async function sceneModule(): Promise<{ code: string; modules: string[] }> {
-  const lib = { entry: pathOf("src/play/scene.ts"), formats: ["es" as const] };
-  const [output] = (await build({
-    configFile: false,
-    logLevel: "warn",
-    build: {
-      lib,
-      target: "es2022",
-      write: false,
-      minify: "esbuild",
-      rollupOptions: { output: { inlineDynamicImports: true } },
-    },
-  })) as Rollup.RollupOutput[];
-  const [chunk] = output!.output;
-  // Vite leaves the space in modules of libraries.
-  return {
-    code: (await transformWithEsbuild(chunk.code, "scene.js", { minify: true, target: "es2022" }))
-      .code,
-    modules: Object.keys(chunk.modules),
-  };
-}
 
 /**
  * A text by gzip: by Zopfli of npm/build, which makes it 5 % smaller, or by Node's where that could
@@ -80,46 +57,90 @@ function licences(modules: string[]): string {
     .replaceAll("<", "&lt;");
 }
 
-// The page is one file, so that it works from a folder: browsers load neither modules nor
-// WebAssembly from file: addresses.
+/** The parts of the page, and the first one, whose names are those of their sources. */
+const FIRST = "first";
+/** What hands names over: `export{a as b}` and `import{b as c}from"./part.js"`, as esbuild shortens them. */
+const EXPORTS = /export\s*\{([^}]*)\};?\s*$/;
+const IMPORTS = /import\s*\{([^}]*)\}\s*from\s*"\.\/([\w-]+)\.js";?/g;
+/** Names as properties: "a as b" with `pair(a, b)`. */
+const properties = (names: string, pair: (from: string, to: string) => string): string =>
+  names
+    .split(",")
+    .filter((name) => name.trim() !== "")
+    .map((name) =>
+      pair(
+        ...(name
+          .trim()
+          .split(/\s+as\s+/)
+          .slice(0, 2) as [string, string]),
+      ),
+    )
+    .join(",");
+
+/**
+ * A part as text. Browsers load no modules from file: addresses, so a part finds the names of others
+ * in `caromParts`, where src/behind.ts and the first part put them.
+ */
+function partOf(chunk: Rollup.OutputChunk): string {
+  const code = chunk.code
+    .replaceAll("import.meta.url", '""')
+    .replaceAll(
+      IMPORTS,
+      (_, names: string, from: string) =>
+        `const{${properties(names, (name, own = name) => `${name}:${own}`)}}=caromParts["${from}"];`,
+    )
+    .replaceAll(/\bimport\((["'`])\.\/([\w-]+)\.js\1\)/g, 'caromPart("$2")');
+  if (chunk.name !== FIRST) return code;
+  const names = EXPORTS.exec(code)?.[1] ?? "";
+  return code.replace(
+    EXPORTS,
+    () =>
+      `Object.assign(caromParts,{${FIRST}:{${properties(names, (own, name = own) => `${name}:${own}`)}}});`,
+  );
+}
+
+// The page is one file, so that it works from a folder. Its first part runs as soon as it has come,
+// also in workers (src/far.ts), and so is a classic script; the others are compressed text behind it,
+// until they are asked for.
 function oneFile(): Plugin {
   return {
     name: "one-file",
     // After Vite's own plugins, which still change the code.
     generateBundle: {
       order: "post",
-      async handler(_, bundle) {
+      handler(_, bundle) {
         const html = bundle["index.html"];
         if (html?.type !== "asset") throw new Error("one-file: there is no index.html");
         let text = String(html.source);
+        const put = (mark: string, words: string): void => {
+          if (!text.includes(mark)) throw new Error(`one-file: index.html has no ${mark}`);
+          text = text.replace(mark, () => words);
+        };
+        const parts: string[] = [];
         for (const [name, part] of Object.entries(bundle)) {
           if (part === html) continue;
-          // Vite's import() asks where the script lies, of which there is but one. Without that, a
-          // worker runs the script too, as a classic one: a page from a folder may not start
-          // others.
-          const source =
-            part.type === "chunk"
-              ? part.code.replaceAll("import.meta.url", '""').replaceAll("</script", "<\\/script")
-              : String(part.source);
-          const tag =
-            part.type === "chunk"
-              ? `<script type="module">${source}</script>`
-              : `<style>${source}</style>`;
+          delete bundle[name];
           const link = new RegExp(
             `<(script|link)[^>]*${name.replaceAll(/[.*+?^$()|[\]\\]/g, "\\$&")}[^>]*>(</script>)?`,
           );
-          if (!link.test(text)) throw new Error(`one-file: index.html does not refer to ${name}`);
-          text = text.replace(link, () => tag);
-          delete bundle[name];
+          if (part.type === "asset") {
+            if (!link.test(text)) throw new Error(`one-file: index.html does not refer to ${name}`);
+            text = text.replace(link, () => `<style>${String(part.source)}</style>`);
+          } else if (part.name === FIRST) {
+            text = text.replace(link, "");
+            const code = partOf(part).replaceAll("</script", "<\\/script");
+            put("<!-- first -->", `<script id="first">"use strict";(()=>{${code}})()</script>`);
+          } else {
+            const needs = part.imports.map((file) => file.replace(/\.js$/, ""));
+            const packed = gzip(partOf(part)).toString("base64");
+            parts.push(
+              `<script type="text/plain" id="part-${part.name}" data-needs="${needs.join(" ")}">${packed}</script>`,
+            );
+          }
         }
-        if (!text.includes("<!-- licences -->"))
-          throw new Error("one-file: index.html has no place for the licences");
-        // It is text until it is asked for.
-        const scene = await sceneModule();
-        text = text.replace("<!-- scene -->", () => gzip(scene.code).toString("base64"));
-        html.source = text.replace("<!-- licences -->", () =>
-          licences([...this.getModuleIds(), ...scene.modules]),
-        );
+        put("<!-- licences -->", licences([...this.getModuleIds()]));
+        put("<!-- parts -->", parts.join("\n"));
+        html.source = text;
       },
     },
   };
@@ -157,6 +178,10 @@ function compressed(): Plugin {
   };
 }
 
+/** The library is in the first part, which calls it at once. */
+const manualChunks = (id: string): string | undefined =>
+  /\/src\/main\.ts$|\/generated\/(simd|plain)\.js$/.test(id) ? FIRST : undefined;
+
 export default defineConfig({
   root: pathOf("."),
   base: "./",
@@ -171,7 +196,9 @@ export default defineConfig({
     cssCodeSplit: false,
     modulePreload: false,
     chunkSizeWarningLimit: 4000,
-    rollupOptions: { output: { inlineDynamicImports: true } },
+    rollupOptions: {
+      output: { entryFileNames: "[name].js", chunkFileNames: "[name].js", manualChunks },
+    },
   },
   plugins: [moduleOfPage(), oneFile(), compressed()],
 });

@@ -13,6 +13,8 @@ import { colourOf, IVORY, POOL } from "./words.js";
 const END = 0.9;
 const NUMBER = 0.52;
 const DOT = 0.2;
+/** As deep in a pocket a ball is hardly seen, m. */
+const DARK = 0.08;
 
 /**
  * A pixel beside another one, by a way on the table. @param {View} view @param {Point} centre @param
@@ -147,6 +149,11 @@ export function drawBall(g, view, { name, radius: R }, k, { r, q }, alpha, ring)
         );
       else drawNumber(g, view, centre, radius, name, z, y, axes[0]);
     }
+  }
+  // Down in a pocket there is no light.
+  if (r[2] < 0) {
+    g.fillStyle = `rgb(0 0 0 / ${Math.min(-r[2] / DARK, 0.9)})`;
+    disc(g, view, r, radius);
   }
   // The light, and the rim.
   if (radius >= 5)

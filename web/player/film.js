@@ -1,9 +1,10 @@
 // The pictures of a film: its trails and its balls at a time; and the film of a page that the
 // command wrote.
 import { drawBall } from "./ball.js";
+import { line } from "./table.js";
 import { colourOf, IVORY, POOL, product, wordsOf } from "./words.js";
 
-/** @import { Film, Table } from "./words.js" */
+/** @import { Film, Point, Table } from "./words.js" */
 /** @import { View } from "./table.js" */
 
 /** Of trails, which have to be bright on the cloth. @type {Record<string, string>} */
@@ -30,26 +31,37 @@ const SHOTS = [
 ];
 
 /**
- * The trails, to the pocket that takes the ball. @param {CanvasRenderingContext2D} g @param {View}
- * view @param {Film} film
+ * The trails, to the pocket that takes the ball. @param {Film} film
  */
-export function drawTrails(g, view, { balls, shots, apart = false }) {
-  g.lineWidth = 1.6;
-  g.lineJoin = "round";
-  g.lineCap = "round";
-  for (const [index, { paths }] of shots.entries())
-    for (const { ball, xyz } of paths) {
+export const trailsOf = ({ balls, shots, apart = false }) =>
+  shots.flatMap(({ paths }, index) =>
+    paths.map(({ ball, xyz }) => {
       const colour = colourOf(balls[ball].name, ball, balls[ball].radius);
-      g.strokeStyle = apart ? SHOTS[index % 8] : (BRIGHT[colour] ?? colour);
-      g.setLineDash(apart && colour !== IVORY ? [7, 4] : []);
-      g.globalAlpha = 0.8;
-      g.beginPath();
+      /** @type {Point[]} */
+      const points = [];
       for (let k = 0; k < xyz.length; k += 3) {
-        g[k === 0 ? "moveTo" : "lineTo"](...view.place(xyz[k], xyz[k + 1]));
+        points.push([xyz[k], xyz[k + 1]]);
         if (xyz[k + 2] < 0 && xyz[k + 2] === xyz[xyz.length - 1]) break; // where it lies
       }
-      g.stroke();
-    }
+      return {
+        points,
+        colour: apart ? SHOTS[index % 8] : (BRIGHT[colour] ?? colour),
+        width: 1.6,
+        isDashed: apart && colour !== IVORY,
+      };
+    }),
+  );
+/** @param {CanvasRenderingContext2D} g @param {View} view @param {Film} film */
+export function drawTrails(g, view, film) {
+  g.lineJoin = "round";
+  g.lineCap = "round";
+  g.globalAlpha = 0.8;
+  for (const { points, colour, width, isDashed } of trailsOf(film)) {
+    g.strokeStyle = colour;
+    g.lineWidth = width;
+    g.setLineDash(isDashed ? [7, 4] : []);
+    line(g, view, points);
+  }
   g.setLineDash([]);
   g.globalAlpha = 1;
 }

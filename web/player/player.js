@@ -133,9 +133,11 @@ function drawing({ canvas }, clock, view, { over, hidden, backdrop, sharp = 1 })
     g.setTransform(dpr, 0, 0, dpr, 0, 0);
     const isSeenThrough = backdrop?.(view) ?? false;
     if (isSeenThrough) g.clearRect(0, 0, width, height);
-    else g.drawImage(clothOf(clock.film.table, [width, height, dpr]), 0, 0, width, height);
-    drawTrails(g, view, clock.film);
-    if (!isSeenThrough) drawBalls(g, view, clock.film, clock.time);
+    else {
+      g.drawImage(clothOf(clock.film.table, [width, height, dpr]), 0, 0, width, height);
+      drawTrails(g, view, clock.film);
+      drawBalls(g, view, clock.film, clock.time);
+    }
     over?.(g);
   };
 }

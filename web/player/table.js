@@ -200,21 +200,31 @@ function drawLight(g, view, table) {
   }
 }
 
+/** How far the spots beside the head spot are from it, of the width of a table of carom. */
+const BESIDE = 0.1825 / 1.42;
 /** The length of the table of pyramid, m, which is hardly shorter than that of snooker. */
 const PYRAMID_LENGTH = 3.55;
 /**
  * Where lines and spots are drawn on the cloth, m. Snooker's are those of the WPBSA's rules: the
  * baulk line 29 in from the baulk cushion, a D of 11 1/2 in, the pyramid spot halfway from the
- * middle to the top cushion, the black one 12 3/4 in from it. Pool has a head and a foot spot, pyramid
- * also its middle and a head string.
+ * middle to the top cushion, the black one 12 3/4 in from it. Pool has a head and a foot spot,
+ * pyramid also its middle and a head string, carom also its middle and two beside the head spot.
  * @param {Table} table
  * @returns {{ lines: Point[][], spots: Point[] }}
  */
 export function markingsOf({ width, length, pockets }) {
   const middle = width / 2;
-  if (pockets.length === 0) return { lines: [], spots: [] };
   const pointsOf = (/** @type {number[]} */ ...heights) =>
     heights.map((y) => /** @type {Point} */ ([middle, y]));
+  if (pockets.length === 0) {
+    const head = length / 4;
+    /** @type {Point[]} */
+    const beside = [
+      [middle - BESIDE * width, head],
+      [middle + BESIDE * width, head],
+    ];
+    return { lines: [], spots: [...beside, ...pointsOf(head, length / 2, 3 * head)] };
+  }
   if (length < 3) return { lines: [], spots: pointsOf(length / 4, (3 * length) / 4) };
   if (length === PYRAMID_LENGTH) {
     const head = length / 4;
@@ -226,8 +236,8 @@ export function markingsOf({ width, length, pockets }) {
   }
   const baulk = 0.7366;
   const radius = 0.2921;
-  const d = Array.from({ length: 25 }, (_, k) => {
-    const turn = Math.PI * (1 + k / 24);
+  const d = Array.from({ length: 49 }, (_, k) => {
+    const turn = Math.PI * (1 + k / 48);
     return /** @type {Point} */ ([
       middle + radius * Math.cos(turn),
       baulk + radius * Math.sin(turn),

@@ -1,5 +1,5 @@
 // The library in workers, for calls that take longer than a frame. The page is one file, so a
-// worker runs the page's own script, which serves where there is no document. Each kind of call has
+// worker runs the page's first part, which serves where there is no document. Each kind of call has
 // a worker: the chance of a stroke does not wait for a plan. A search runs in slices, between which
 // it can be stopped.
 import { type Carom, load } from "carom";
@@ -70,7 +70,7 @@ const lanes = new Map<Name, Lane>();
 let count = 0;
 
 function open(name: Name): Lane {
-  const script = document.querySelector('script[type="module"]')!.textContent!;
+  const script = document.querySelector("#first")!.textContent!;
   const worker = new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
   const lane: Lane = { worker, waiting: new Map() };
   worker.addEventListener(

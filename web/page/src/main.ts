@@ -5,10 +5,9 @@ import "./lab/style.css";
 import "./play/stage.css";
 import "./play/plates.css";
 import "./play/dialogs.css";
+import "./behind.js";
 import { load } from "carom";
 import { serve } from "./far.js";
-import { collisionView } from "./lab/collision.js";
-import { laboratory } from "./lab/view.js";
 import { playView } from "./play/view.js";
 import { el, parameters, wrong } from "./ui.js";
 import { language, texts } from "./texts/texts.js";
@@ -20,11 +19,16 @@ interface View {
 }
 const VIEWS = ["play", "lab", "collision"] as const;
 
+function name(): void {
+  for (const element of document.querySelectorAll<HTMLElement>("[data-text]"))
+    element.textContent = texts[element.dataset.text as "play"];
+}
 async function begin(main: HTMLElement): Promise<void> {
   const solver = document.getElementById("solver") as HTMLSelectElement;
   document.documentElement.lang = language;
-  for (const element of document.querySelectorAll<HTMLElement>("[data-text]"))
-    element.textContent = texts[element.dataset.text as "play"];
+  name();
+  // What comes behind this script has words too.
+  document.addEventListener("DOMContentLoaded", name);
   document.querySelector("nav")!.setAttribute("aria-label", texts.views);
   const theme = document.getElementById("theme") as HTMLButtonElement;
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
@@ -43,10 +47,25 @@ async function begin(main: HTMLElement): Promise<void> {
   document.getElementById("about")!.append(` carom ${carom.version}.`);
   solver.value = parameters().get("solver") === "euler" ? "euler" : "exact";
   const chosen = (): "exact" | "euler" => (solver.value === "euler" ? "euler" : "exact");
-  const show = (): void => {
+  const build: Record<(typeof VIEWS)[number], () => Promise<() => View>> = {
+    play: async () => () => playView(carom, main),
+    lab: async () => {
+      const { laboratory } = await import("./lab/views.js");
+      return () => laboratory(carom, chosen, main);
+    },
+    collision: async () => {
+      const { collisionView } = await import("./lab/views.js");
+      return () => collisionView(carom, chosen, main);
+    },
+  };
+  let latest = "";
+  const show = async (): Promise<void> => {
     const request = parameters().get("view") ?? "play";
     // "shot" is what links of version 0.3.0 call the laboratory.
     const name = request === "shot" ? "lab" : (VIEWS.find((view) => view === request) ?? "play");
+    latest = name;
+    const make = await build[name]();
+    if (latest !== name) return;
     document.documentElement.dataset.view = name;
     for (const view of VIEWS) {
       const link = document.getElementById(`to-${view}`)!;
@@ -55,12 +74,9 @@ async function begin(main: HTMLElement): Promise<void> {
     }
     view?.close?.();
     main.setAttribute("aria-busy", "false");
-    view =
-      name === "play"
-        ? playView(carom, main)
-        : (name === "lab" ? laboratory : collisionView)(carom, chosen, main);
+    view = make();
   };
-  show();
+  await show();
   window.addEventListener("hashchange", show);
   solver.addEventListener("change", () => view?.update());
   theme.addEventListener("click", () => dress(document.documentElement.dataset.theme !== "dark"));

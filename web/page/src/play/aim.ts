@@ -127,7 +127,7 @@ export function linesOfAim(s: Session): Line[] {
   ];
 }
 /** A number on a ball of the scene of this radius can be read, pixels. */
-const READABLE = 10;
+export const READABLE = 10;
 /** Draws what is aimed, called and in hand over the table; of the scene, which has that, less. */
 export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   const { film, play, space } = s;
@@ -144,7 +144,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
       pen,
       poses.map(({ r, seen }, k) => ({
         kind: play.balls[k]!.kind,
-        state: { r: r as Vec3, label: seen ? "rolling" : "pocketed" },
+        state: { r: r as Vec3, label: seen && r[2]! > 0 ? "rolling" : "pocketed" },
       })),
       labels,
     );

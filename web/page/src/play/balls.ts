@@ -45,6 +45,7 @@ function numbers(): THREE.CanvasTexture {
 const VARYINGS = `varying vec3 vBall;
 varying vec4 vPaint;
 varying float vNumber;
+varying float vHeight;
 `;
 const VERTEX = `attribute vec4 paint;
 attribute float number;
@@ -78,6 +79,8 @@ const PAINT = `
   }
   diffuseColor.rgb = coat;
 `;
+/** Down in a pocket there is no light. */
+const DEPTH = "outgoingLight *= clamp(1.0 + vHeight / 0.08, 0.04, 1.0);\n";
 function lacquer(): THREE.MeshPhysicalMaterial {
   const material = new THREE.MeshPhysicalMaterial({
     roughness: 0.25,
@@ -91,11 +94,15 @@ function lacquer(): THREE.MeshPhysicalMaterial {
       VERTEX +
       shader.vertexShader.replace(
         "#include <begin_vertex>",
-        "#include <begin_vertex>\n vBall = position; vPaint = paint; vNumber = number;",
+        `#include <begin_vertex>
+  vBall = position; vPaint = paint; vNumber = number;
+  vHeight = (instanceMatrix * vec4(position, 1.0)).z;`,
       );
     shader.fragmentShader =
       `uniform sampler2D numbers;\n${VARYINGS}` +
-      shader.fragmentShader.replace("#include <color_fragment>", PAINT);
+      shader.fragmentShader
+        .replace("#include <color_fragment>", PAINT)
+        .replace("#include <opaque_fragment>", `${DEPTH}#include <opaque_fragment>`);
   };
   return material;
 }

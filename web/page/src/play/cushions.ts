@@ -89,6 +89,9 @@ function clipped(nose: Point, edge: readonly Point[], outward: Point): Point[] {
   }
   return clip;
 }
+/** Wood begins below its cushion, so that its rounded edge is hidden there. */
+const HIDDEN = 0.009;
+const INNER = CUSHION - HIDDEN;
 /** How far wood keeps off the middle of a pocket. */
 export const woodAround = ({ radius }: Pocket): number => radius + 0.004;
 /**
@@ -101,7 +104,7 @@ export function crossing(
   outward: Point,
   tangent: Point,
 ): Point {
-  const back: Point = [nose[0] + CUSHION * outward[0], nose[1] + CUSHION * outward[1]];
+  const back: Point = [nose[0] + INNER * outward[0], nose[1] + INNER * outward[1]];
   const x = back[0] - centre[0];
   const y = back[1] - centre[1];
   const ahead = x * tangent[0] + y * tangent[1];
@@ -109,6 +112,10 @@ export function crossing(
   const way = root > 0 ? -Math.sqrt(root) - ahead : 0;
   return [back[0] + way * tangent[0], back[1] + way * tangent[1]];
 }
+const onMitre = ([x, y]: Point, outward: Point, tangent: Point): Point => [
+  x - HIDDEN * (outward[0] + tangent[0]),
+  y - HIDDEN * (outward[1] + tangent[1]),
+];
 function endOf(table: Table, nose: Point, other: Point, outward: Point): End {
   const long = distance(nose, other);
   const tangent: Point = [(nose[0] - other[0]) / long, (nose[1] - other[1]) / long];
@@ -126,7 +133,7 @@ function endOf(table: Table, nose: Point, other: Point, outward: Point): End {
   }
   const wood = pocket
     ? crossing(pocket.centre, woodAround(pocket), nose, outward, tangent)
-    : edge.at(-1)!;
+    : onMitre(edge.at(-1)!, outward, tangent);
   return { edge, pocket, wood, nose, tangent };
 }
 export function cushionsOf(table: Table): Cushion[] {
@@ -188,7 +195,7 @@ export function cushionBody(cushion: Cushion): THREE.BufferGeometry[] {
   for (let k = 0; k < places.count; k++) places.setZ(k, topAt([places.getX(k), places.getY(k)]));
   top.computeVertexNormals();
   const grey = (light: number): number[] => [light, light, light, 1];
-  const dark = ([, , z]: Place): number[] => grey(1.12 * clamp((z - 0.006) / 0.028, 0.1, 1) ** 1.4);
+  const dark = ([, , z]: Place): number[] => grey(clamp((z + 0.006) / 0.034, 0.25, 1.1));
   return [painted(top, () => grey(0.84)), painted(stripOf(rows), dark)].map((part) =>
     laid(part, "x", CLOTH_PICTURE),
   );
@@ -197,9 +204,9 @@ export function cushionBody(cushion: Cushion): THREE.BufferGeometry[] {
 export function shadeOf(cushion: Cushion): THREE.BufferGeometry {
   const front = frontOf(cushion);
   const rows: readonly (readonly [number, number])[] = [
-    [0.012, 0.78],
-    [-0.002, 0.6],
-    [-0.016, 0.24],
+    [0.012, 0.7],
+    [-0.002, 0.5],
+    [-0.016, 0.18],
     [-0.05, 0],
   ];
   // The darkness of a row stands in the height for a moment.

@@ -32,9 +32,9 @@ function show(s: Pick<Session, "filmed" | "film" | "space">, film: Film): void {
 }
 /** The time of the film has changed. */
 export function moved(s: Session): void {
-  const { film, shown, sound } = s;
-  s.space.draw();
-  if (shown?.shot && film.playing) sound.play(shown.shot.events, s.sounded, film.time);
+  const { film, shown, sound, space } = s;
+  space.draw();
+  if (shown?.shot && film.playing) sound.play(shown.shot, s.sounded, film.time, space.sideOf);
   s.sounded = film.time;
 }
 

@@ -16,13 +16,13 @@ import {
   TOP,
   woodAround,
 } from "./cushions.js";
+import { acrossOf } from "./ribbons.js";
 import { FLOOR } from "./room.js";
 import {
   angleFrom,
   arcAround,
   bodyOf,
   box,
-  distance,
   joined,
   laid,
   painted,
@@ -30,6 +30,7 @@ import {
   type Point,
   ringBody,
   shapeOf,
+  stripOf,
   turned,
 } from "./shapes.js";
 import { grain, type Style, weave } from "./surfaces.js";
@@ -67,7 +68,7 @@ function woodAt(table: Table, { pocket, wood }: End): Point[] {
 function railOf(table: Table, { outward, ends: [first, second] }: Cushion, k: number) {
   const outline = [...woodAt(table, second), ...woodAt(table, first).reverse()];
   const along = Math.abs(outward[0]) > 0.5 ? "y" : "x";
-  return laid(bodyOf(outline, -0.07, TOP + 0.004, 0.01), along, WOOD_PICTURE, 0.37 * k);
+  return laid(bodyOf(outline, -0.07, TOP + 0.0003, 0.01), along, WOOD_PICTURE, 0.37 * k);
 }
 /** Aprons below the wood, and legs. */
 function frameOf({ width, length }: Table): THREE.BufferGeometry[] {
@@ -111,7 +112,7 @@ function pocketParts(table: Table, cushions: readonly Cushion[], hasCastings: bo
       centre,
       [radius, radius + 0.006],
       [out - back, 2 * back],
-      [-0.02, TOP + 0.003],
+      [-0.02, TOP + 0.001],
       0.0015,
     );
     if (hasCastings) {
@@ -120,14 +121,14 @@ function pocketParts(table: Table, cushions: readonly Cushion[], hasCastings: bo
         centre,
         [radius + 0.0045, radius + 0.034],
         [out - cast, 2 * cast],
-        [TOP - 0.01, TOP + 0.0095],
+        [TOP - 0.01, TOP + 0.0055],
         0.004,
       );
       return { liner, lip };
     }
     const lip = new THREE.TorusGeometry(radius + 0.006, 0.0085, 12, 32, 2 * back)
       .rotateZ(out - back)
-      .translate(centre[0], centre[1], TOP + 0.003);
+      .translate(centre[0], centre[1], TOP);
     return { liner, lip };
   });
   return { liners: parts.map(({ liner }) => liner), lips: parts.map(({ lip }) => lip) };
@@ -164,15 +165,12 @@ function addPockets(
 function drawnOn(table: Table): THREE.BufferGeometry[] {
   const { lines, spots } = markingsOf(table);
   const high = 0.0006;
-  const parts = lines.flatMap((points) =>
-    points.slice(1).map((end, k) => {
-      const start = points[k]!;
-      const part = new THREE.PlaneGeometry(distance(start, end) + 0.002, 0.003);
-      return part
-        .rotateZ(angleFrom(start, end))
-        .translate((start[0] + end[0]) / 2, (start[1] + end[1]) / 2, high);
-    }),
-  );
+  const parts = lines.map((points) => {
+    const across = acrossOf(points);
+    const side = (far: number): Place[] =>
+      points.map(([x, y], k) => [x + far * across[k]![0], y + far * across[k]![1], high]);
+    return stripOf([side(0.0014), side(-0.0014)]);
+  });
   const dots = spots.map(([x, y]) => new THREE.CircleGeometry(0.005, 12).translate(x, y, high));
   return [...parts, ...dots];
 }
@@ -186,7 +184,7 @@ function sightsOf({ width, length, pockets }: Table): THREE.BufferGeometry[] {
   const sight = (x: number, y: number, isAlongX: boolean): THREE.BufferGeometry => {
     const disc = new THREE.CircleGeometry(isPool ? 0.0095 : 0.0065, isPool ? 4 : 20);
     if (isPool) disc.scale(isAlongX ? 1.35 : 0.8, isAlongX ? 0.8 : 1.35, 1);
-    return disc.translate(x, y, TOP + 0.0046);
+    return disc.translate(x, y, TOP + 0.0008);
   };
   const middle = (CUSHION + WOOD) / 2;
   const long = [1, 2, 3, 4, 5, 6, 7].filter((k) => k !== 4 || !isPool);

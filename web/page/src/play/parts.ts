@@ -10,7 +10,7 @@ import type { Drill } from "./drills.js";
 import type { Aimer, Play, Stroke } from "./game.js";
 import type { OwnRating } from "./ladder.js";
 import type { Look } from "./look.js";
-import type { Sound } from "./sound.js";
+import type { Side, Sound } from "./sound.js";
 
 /**
  * What was chosen to be called, -1: nothing, pocket -2: a safety, and the ball that the aim met
@@ -76,7 +76,6 @@ export interface Watching {
 /** Drills, a table from a photo, and one's own rating (practice.ts). */
 export interface Training {
   readonly parts: HTMLElement[];
-  readonly photo: HTMLDialogElement;
   wordsOfStart(name: string): string;
   drill(name: string): Drill;
   /** Judges a try of a drill, and counts one that the player aimed alone. */
@@ -106,6 +105,8 @@ export interface SpaceView {
   /** Looks from behind the cue, or from above again. */
   toggle(): Promise<void>;
   draw(): void;
+  /** Where a place is seen: from -1, the left edge, to 1, the right one. */
+  readonly sideOf: Side;
   close(): void;
 }
 

@@ -231,7 +231,7 @@ export function suggest(patch: ArrayLike<number>, colours: readonly string[]): n
     if (solid === 8) return [8];
     if (share > 0.36) return [stripe];
     if (share > 0.3) return [stripe, solid];
-    if (share > 0.22) return [solid, stripe];
+    if (share > 0.15) return [solid, stripe];
     return [solid];
   });
   // The cue ball in the shade of a cushion is half white.

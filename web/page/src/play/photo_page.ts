@@ -239,8 +239,22 @@ function snap(p: Photo): void {
   }
   look(p);
 }
-const snapped = (p: Photo, pixel: Pixel): Pixel =>
-  snapDisc(p.pixels!, pixel, cameraOn(p)!.outline(pixel, POOL_BALL), OFF * scaleOf(p));
+/** The middle of the ball at a pixel: of the nearest one that was seen, which a finger means. */
+function snapped(p: Photo, pixel: Pixel): Pixel {
+  const farOf = ([x, y]: Pixel): number => Math.hypot(x - pixel[0], y - pixel[1]);
+  const reach = OFF * scaleOf(p);
+  const seen = p.unmarked.reduce((best, one) => (farOf(one) < farOf(best) ? one : best), [
+    Infinity,
+    0,
+  ] as Pixel);
+  const start = farOf(seen) < 1.5 * reach ? seen : pixel;
+  return snapDisc(
+    p.pixels!,
+    start,
+    cameraOn(p)!.outline(start, POOL_BALL),
+    start === seen ? reach / 2 : reach,
+  );
+}
 /** Gives the places of the balls, where all lie on the table; tells whether they do. */
 function finish(p: Photo): boolean {
   const { size, names, use } = p.host;
@@ -266,10 +280,13 @@ function down(p: Photo, touched: Pixel): void {
     canvas,
     host: { names },
   } = p;
-  const isNear = ([x, y]: Pixel): boolean =>
-    Math.hypot(x - touched[0], y - touched[1]) < REACH * scaleOf(p);
+  const farOf = ([x, y]: Pixel): number => Math.hypot(x - touched[0], y - touched[1]);
+  const isNear = (pixel: Pixel): boolean => farOf(pixel) < REACH * scaleOf(p);
   const corner = p.corners.findIndex(isNear);
-  const ball = p.balls.find(({ pixel }) => isNear(pixel));
+  // The nearest one, if no ball without a mark is nearer.
+  const [ball] = p.balls
+    .filter(({ pixel }) => isNear(pixel) && p.unmarked.every((seen) => farOf(seen) > farOf(pixel)))
+    .sort((a, b) => farOf(a.pixel) - farOf(b.pixel));
   let moved = false;
   let last = touched;
   p.held = (target) => {
@@ -290,11 +307,7 @@ function down(p: Photo, touched: Pixel): void {
     if (!held) return draw(p); // a second finger came
     // What is dragged stays where it was put, which mends what snapped to something else. A tap
     // beside a mark is another ball.
-    if (
-      !moved &&
-      ball &&
-      Math.hypot(ball.pixel[0] - touched[0], ball.pixel[1] - touched[1]) < TAP * scaleOf(p)
-    )
+    if (!moved && ball && farOf(ball.pixel) < TAP * scaleOf(p))
       Object.assign(ball, {
         candidates: undefined,
         ball: names

@@ -95,7 +95,9 @@ export function plates(s: Session): Plates {
     const isMachine = isComputer(against) && player !== seat;
     const text = nameOf(play, player, seat);
     name.textContent = text[0]!.toUpperCase() + text.slice(1);
-    const rating = isComputer(against) ? String(s.training.rating(play.setup.game).rating) : text[0]!;
+    const rating = isComputer(against)
+      ? String(s.training.rating(play.setup.game).rating)
+      : text[0]!;
     const own = against === "person" ? String(player + 1) : rating;
     face.textContent = isMachine ? against : own;
     face.classList.toggle("machine", isMachine);

@@ -15,6 +15,8 @@ import { texts, translate } from "../texts/texts.js";
 declare const DRILLS: string;
 
 const BALLS = 16;
+/** The balls of a photo. */
+const NAMES = Array.from({ length: BALLS }, (_, k) => (k === 0 ? "cue" : String(k)));
 const SIZE = [1.27, 2.54] as const;
 /**
  * Practice with the balls of eight-ball. Strokes of a drill, which count for the rating, err as
@@ -82,23 +84,29 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
     },
     "#start-drill",
   );
-  const photo = photoPage({
-    names: Array.from({ length: BALLS }, (_, k) => (k === 0 ? "cue" : String(k))),
-    size: SIZE,
-    use: (balls) =>
-      begin(
-        setupOf(
-          Array.from(
-            { length: BALLS },
-            (_, k) =>
-              balls
-                .get(k)
-                ?.map((x) => x.toFixed(4))
-                .join(",") ?? (k === 0 ? "0.635,0.635" : "in"),
-          ).join(" "),
-        ),
-      ),
-  });
+  let photo: { open(): void } | undefined;
+  async function openPhoto(): Promise<void> {
+    const { photoPage } = await import("./photo_page.js");
+    if (!photo) {
+      const page = photoPage({ names: NAMES, size: SIZE, use: layPhoto });
+      start.closest("dialog")!.after(page.root);
+      photo = page;
+    }
+    close();
+    photo.open();
+  }
+  function layPhoto(balls: ReadonlyMap<number, readonly number[]>): void {
+    const places = NAMES.map((_, k) => {
+      const unseen = k === 0 ? "0.635,0.635" : "in";
+      return (
+        balls
+          .get(k)
+          ?.map((x) => x.toFixed(4))
+          .join(",") ?? unseen
+      );
+    });
+    begin(setupOf(places.join(" ")));
+  }
   describe();
   return {
     parts: [
@@ -108,17 +116,9 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
       el(
         "div.row",
         start,
-        button(
-          texts.aTableFromA,
-          () => {
-            close();
-            photo.open();
-          },
-          "#open-photo",
-        ),
+        button(texts.aTableFromA, () => void openPhoto(), "#open-photo"),
       ),
     ],
-    photo: photo.root,
     rating: (game) => ownRating(carom, drills, game),
     drill: drillOf,
     wordsOfStart: (name) =>

@@ -49,7 +49,7 @@ function dashesOf(points: readonly Point[]): Point[][] {
   return dash.length > 1 ? [...dashes, dash] : dashes;
 }
 /** The way across a line at each of its points. */
-const acrossOf = (points: readonly Point[]): Point[] =>
+export const acrossOf = (points: readonly Point[]): Point[] =>
   points.map((_, k) => {
     const a = points[Math.max(k - 1, 0)]!;
     const b = points[Math.min(k + 1, points.length - 1)]!;

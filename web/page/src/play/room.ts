@@ -11,9 +11,9 @@ const WALL = 5.2;
 
 /** A lamp above the middle, whose light falls off towards the ends. Returns it with its shadows. */
 export function light(scene: THREE.Object3D, { width, length }: Table): THREE.SpotLight {
-  scene.add(new THREE.HemisphereLight("#ffe9c9", "#1a2a24", 0.3));
+  scene.add(new THREE.HemisphereLight("#ffe9c9", "#1a2a24", 0.6));
   const height = 0.95 * length;
-  const lamp = new THREE.SpotLight("#fff1d8", 3.3 * height ** 2, 0, Math.atan(0.78), 0.75, 2);
+  const lamp = new THREE.SpotLight("#fff1d8", 4.4 * height ** 2, 0, Math.atan(0.78), 0.75, 2);
   lamp.position.set(width / 2, length / 2, height);
   lamp.target.position.set(width / 2, length / 2, 0);
   lamp.castShadow = true;

@@ -9,6 +9,7 @@ import { Balls, type PaintedBall } from "./balls.js";
 import { furnish } from "./furniture.js";
 import { light, roomOf, surroundings } from "./room.js";
 import { Ribbons } from "./ribbons.js";
+import { clamp, turned } from "./shapes.js";
 import { layStick, type Stick, stickMesh } from "./stick.js";
 import { styleOf } from "./surfaces.js";
 
@@ -23,10 +24,13 @@ const DEGREES = 180 / Math.PI;
 const CEILING = 5;
 /** How fast a camera glides to another place: the share of its way that is left falls by e^-1 in this, s. */
 const GLIDE = 0.18;
-/** Behind the cue ball, m. */
+/** Behind the cue ball, m; and at most, where the pocket would not be seen. */
 const BEHIND = 0.8;
+const FARTHEST = 1.3;
 /** The width of a line's pixel in the views from behind, m. */
 const LINE = 0.0035;
+/** The same from above, at most. */
+const FINE = 0.0045;
 /** How many pictures are drawn before one is timed: the first ones make programs and shadows. */
 const WARM = 2;
 
@@ -94,7 +98,8 @@ export class Scene {
     const camera = this.#camera;
     this.#isFlat = true;
     this.#shot = undefined;
-    this.#pixel = 1 / scale;
+    // A line of a table that is small on the screen is no wider than a part of a ball.
+    this.#pixel = Math.min(1 / scale, FINE);
     Object.assign(this.#fog, { near: 9, far: 30 });
     // From above, wood and metal would show nothing but the lamps.
     this.#scene.environmentIntensity = 0.4;
@@ -129,13 +134,19 @@ export class Scene {
     const half = angle / 2;
     const direction = phi / DEGREES;
     const along = [Math.cos(direction), Math.sin(direction)] as const;
-    const back = Math.min(this.#wayToWood(place, along, -1) + 0.55, BEHIND);
-    const eye = new THREE.Vector3(place[0]! - back * along[0], place[1]! - back * along[1], height);
-    // The cue ball stays in the picture as well as the pocket.
     const aside = Math.atan(aspect * Math.tan(half / DEGREES));
-    const seen = pocket ? Math.atan2(pocket[1]! - eye.y, pocket[0]! - eye.x) - direction : 0;
-    const turn = Math.atan2(Math.sin(seen), Math.cos(seen)) / 2;
-    const gaze = direction + Math.min(Math.max(turn, -0.75 * aside), 0.75 * aside);
+    const most = this.#wayToWood(place, along, -1) + 0.55;
+    let back = Math.min(most, BEHIND);
+    const eye = new THREE.Vector3();
+    let seen = 0;
+    // The cue ball stays in the picture as well as the pocket, for which the eye goes back.
+    for (; ; back += 0.1) {
+      eye.set(place[0]! - back * along[0], place[1]! - back * along[1], height);
+      if (pocket) seen = turned(Math.atan2(pocket[1]! - eye.y, pocket[0]! - eye.x) - direction);
+      if (Math.abs(seen) < 1.5 * aside || back + 0.1 > Math.min(most, FARTHEST)) break;
+    }
+    if (Math.abs(seen) > 1.2) seen = 0;
+    const gaze = direction + clamp(seen / 2, -0.65 * aside, 0.65 * aside);
     // The far wood is near the upper edge, and the cue ball not above the middle by much.
     const far = back + this.#wayToWood(place, along, 1);
     const down =
@@ -232,11 +243,6 @@ export class Scene {
     }
     return performance.now() - start;
   }
-  /** What the last picture cost. */
-  get counts(): { calls: number; triangles: number } {
-    const { calls, triangles } = this.#renderer.info.render;
-    return { calls, triangles };
-  }
 
   /** Where a place is seen, pixels of the page; NaN: behind the camera. */
   place(x: number, y: number, z: number): [number, number] {
@@ -249,6 +255,14 @@ export class Scene {
         ];
   }
 
+  /** Whether a number on a ball faces the camera. */
+  isFacing({ r, q }: Pose): boolean {
+    const axis = new THREE.Vector3(0, 0, 1).applyQuaternion(
+      new THREE.Quaternion(q[1]!, q[2]!, q[3]!, q[0]!),
+    );
+    const way = new THREE.Vector3(r[0]!, r[1]!, r[2]!).sub(this.#camera.position).normalize();
+    return Math.abs(axis.dot(way)) > 0.6;
+  }
   /** The place at a height that is seen at a pixel of the page; none above the horizon. */
   unplace(px: number, py: number, z: number): [number, number] | undefined {
     const eye = this.#camera.position;

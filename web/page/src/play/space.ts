@@ -1,14 +1,14 @@
-// The table as a scene, below the flat view or in its stead, from behind the cue. Its module is in the
-// page as compressed text, and starts behind the first view. A browser without WebGL, and a device
-// that is too slow for it, keep the drawn table.
+// The table as a scene, below the flat view or in its stead, from behind the cue. It starts behind the
+// first view. A browser without WebGL, and a device that is too slow for it, keep the drawn table.
 import type { Cue, Vec3 } from "carom";
+import { trailsOf } from "../../../player/film.js";
 import { colourOf } from "../../../player/words.js";
 import type { FlatView, Pose } from "../../../player/words.js";
-import { drawLabels, drawSketches, labelsOf, stickEnd } from "../table/drawing.js";
+import { drawLabels, drawSketches, labelsOf, type Line, stickEnd } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 import { type Grip, pixelsOf, type Point } from "../table/grip.js";
 import { drags, el, wrong } from "../ui.js";
-import { linesOfAim, move, movable, tap } from "./aim.js";
+import { linesOfAim, move, movable, READABLE, tap } from "./aim.js";
 import { guessOf } from "./look.js";
 import type { Scene } from "./scene.js";
 import type { Session, SpaceView } from "./parts.js";
@@ -17,19 +17,6 @@ import { aimed, free, says } from "./session.js";
 import type { Stick } from "./stick.js";
 import { texts } from "../texts/texts.js";
 
-async function load(): Promise<typeof import("./scene.js")> {
-  const text = document.getElementById("scene-module")!.textContent!.trim();
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const source = await new Response(
-    new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")),
-  ).blob();
-  const url = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
-  try {
-    return (await import(/* @vite-ignore */ url)) as typeof import("./scene.js");
-  } finally {
-    URL.revokeObjectURL(url);
-  }
-}
 const isStill = (): boolean => window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 /** How drivers are named that draw by the processor. */
 const BY_PROCESSOR = /swiftshader|llvmpipe|software|basic render/i;
@@ -124,7 +111,7 @@ export class Space implements SpaceView {
   async #start(): Promise<void> {
     if (this.#scene) return;
     if (!document.createElement("canvas").getContext("webgl2")) throw new Error(texts.itHasNoWebgl);
-    this.#module ??= await load();
+    this.#module ??= await import("./scene.js");
     if (!this.#isClosed) this.#current();
   }
   #end(): void {
@@ -312,6 +299,9 @@ export class Space implements SpaceView {
     if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight)
       scene.size(clientWidth, clientHeight);
   }
+  #lines(): Line[] {
+    return [...trailsOf(this.s.filmed!), ...linesOfAim(this.s)];
+  }
   #poses(): Pose[] {
     return this.s.filmed!.shots[0]!.poses(this.s.film.time);
   }
@@ -322,7 +312,7 @@ export class Space implements SpaceView {
     const felt = this.felt.getBoundingClientRect();
     const flat = this.s.film.canvas.getBoundingClientRect();
     scene.lookDown(view, [flat.left - felt.left, flat.top - felt.top]);
-    scene.draw(this.#poses(), this.#stick(), linesOfAim(this.s));
+    scene.draw(this.#poses(), this.#stick(), this.#lines());
     this.#time();
     return true;
   }
@@ -348,15 +338,23 @@ export class Space implements SpaceView {
     this.#wasAiming = isAiming;
     if (!isThere && !film.playing && !this.isStriking) requestAnimationFrame(() => this.draw());
     const poses = this.#poses();
-    scene.draw(poses, stick, linesOfAim(this.s));
+    scene.draw(poses, stick, this.#lines());
     this.#label(scene, poses);
     this.#time();
   }
   /** The pocket that the ball that is met heads for; the view does not turn with what is called. */
   #pocket(): readonly number[] | undefined {
     const { first, play } = this.s;
+    if (play.breaks) return undefined;
     return play.table.pockets[guessOf(play.table, first, [first?.ball ?? -1]).pocket]?.centre;
   }
+  readonly sideOf = (place: ArrayLike<number>): number => {
+    const { film } = this.s;
+    const scene = this.isOn ? this.#scene : undefined;
+    const { 0: x = 0, 1: y = 0, 2: z = 0 } = place;
+    const [px] = scene ? scene.place(x, y, z) : film.place(x, y);
+    return (2 * px) / (scene?.canvas ?? film.canvas).clientWidth - 1;
+  };
   /** A device that is too slow for a film gets a coarser scene. */
   #time(): void {
     const film = this.#film;
@@ -369,11 +367,11 @@ export class Space implements SpaceView {
     film.last = time;
   }
   /**
-   * Draws the sketches of the coach; and, if the settings ask for it, the label of each ball where it
-   * lies over no other one.
+   * Draws the sketches of the coach; and the labels of balls that cannot be read, or of all if the
+   * settings ask for it, where they lie over no other one.
    */
   #label(scene: Scene, poses: readonly Pose[]): void {
-    const { play, settings } = this.s;
+    const { play, settings, film } = this.s;
     const over = this.#over;
     const { balls, names } = play;
     const { clientWidth: width, clientHeight: height } = scene.canvas;
@@ -384,20 +382,23 @@ export class Space implements SpaceView {
     g.scale(sharp, sharp);
     const onCloth = { g, scale: 1, place: (x: number, y: number) => scene.place(x, y, 0.002) };
     drawSketches(onCloth, seenSketches(this.s));
-    if (!settings.numbers) return;
     const seen = poses.map(({ r, seen }, k) => {
       const { kind } = balls[k]!;
       const [x, y] = scene.place(r[0]!, r[1]!, r[2]!);
       const [u, v] = scene.place(r[0]!, r[1]!, r[2]! + kind.radius);
+      const radius = Math.hypot(u - x, v - y);
+      const isRead = radius > READABLE && (film.playing || scene.isFacing(poses[k]!));
+      const isAsked = settings.numbers || !(isRead || play.breaks);
+      const isShown = seen && isAsked && r[2]! > 0 && x > 0 && x < width;
       return {
-        kind: { ...kind, radius: 1.1 * Math.hypot(u - x, v - y) },
+        kind: { ...kind, radius: 1.1 * radius },
         state: {
           r: [x, y, 0] as const,
-          label: seen && x > 0 && x < width ? ("rolling" as const) : ("pocketed" as const),
+          label: isShown ? ("rolling" as const) : ("pocketed" as const),
         },
       };
     });
-    const labels = labelsOf(names, texts.letters);
+    const labels = labelsOf(names, settings.numbers ? texts.letters : {});
     drawLabels({ g, scale: 1, place: (x, y) => [x, y] }, seen, labels);
   }
 }

@@ -12,9 +12,9 @@ export interface Style {
   leather: string;
 }
 const STYLES = {
-  pool: { cloth: "#0f86ab", wood: "#5f3721", metal: "#30333a", leather: "#0b0b0c" },
-  snooker: { cloth: "#10924b", wood: "#5f2814", leather: "#2c170c" },
-  carom: { cloth: "#1068bd", wood: "#3a2418", leather: "#0b0b0c" },
+  pool: { cloth: "#1391b6", wood: "#5f3721", metal: "#30333a", leather: "#0b0b0c" },
+  snooker: { cloth: "#129c50", wood: "#5f2814", leather: "#2c170c" },
+  carom: { cloth: "#1472c8", wood: "#3a2418", leather: "#0b0b0c" },
 } as const;
 export function styleOf({ length, pockets }: Table): Style {
   if (pockets.length === 0) return STYLES.carom;

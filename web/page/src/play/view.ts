@@ -209,7 +209,7 @@ function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typ
     games.open();
   });
   return {
-    overlays: [games.root, games.calibration, coach.root, log.root, diagram.root, s.training.photo],
+    overlays: [games.root, games.calibration, coach.root, log.root, diagram.root],
     diagram,
   };
 }
