@@ -140,23 +140,43 @@ export function drawSketches({ g, place }: Pen, sketches: readonly Sketch[]): vo
   g.restore();
 }
 
-/** The stick behind the cue ball, drawn back by its speed. */
+/** The parts of a stick: tip, ferrule, shaft, ring and butt, each up to so far from its tip, m. */
+const STICK: readonly (readonly [end: number, colour: string])[] = [
+  [0.01, "#3f7fbf"],
+  [0.035, "#f4efe2"],
+  [0.8, "#d9b077"],
+  [0.82, "#efe3c4"],
+  [1.45, "#3a2015"],
+];
+/** The stick behind the cue ball, drawn back by its speed; from above a raised one is shorter. */
 export function drawStick(pen: Pen, cueBall: ShotBall, { phi, theta, speed }: Cue): void {
+  const { g, scale, place } = pen;
   const { r } = cueBall.state;
   const dx = Math.cos(phi / DEGREES);
   const dy = Math.sin(phi / DEGREES);
-  const point = (s: number): [number, number] => [r[0] - dx * s, r[1] - dy * s];
   const gap = stickEnd(cueBall.kind.radius, speed);
-  const thick = Math.max(0.012 * pen.scale, 3);
-  pen.g.lineCap = "round";
-  stroke(
-    pen,
-    point(gap),
-    point(gap + 1.3 * Math.max(Math.cos(theta / DEGREES), 0.15)),
-    thick,
-    "#d9b077",
-  );
-  stroke(pen, point(gap), point(gap + 0.017), 0.8 * thick, "#3f7fbf");
+  const seen = Math.max(Math.cos(theta / DEGREES), 0.15);
+  /** The outline between two places of the stick, which is 13 mm thick at its tip, 29 at its end. */
+  const fill = (start: number, end: number, colour: string): void => {
+    g.beginPath();
+    for (const [s, side] of [
+      [start, 1],
+      [end, 1],
+      [end, -1],
+      [start, -1],
+    ] as const) {
+      const far = gap + seen * s;
+      const half = side * Math.max(0.0065 + 0.0055 * s, (1.4 + s) / scale);
+      g.lineTo(...place(r[0] - dx * far - dy * half, r[1] - dy * far + dx * half));
+    }
+    g.fillStyle = colour;
+    g.fill();
+  };
+  g.save();
+  Object.assign(g, { shadowColor: "#0008", shadowBlur: 5, shadowOffsetX: 2, shadowOffsetY: 5 });
+  fill(0, 1.45, STICK[2]![1]);
+  g.restore();
+  STICK.forEach(([end, colour], k) => fill(STICK[k - 1]?.[0] ?? 0, end, colour));
 }
 
 /**
