@@ -140,40 +140,43 @@ export function drawSketches({ g, place }: Pen, sketches: readonly Sketch[]): vo
   g.restore();
 }
 
-/** The parts of a stick from its butt on: how far each begins behind the tip, m, and its colour. */
-const STICK = [
-  [1.3, "#2a1a12"],
-  [0.74, "#d9b077"],
-  [0.03, "#f4efe2"],
+/** The parts of a stick: tip, ferrule, shaft, ring and butt, each up to so far from its tip, m. */
+const STICK: readonly (readonly [end: number, colour: string])[] = [
   [0.01, "#3f7fbf"],
-] as const;
-/** Half the width of a stick at its tip, m, and how much that grows with each m. */
-const TIP = 0.006;
-const TAPER = 0.007;
-/** The stick behind the cue ball, drawn back by its speed. */
+  [0.035, "#f4efe2"],
+  [0.8, "#d9b077"],
+  [0.82, "#efe3c4"],
+  [1.45, "#3a2015"],
+];
+/** The stick behind the cue ball, drawn back by its speed; from above a raised one is shorter. */
 export function drawStick(pen: Pen, cueBall: ShotBall, { phi, theta, speed }: Cue): void {
-  const { g, scale } = pen;
+  const { g, scale, place } = pen;
   const { r } = cueBall.state;
   const dx = Math.cos(phi / DEGREES);
   const dy = Math.sin(phi / DEGREES);
   const gap = stickEnd(cueBall.kind.radius, speed);
-  // A raised stick is seen shorter.
   const seen = Math.max(Math.cos(theta / DEGREES), 0.15);
-  /** A corner of the outline: so far behind the tip, on a side. */
-  const corner = (far: number, side: number): [number, number] => {
-    const behind = gap + far * seen;
-    const half = side * Math.max(TIP + TAPER * far, 1.2 / scale);
-    return pen.place(r[0] - behind * dx - half * dy, r[1] - behind * dy + half * dx);
-  };
-  for (const [far, colour] of STICK) {
-    g.fillStyle = colour;
+  /** The outline between two places of the stick, which is 13 mm thick at its tip, 29 at its end. */
+  const fill = (start: number, end: number, colour: string): void => {
     g.beginPath();
-    g.moveTo(...corner(far, 1));
-    g.lineTo(...corner(far, -1));
-    g.lineTo(...corner(0, -1));
-    g.lineTo(...corner(0, 1));
+    for (const [s, side] of [
+      [start, 1],
+      [end, 1],
+      [end, -1],
+      [start, -1],
+    ] as const) {
+      const far = gap + seen * s;
+      const half = side * Math.max(0.0065 + 0.0055 * s, (1.4 + s) / scale);
+      g.lineTo(...place(r[0] - dx * far - dy * half, r[1] - dy * far + dx * half));
+    }
+    g.fillStyle = colour;
     g.fill();
-  }
+  };
+  g.save();
+  Object.assign(g, { shadowColor: "#0008", shadowBlur: 5, shadowOffsetX: 2, shadowOffsetY: 5 });
+  fill(0, 1.45, STICK[2]![1]);
+  g.restore();
+  STICK.forEach(([end, colour], k) => fill(STICK[k - 1]?.[0] ?? 0, end, colour));
 }
 
 /**
