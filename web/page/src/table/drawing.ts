@@ -215,7 +215,8 @@ function labelPicture(text: string, sharp: number, isOnBall = false): LabelPictu
   [canvas.width, canvas.height] = [Math.ceil(width * sharp), Math.ceil(HIGH * sharp)];
   g.scale(sharp, sharp);
   Object.assign(g, { font, textAlign: "center", textBaseline: "middle", lineJoin: "round" });
-  const [x, y] = [width / 2, HIGH / 2];
+  const x = width / 2;
+  const y = HIGH / 2;
   Object.assign(g, { strokeStyle: "#000c", lineWidth: 3, fillStyle: "#0009" });
   if (isOnBall) g.strokeText(text, x, y);
   else g.roundRect(1, y - 7.5, width - 2, 14, 7);
