@@ -145,9 +145,14 @@ function showButtons(s: Session): void {
     [buttons.link, play.setup.against === "link" || s.watched !== undefined],
   ];
   for (const [element, isVisible] of visible) put(element, isVisible);
-
-  // A button without an effect now keeps its place, so that the others keep theirs, and says why
-  // when it is pressed.
+  enableButtons(s, mayAim, mayPush);
+}
+/**
+ * Marks the buttons without an effect: each keeps its place, so that the others keep theirs, and
+ * says why when it is pressed.
+ */
+function enableButtons(s: Session, mayAim: boolean, mayPush: boolean): void {
+  const { play, buttons, stroke } = s;
   const isBusy = ["film", "thinking"].includes(stateOf(s));
   const enabled: [HTMLElement, boolean][] = [
     [stroke.shoot, mayAim],
