@@ -1,6 +1,7 @@
 // The parts of the page behind its first one, which `import()` asks for. They lie in the page as
 // compressed text (vite.config.ts), so that the first view does not wait for them; a part finds what it
 // has of another in `caromParts`.
+import { texts } from "./texts/texts.js";
 
 declare global {
   var caromParts: Record<string, unknown>;
@@ -25,7 +26,7 @@ async function load(name: string): Promise<unknown> {
       document.addEventListener("DOMContentLoaded", done, { once: true }),
     );
   const place = document.getElementById(`part-${name}`);
-  if (!place) throw new Error(`the page came without its part "${name}": load it again`);
+  if (!place) throw new Error(texts.thePageLacks(name));
   for (const need of place.dataset.needs!.split(" "))
     if (need !== "" && !(need in caromParts)) await caromPart(need);
   return (caromParts[name] = await unpack(place.textContent!));
@@ -34,4 +35,3 @@ async function load(name: string): Promise<unknown> {
 const loading: Record<string, Promise<unknown>> = {};
 globalThis.caromParts = {};
 globalThis.caromPart = (name) => (loading[name] ??= load(name));
-export {};
