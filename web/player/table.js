@@ -336,6 +336,20 @@ function drawWood(g, width, height, wood, scale) {
   }
 }
 
+/** The colours of cloth and wood by discipline: as they are drawn, and the dye below the lamp. */
+const STYLES = {
+  pool: { cloth: "#0c7189", dye: "#1391b6", wood: "#5f3721" },
+  snooker: { cloth: "#1d7a43", dye: "#129c50", wood: "#5f2814" },
+  carom: { cloth: "#1a5f9e", dye: "#1472c8", wood: "#3a2418" },
+};
+/** The discipline that a table is of. @param {Table} table @returns {keyof typeof STYLES} */
+export function disciplineOf({ length, pockets }) {
+  if (pockets.length === 0) return "carom";
+  return length > 3 ? "snooker" : "pool";
+}
+/** @param {Table} table */
+export const coloursOf = (table) => STYLES[disciplineOf(table)];
+
 /**
  * The picture of a table without balls, which is drawn once for each size. @param {View} view
  * @param {HTMLCanvasElement} canvas
@@ -345,15 +359,12 @@ export function clothFor(view, canvas) {
   let drawn = "";
   /** @param {Table} table @param {readonly [number, number, number]} size */
   return (table, [width, height, dpr]) => {
-    const [bed, wood] = ["--cloth", "--rail"].map((name) =>
-      getComputedStyle(canvas).getPropertyValue(name).trim(),
-    );
+    const colours = coloursOf(table);
     const state = [
       width,
       height,
       dpr,
-      bed,
-      wood,
+      colours.cloth,
       table.width,
       table.length,
       table.pockets.length,
@@ -365,8 +376,8 @@ export function clothFor(view, canvas) {
     [cloth.width, cloth.height] = [canvas.width, canvas.height];
     const g = /** @type {CanvasRenderingContext2D} */ (cloth.getContext("2d", { alpha: false }));
     g.setTransform(dpr, 0, 0, dpr, 0, 0);
-    drawWood(g, width, height, wood || "#5b3a24", view.scale);
-    drawCloth(g, view, table, bed || "#1f6f5c");
+    drawWood(g, width, height, colours.wood, view.scale);
+    drawCloth(g, view, table, colours.cloth);
     return cloth;
   };
 }

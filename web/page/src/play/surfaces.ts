@@ -1,6 +1,7 @@
 // Surfaces made by rule, none of them loaded: weave of cloth, grain of wood, boards, walls, the skin
 // of a cue. Each is drawn once into a canvas, by the same numbers each time.
 import * as THREE from "three";
+import { coloursOf, disciplineOf } from "../../../player/table.js";
 import type { Table } from "../../../player/words.js";
 
 /** How a discipline looks: its cloth, its wood, and what its pockets have. */
@@ -11,14 +12,14 @@ export interface Style {
   metal?: string;
   leather: string;
 }
-const STYLES = {
-  pool: { cloth: "#1391b6", wood: "#5f3721", metal: "#30333a", leather: "#0b0b0c" },
-  snooker: { cloth: "#129c50", wood: "#5f2814", leather: "#2c170c" },
-  carom: { cloth: "#1472c8", wood: "#3a2418", leather: "#0b0b0c" },
+const POCKETS = {
+  pool: { metal: "#30333a", leather: "#0b0b0c" },
+  snooker: { leather: "#2c170c" },
+  carom: { leather: "#0b0b0c" },
 } as const;
-export function styleOf({ length, pockets }: Table): Style {
-  if (pockets.length === 0) return STYLES.carom;
-  return length > 3 ? STYLES.snooker : STYLES.pool;
+export function styleOf(table: Table): Style {
+  const { dye, wood } = coloursOf(table);
+  return { cloth: dye, wood, ...POCKETS[disciplineOf(table)] };
 }
 
 /** Random numbers by a fixed rule, 0 to 1. */
