@@ -48,6 +48,16 @@ static inline carom_shot_ball ball_at(double x, double y) {
   return b;
 }
 
+/* One that rolls in the direction `way`, rad. */
+static inline carom_shot_ball rolling(double x, double y, double speed, double way) {
+  carom_shot_ball b = ball_at(x, y);
+  b.state.v[0] = speed * cos(way);
+  b.state.v[1] = speed * sin(way);
+  b.state.w[0] = -b.state.v[1] / b.kind.radius;
+  b.state.w[1] = b.state.v[0] / b.kind.radius;
+  return b;
+}
+
 /* The impact of a ball of a kind on a cushion; the nose of pool where the kind has none. */
 static inline carom_cushion_impact at_cushion(const carom_ball_kind *k, const double v[3],
                                               const double w[3], double n_x, double n_y) {

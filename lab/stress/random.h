@@ -20,6 +20,11 @@ static inline double lab_uniform(lab_random *r, double low, double high) {
   return low + (high - low) * (double)(lab_bits(r) >> 11) * 0x1p-53;
 }
 
+/* Both ends are among the numbers. */
+static inline int lab_whole(lab_random *r, int low, int high) {
+  return low + (int)(lab_bits(r) % (uint64_t)(high - low + 1));
+}
+
 static inline double lab_log_uniform(lab_random *r, double low, double high) {
   return exp(lab_uniform(r, log(low), log(high)));
 }

@@ -13,12 +13,7 @@ static carom_table sloped(double size, double steepness, double direction) {
 
 /* A ball in the middle of that table, at a speed, with slip at random or none. */
 static carom_shot_ball moving(random_source *random, double size, double speed, bool slides) {
-  carom_shot_ball b = ball_at(0.5 * size, 0.5 * size);
-  const double way = random_between(random, 0.0, two_pi);
-  b.state.v[0] = speed * cos(way);
-  b.state.v[1] = speed * sin(way);
-  b.state.w[0] = -b.state.v[1] / b.kind.radius;
-  b.state.w[1] = b.state.v[0] / b.kind.radius;
+  carom_shot_ball b = rolling(0.5 * size, 0.5 * size, speed, random_between(random, 0.0, two_pi));
   if (slides)
     random_vector(random, 3, -speed / b.kind.radius, speed / b.kind.radius, b.state.w);
   return b;

@@ -7,15 +7,6 @@ static const double degree = 3.14159265358979323846 / 180.0;
 
 /* ---- Drag */
 
-static carom_shot_ball rolling(double x, double y, double speed, double way) {
-  carom_shot_ball b = ball_at(x, y);
-  b.state.v[0] = speed * cos(way);
-  b.state.v[1] = speed * sin(way);
-  b.state.w[0] = -b.state.v[1] / b.kind.radius;
-  b.state.w[1] = b.state.v[0] / b.kind.radius;
-  return b;
-}
-
 /* The exact solution of dv/dt = -(A + k v^2), from the time that is left until the ball stops: the
  * speed, and the way that is left. */
 static void exact_roll(long double A, long double k, long double left, long double *v,

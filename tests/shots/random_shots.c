@@ -8,10 +8,6 @@
 #include <stdbool.h>
 #include <string.h>
 
-static int whole(lab_random *r, int low, int high) {
-  return low + (int)(lab_bits(r) % (uint64_t)(high - low + 1));
-}
-
 static bool is_free(const random_shot *s, double x, double y, double distance) {
   for (int k = 0; k < s->count; k++)
     if (hypot(s->ball[k].state.r[0] - x, s->ball[k].state.r[1] - y) < distance)
@@ -47,14 +43,19 @@ static void add_anywhere(random_shot *s, lab_random *r, carom_game game) {
   }
 }
 
+/* A tip within `most` radii of the centre, each place as likely. */
+static void any_tip(random_shot *s, lab_random *r, double most) {
+  const double off = most * sqrt(lab_uniform(r, 0.0, 1.0)),
+               way = lab_uniform(r, 0.0, 6.283185307179586);
+  s->cue.a = off * cos(way);
+  s->cue.b = off * sin(way);
+}
+
 static void any_cue(random_shot *s, lab_random *r, double slow, double fast) {
   s->cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
   s->cue.speed = lab_uniform(r, slow, fast);
   s->cue.phi = lab_uniform(r, 0.0, 360.0);
-  const double off = 0.7 * sqrt(lab_uniform(r, 0.0, 1.0)),
-               way = lab_uniform(r, 0.0, 6.283185307179586);
-  s->cue.a = off * cos(way);
-  s->cue.b = off * sin(way);
+  any_tip(s, r, 0.7);
   s->cue.theta = lab_uniform(r, 0.0, 1.0) < 0.3 ? lab_uniform(r, 0.0, 70.0) : 0.0;
 }
 
@@ -76,24 +77,29 @@ static void break_of(random_shot *s, lab_random *r, carom_rack_kind rack, carom_
 }
 
 static carom_table_kind any_pool_table(lab_random *r) {
-  return (carom_table_kind)whole(r, CAROM_TABLE_POOL_7FT, CAROM_TABLE_POOL_9FT);
+  return (carom_table_kind)lab_whole(r, CAROM_TABLE_POOL_7FT, CAROM_TABLE_POOL_9FT);
+}
+
+/* With gaps up to 0.3 mm. */
+static void pool_break(random_shot *s, lab_random *r, carom_rack_kind rack) {
+  break_of(s, r, rack, any_pool_table(r), pow(10.0, lab_uniform(r, -6.0, -3.5)));
 }
 
 static void nineball(random_shot *s, lab_random *r) {
-  break_of(s, r, CAROM_RACK_NINEBALL, any_pool_table(r), pow(10.0, lab_uniform(r, -6.0, -3.5)));
+  pool_break(s, r, CAROM_RACK_NINEBALL);
 }
 static void eightball(random_shot *s, lab_random *r) {
-  break_of(s, r, CAROM_RACK_EIGHTBALL, any_pool_table(r), pow(10.0, lab_uniform(r, -6.0, -3.5)));
+  pool_break(s, r, CAROM_RACK_EIGHTBALL);
 }
 static void tenball(random_shot *s, lab_random *r) {
-  break_of(s, r, CAROM_RACK_TENBALL, any_pool_table(r), pow(10.0, lab_uniform(r, -6.0, -3.5)));
+  pool_break(s, r, CAROM_RACK_TENBALL);
 }
 static void frozen_rack(random_shot *s, lab_random *r) {
-  break_of(s, r, (carom_rack_kind)whole(r, CAROM_RACK_NINEBALL, CAROM_RACK_TENBALL),
+  break_of(s, r, (carom_rack_kind)lab_whole(r, CAROM_RACK_NINEBALL, CAROM_RACK_TENBALL),
            any_pool_table(r), 0.0);
 }
 static void snooker(random_shot *s, lab_random *r) {
-  break_of(s, r, CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, whole(r, 0, 1) ? 0.0 : 1e-4);
+  break_of(s, r, CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, lab_whole(r, 0, 1) ? 0.0 : 1e-4);
   s->cue.phi = lab_uniform(r, 0.0, 360.0);
   for (int k = 0; k < s->count; k++) {
     s->ball[k].kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_SNOOKER);
@@ -103,7 +109,7 @@ static void snooker(random_shot *s, lab_random *r) {
 
 static void layout(random_shot *s, lab_random *r) {
   carom_table_make(any_pool_table(r), &s->table);
-  const int count = whole(r, 1, 15);
+  const int count = lab_whole(r, 1, 15);
   for (int k = 0; k < count; k++)
     add_anywhere(s, r, CAROM_GAME_POOLTOOL_POOL);
   any_cue(s, r, 0.1, 8.0);
@@ -123,13 +129,13 @@ static void moving(random_shot *s, lab_random *r) {
   layout(s, r);
   s->cue.speed = 0.0;
   for (int k = 0; k < s->count; k++) {
-    const double speed = whole(r, 0, 3) == 0 ? 0.0 : lab_uniform(r, 0.0, 3.0),
+    const double speed = lab_whole(r, 0, 3) == 0 ? 0.0 : lab_uniform(r, 0.0, 3.0),
                  way = lab_uniform(r, 0.0, 6.283185307179586);
     carom_ball_state *b = &s->ball[k].state;
     b->v[0] = speed * cos(way);
     b->v[1] = speed * sin(way);
     for (int axis = 0; axis < 3; axis++)
-      b->w[axis] = lab_uniform(r, -300.0, 300.0) * (whole(r, 0, 2) == 0);
+      b->w[axis] = lab_uniform(r, -300.0, 300.0) * (lab_whole(r, 0, 2) == 0);
   }
 }
 
@@ -137,9 +143,9 @@ static void moving(random_shot *s, lab_random *r) {
 static void cradle(random_shot *s, lab_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
   const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius,
-               phi = whole(r, 0, 1) ? 0.0 : lab_uniform(r, 0.0, 30.0);
+               phi = lab_whole(r, 0, 1) ? 0.0 : lab_uniform(r, 0.0, 30.0);
   const double c = cos(phi / 57.29577951308232), n = sin(phi / 57.29577951308232), x = 0.2, y = 1.0;
-  const int count = whole(r, 2, 7);
+  const int count = lab_whole(r, 2, 7);
   add(s, CAROM_GAME_POOLTOOL_BILLIARD, x, y);
   for (int k = 0; k < count; k++) {
     const double at = 0.3 + 2.0 * R * k;
@@ -148,8 +154,8 @@ static void cradle(random_shot *s, lab_random *r) {
   any_cue(s, r, 0.3, 6.0);
   s->cue.phi = phi;
   s->cue.theta = 0.0;
-  s->cue.a = whole(r, 0, 1) ? 0.0 : s->cue.a;
-  if (whole(r, 0, 1))
+  s->cue.a = lab_whole(r, 0, 1) ? 0.0 : s->cue.a;
+  if (lab_whole(r, 0, 1))
     aim(s, r, 0.5);
 }
 
@@ -158,17 +164,17 @@ static void cradle(random_shot *s, lab_random *r) {
 static void frozen_to_rail(random_shot *s, lab_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
   const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius, w = s->table.width;
-  const double y = whole(r, 0, 3) == 0 ? R : lab_uniform(r, 0.5, 2.0);
+  const double y = lab_whole(r, 0, 3) == 0 ? R : lab_uniform(r, 0.5, 2.0);
   add(s, CAROM_GAME_POOLTOOL_BILLIARD, w - R, y);
-  if (whole(r, 0, 1))
+  if (lab_whole(r, 0, 1))
     add(s, CAROM_GAME_POOLTOOL_BILLIARD, w - 3.0 * R, y);
-  if (whole(r, 0, 1))
+  if (lab_whole(r, 0, 1))
     add(s, CAROM_GAME_POOLTOOL_BILLIARD, w - R, y + 2.0 * R);
-  if (whole(r, 0, 1))
+  if (lab_whole(r, 0, 1))
     add_anywhere(s, r, CAROM_GAME_POOLTOOL_BILLIARD);
   any_cue(s, r, 0.2, 5.0);
-  s->cue.ball = whole(r, 0, s->count - 1);
-  if (whole(r, 0, 1)) {
+  s->cue.ball = lab_whole(r, 0, s->count - 1);
+  if (lab_whole(r, 0, 1)) {
     s->cue.speed = 0.0;
     for (int k = 0; k < s->count; k++) {
       s->ball[k].state.w[0] = lab_uniform(r, -200.0, 200.0);
@@ -183,9 +189,9 @@ static void cluster(random_shot *s, lab_random *r) {
   const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL).radius;
   add(s, CAROM_GAME_POOLTOOL_POOL, 0.5 * s->table.width, 0.3 * s->table.length);
   add(s, CAROM_GAME_POOLTOOL_POOL, 0.5 * s->table.width, 0.6 * s->table.length);
-  const int count = whole(r, 3, 12);
+  const int count = lab_whole(r, 3, 12);
   for (int trial = 0; trial < 200 && s->count < count; trial++) {
-    const carom_ball_state *to = &s->ball[whole(r, 1, s->count - 1)].state;
+    const carom_ball_state *to = &s->ball[lab_whole(r, 1, s->count - 1)].state;
     const double way = lab_uniform(r, 0.0, 6.283185307179586);
     const double x = to->r[0] + 2.0 * R * cos(way), y = to->r[1] + 2.0 * R * sin(way);
     if (is_free(s, x, y, 2.0 * R - 1e-12) && x > 2.0 * R && x < s->table.width - 2.0 * R &&
@@ -198,7 +204,7 @@ static void cluster(random_shot *s, lab_random *r) {
 
 /* Balls that differ in mass and in all frictions and restitutions, in a layout or a cluster. */
 static void unlike(random_shot *s, lab_random *r) {
-  if (whole(r, 0, 1))
+  if (lab_whole(r, 0, 1))
     layout(s, r);
   else
     cluster(s, r);
@@ -208,11 +214,11 @@ static void unlike(random_shot *s, lab_random *r) {
     b->mu_slide = lab_uniform(r, 0.05, 0.5);
     b->mu_roll = lab_uniform(r, 0.003, 0.03);
     b->mu_spin = lab_uniform(r, 0.003, 0.03);
-    if (whole(r, 0, 4) == 0)
+    if (lab_whole(r, 0, 4) == 0)
       b->restitution = 0.0;
     else
-      b->restitution = whole(r, 0, 4) == 0 ? 1.0 : lab_uniform(r, 0.0, 1.0);
-    b->restitution_cushion = whole(r, 0, 4) == 0 ? 0.0 : lab_uniform(r, 0.0, 1.0);
+      b->restitution = lab_whole(r, 0, 4) == 0 ? 1.0 : lab_uniform(r, 0.0, 1.0);
+    b->restitution_cushion = lab_whole(r, 0, 4) == 0 ? 0.0 : lab_uniform(r, 0.0, 1.0);
     b->mu_cushion = lab_uniform(r, 0.0, 0.6);
   }
 }
@@ -222,7 +228,7 @@ static void near_pocket(random_shot *s, lab_random *r) {
   carom_table_make(any_pool_table(r), &s->table);
   for (int k = 0; k < 3; k++)
     add_anywhere(s, r, CAROM_GAME_POOLTOOL_POOL);
-  const carom_pocket *p = &s->table.pocket[whole(r, 0, (int)s->table.pockets - 1)];
+  const carom_pocket *p = &s->table.pocket[lab_whole(r, 0, (int)s->table.pockets - 1)];
   any_cue(s, r, 0.2, 3.0);
   s->cue.phi = 57.29577951308232 * atan2(p->centre[1] - s->ball[0].state.r[1],
                                          p->centre[0] - s->ball[0].state.r[0]) +
@@ -233,9 +239,9 @@ static void near_pocket(random_shot *s, lab_random *r) {
  * presses them together. */
 static void pressed(random_shot *s, lab_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
-  const int which = whole(r, 0, 2),
-            count = whole(r, 2, which == 1 ? CAROM_BALLS_MOST / 2 : CAROM_BALLS_MOST),
-            shape = whole(r, 0, 2);
+  const int which = lab_whole(r, 0, 2),
+            count = lab_whole(r, 2, which == 1 ? CAROM_BALLS_MOST / 2 : CAROM_BALLS_MOST),
+            shape = lab_whole(r, 0, 2);
   const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius,
                spin = lab_uniform(r, 20.0, 300.0);
   for (int k = 0, row = 0, place = 0; k < count; k++, place++) {
@@ -255,7 +261,7 @@ static void pressed(random_shot *s, lab_random *r) {
     double *w = s->ball[k].state.w;
     if (which == 2) {
       w[0] = lab_uniform(r, -spin, spin);
-      w[1] = lab_uniform(r, -spin, spin) * whole(r, 0, 1);
+      w[1] = lab_uniform(r, -spin, spin) * lab_whole(r, 0, 1);
     } else if (k == 0) {
       w[0] = -spin;
     } else if (which == 1 && k == count - 1) {
@@ -271,7 +277,7 @@ static void coincident(random_shot *s, lab_random *r) {
   const double R = 0.03125, height = 0.0375;
   s->table = (carom_table){.width = 1.0, .length = 2.0};
   const double corner[5][2] = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 2.0}, {0.0, 2.0}, {0.0, 0.0}};
-  const int parts = whole(r, 0, 1) ? 1 : 4; /* ends of rails at the places of balls */
+  const int parts = lab_whole(r, 0, 1) ? 1 : 4; /* ends of rails at the places of balls */
   for (int k = 0; k < 4 * parts; k++) {
     const double *p = corner[k / parts], *q = corner[k / parts + 1],
                  from = (double)(k % parts) / parts, step = 1.0 / parts;
@@ -282,16 +288,16 @@ static void coincident(random_shot *s, lab_random *r) {
       rail->q[axis] = p[axis] + (from + step) * (q[axis] - p[axis]);
     }
   }
-  if (whole(r, 0, 1)) /* a post, met at its exact side */
+  if (lab_whole(r, 0, 1)) /* a post, met at its exact side */
     s->table.jaw[s->table.jaws++] =
         (carom_jaw){.centre = {0.5, 1.0}, .radius = 0.03125, .height = height};
   /* places k + 1/2 diameters from the sides; where rails end and a post stands, whole ones */
-  const double shift = whole(r, 0, 1) ? R : 2.0 * R;
-  const int count = whole(r, 1, 12), lines = whole(r, 1, 3);
-  const double e = 0.25 * whole(r, 0, 4);
+  const double shift = lab_whole(r, 0, 1) ? R : 2.0 * R;
+  const int count = lab_whole(r, 1, 12), lines = lab_whole(r, 1, 3);
+  const double e = 0.25 * lab_whole(r, 0, 4);
   for (int trial = 0; trial < 100 && s->count < count; trial++) {
-    const double x = shift + 2.0 * R * whole(r, 0, 14),
-                 y = shift + 2.0 * R * (whole(r, 0, 1) ? 15 : whole(r, 0, 30) / lines);
+    const double x = shift + 2.0 * R * lab_whole(r, 0, 14),
+                 y = shift + 2.0 * R * (lab_whole(r, 0, 1) ? 15 : lab_whole(r, 0, 30) / lines);
     if (!is_free(s, x, y, 2.0 * R) || (s->table.jaws > 0 && hypot(x - 0.5, y - 1.0) < 2.0 * R))
       continue;
     add(s, CAROM_GAME_POOLTOOL_POOL, x, y);
@@ -299,9 +305,9 @@ static void coincident(random_shot *s, lab_random *r) {
     b->kind.radius = b->state.r[2] = R;
     b->kind.restitution = b->kind.restitution_cushion = e;
     static const double speeds[] = {0.0, 0.0, 1.0, -1.0, 2.0, -0.5};
-    const int way = whole(r, 0, 2), roll = whole(r, 0, 3);
-    b->state.v[0] = way == 1 ? 0.0 : speeds[whole(r, 0, 5)];
-    b->state.v[1] = way == 0 ? 0.0 : speeds[whole(r, 0, 5)];
+    const int way = lab_whole(r, 0, 2), roll = lab_whole(r, 0, 3);
+    b->state.v[0] = way == 1 ? 0.0 : speeds[lab_whole(r, 0, 5)];
+    b->state.v[1] = way == 0 ? 0.0 : speeds[lab_whole(r, 0, 5)];
     if (roll < 2) { /* rolling, or as much the other way */
       b->state.w[0] = (roll == 0 ? -32.0 : 32.0) * b->state.v[1];
       b->state.w[1] = (roll == 0 ? 32.0 : -32.0) * b->state.v[0];
@@ -317,20 +323,20 @@ static void coincident_in_space(random_shot *s, lab_random *r) {
   const double R = 0.03125, nose = s->table.rail[0].height, lies = R;
   const double heights[] = {lies, 2.0 * R, 3.0 * R, 5.0 * R, nose, nose + R, nose + 2.0 * R};
   static const double speeds[] = {0.0, 0.0, 1.0, -1.0, 0.5};
-  const double x = 0.25, y = 0.5 + 2.0 * R * whole(r, 0, 1);
-  if (whole(r, 0, 1) && is_free(s, x, y, 2.0 * R))
+  const double x = 0.25, y = 0.5 + 2.0 * R * lab_whole(r, 0, 1);
+  if (lab_whole(r, 0, 1) && is_free(s, x, y, 2.0 * R))
     s->table.pocket[s->table.pockets++] = (carom_pocket){.centre = {x, y}, .radius = 2.0 * R};
   for (int k = 0; k < s->count; k++) {
     carom_shot_ball *b = &s->ball[k];
     b->kind.gravity = 8.0;
-    b->kind.restitution_table = 0.25 * whole(r, 0, 3);
+    b->kind.restitution_table = 0.25 * lab_whole(r, 0, 3);
     /* from the post, if there is one */
     const double *at = b->state.r, centre = hypot(at[0] - 0.5, at[1] - 1.0);
     const bool beside = at[0] < 2.0 * R || at[0] > 1.0 - 2.0 * R || at[1] < 2.0 * R ||
                         at[1] > 2.0 - 2.0 * R || centre < 4.0 * R;
     /* at a nose it would be in it */
-    b->state.r[2] = heights[beside ? 3 * whole(r, 0, 1) : whole(r, 0, 6)];
-    b->state.v[2] = b->state.r[2] > lies || whole(r, 0, 1) ? speeds[whole(r, 0, 4)] : 0.0;
+    b->state.r[2] = heights[beside ? 3 * lab_whole(r, 0, 1) : lab_whole(r, 0, 6)];
+    b->state.v[2] = b->state.r[2] > lies || lab_whole(r, 0, 1) ? speeds[lab_whole(r, 0, 4)] : 0.0;
     if (b->state.r[2] == lies && b->state.v[2] < 0.0)
       b->state.v[2] = -b->state.v[2];
     b->state.label =
@@ -344,13 +350,10 @@ static void jump(random_shot *s, lab_random *r) {
   any_cue(s, r, 0.5, 6.0);
   aim(s, r, 10.0);
   s->cue.theta = lab_uniform(r, 2.0, 80.0);
-  const double off = 0.5 * sqrt(lab_uniform(r, 0.0, 1.0)),
-               way = lab_uniform(r, 0.0, 6.283185307179586);
-  s->cue.a = off * cos(way);
-  s->cue.b = off * sin(way);
+  any_tip(s, r, 0.5);
   for (int k = 0; k < s->count; k++)
-    s->ball[k].kind.restitution_table = whole(r, 0, 2) == 0 ? lab_uniform(r, 0.1, 0.98) : 0.0;
-  s->cue.tip_time = (double[]){0.0, 0.0006, -1.0}[whole(r, 0, 2)];
+    s->ball[k].kind.restitution_table = lab_whole(r, 0, 2) == 0 ? lab_uniform(r, 0.1, 0.98) : 0.0;
+  s->cue.tip_time = (double[]){0.0, 0.0006, -1.0}[lab_whole(r, 0, 2)];
 }
 
 /* Whether a ball of radius R at a place is clear of all others, in space. */
@@ -367,16 +370,16 @@ static bool is_free_in_space(const random_shot *s, const double at[3], double R)
  * Alike, or unlike in radius and mass. */
 static void falling(random_shot *s, lab_random *r) {
   carom_table_make(any_pool_table(r), &s->table);
-  const int count = whole(r, 2, 12), alike = whole(r, 0, 1);
+  const int count = lab_whole(r, 2, 12), alike = lab_whole(r, 0, 1);
   const double wide = lab_uniform(r, 0.05, 0.5), width = s->table.width, length = s->table.length;
   const double x = lab_uniform(r, wide, width - wide), y = lab_uniform(r, wide, length - wide);
   for (int trial = 0; trial < 400 && s->count < count; trial++) {
     carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
     kind.radius *= alike ? 1.0 : lab_uniform(r, 0.9, 1.1);
     kind.mass *= alike ? 1.0 : lab_uniform(r, 0.7, 1.4);
-    kind.restitution_table = whole(r, 0, 2) == 0 ? lab_uniform(r, 0.1, 0.98) : 0.0;
+    kind.restitution_table = lab_whole(r, 0, 2) == 0 ? lab_uniform(r, 0.1, 0.98) : 0.0;
     const double R = kind.radius;
-    const bool lies = whole(r, 0, 1);
+    const bool lies = lab_whole(r, 0, 1);
     const double at[3] = {x + lab_uniform(r, -wide, wide), y + lab_uniform(r, -wide, wide),
                           lies ? R : R + lab_uniform(r, 0.0, 0.4)};
     if (at[0] < 0.1 || at[0] > width - 0.1 || at[1] < 0.1 || at[1] > length - 0.1 ||
@@ -390,7 +393,7 @@ static void falling(random_shot *s, lab_random *r) {
         b->state.v[axis] = lab_uniform(r, -2.0, 2.0);
       else
         b->state.v[axis] = lies ? 0.0 : lab_uniform(r, -3.0, 2.0);
-      b->state.w[axis] = whole(r, 0, 1) * lab_uniform(r, -150.0, 150.0);
+      b->state.w[axis] = lab_whole(r, 0, 1) * lab_uniform(r, -150.0, 150.0);
     }
   }
 }
@@ -406,7 +409,7 @@ static void unlike_radii(random_shot *s, lab_random *r) {
     b->state.r[2] = b->kind.radius;
   }
   s->table.ball_radius = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL).radius;
-  s->cue.theta *= whole(r, 0, 1);
+  s->cue.theta *= lab_whole(r, 0, 1);
 }
 
 static const struct {

@@ -10,13 +10,9 @@
 
 static const double degree = 0.017453292519943295;
 
-static int whole(lab_random *r, int low, int high) {
-  return low + (int)(lab_bits(r) % (uint64_t)(high - low + 1));
-}
-
 /* A gap: none, a hair, or wide. */
 static double any_gap(lab_random *r, double most) {
-  switch (whole(r, 0, 2)) {
+  switch (lab_whole(r, 0, 2)) {
   case 0:
     return 0.0;
   case 1:
@@ -29,7 +25,7 @@ static double any_gap(lab_random *r, double most) {
 /* Balls `first` to `last` near earlier ones, the first of them ahead of ball 0. */
 static void add_company(recipe *r, lab_random *random, int first, int last, double ahead) {
   for (int k = first; k <= last; k++) {
-    r->of[k] = k == first ? first - 1 : whole(random, 0, k - 1);
+    r->of[k] = k == first ? first - 1 : lab_whole(random, 0, k - 1);
     r->gap[k] = any_gap(random, 5e-3);
     r->bearing[k] =
         k == first ? ahead + lab_uniform(random, -80.0, 80.0) : lab_uniform(random, -180.0, 180.0);
@@ -45,7 +41,7 @@ static void add_cue(recipe *r, lab_random *random, double phi) {
   r->b = lab_uniform(random, -0.3, 0.3);
   r->follow = cue.follow;
   r->mass = cue.mass;
-  switch (whole(random, 0, 3)) {
+  switch (lab_whole(random, 0, 3)) {
   case 0:
     r->theta = pow(10.0, lab_uniform(random, -7.0, 0.0));
     break;
@@ -61,8 +57,8 @@ static void add_cue(recipe *r, lab_random *random, double phi) {
 static void add_motion(recipe *r, lab_random *random, double heading) {
   r->pace = lab_uniform(random, 0.3, 6.0);
   r->heading = heading;
-  r->roll = whole(random, 0, 1) ? 1.0 : lab_uniform(random, -1.0, 2.0);
-  r->side = whole(random, 0, 1) ? 0.0 : lab_uniform(random, -1.0, 1.0);
+  r->roll = lab_whole(random, 0, 1) ? 1.0 : lab_uniform(random, -1.0, 2.0);
+  r->side = lab_whole(random, 0, 1) ? 0.0 : lab_uniform(random, -1.0, 1.0);
 }
 
 /* A ball that comes at one that lies in company. */
@@ -76,9 +72,9 @@ static void add_attacker(recipe *r, lab_random *random, int target, double headi
 
 /* Ball 0 beside a cushion, far from its ends. */
 static void put_at_cushion(recipe *r, lab_random *random) {
-  r->table = whole(random, 0, 1) ? CAROM_TABLE_POOL_9FT : CAROM_TABLE_THREECUSHION;
-  r->rail = whole(random, 0, r->table == CAROM_TABLE_POOL_9FT ? 5 : 3);
-  r->end = whole(random, 0, 1);
+  r->table = lab_whole(random, 0, 1) ? CAROM_TABLE_POOL_9FT : CAROM_TABLE_THREECUSHION;
+  r->rail = lab_whole(random, 0, r->table == CAROM_TABLE_POOL_9FT ? 5 : 3);
+  r->end = lab_whole(random, 0, 1);
   r->along = lab_uniform(random, 0.3, 0.7);
   r->away = any_gap(random, 0.02);
 }
@@ -87,7 +83,7 @@ static void put_at_cushion(recipe *r, lab_random *random) {
  * the cushion. */
 
 static void company(recipe *r, lab_random *random) {
-  add_company(r, random, 1, whole(random, 1, 4), 90.0);
+  add_company(r, random, 1, lab_whole(random, 1, 4), 90.0);
   add_cue(r, random, 90.0);
 }
 
@@ -98,7 +94,7 @@ static void cushion(recipe *r, lab_random *random) {
 
 static void cushion_company(recipe *r, lab_random *random) {
   put_at_cushion(r, random);
-  add_company(r, random, 1, whole(random, 1, 2), whole(random, 0, 1) ? 90.0 : 180.0);
+  add_company(r, random, 1, lab_whole(random, 1, 2), lab_whole(random, 0, 1) ? 90.0 : 180.0);
   add_cue(r, random, lab_uniform(random, -75.0, 75.0));
 }
 
@@ -107,14 +103,14 @@ static void corner(recipe *r, lab_random *random) {
   r->table = CAROM_TABLE_THREECUSHION;
   r->rail %= 4;
   r->along = carom_ball_kind_of(CAROM_GAME_POOL).radius + any_gap(random, 0.02);
-  if (whole(random, 0, 1))
+  if (lab_whole(random, 0, 1))
     add_cue(r, random, lab_uniform(random, -180.0, 180.0));
   else
     add_motion(r, random, lab_uniform(random, -75.0, 75.0));
 }
 
 static void cluster(recipe *r, lab_random *random) {
-  add_company(r, random, 1, whole(random, 1, 3), 90.0);
+  add_company(r, random, 1, lab_whole(random, 1, 3), 90.0);
   add_attacker(r, random, 0, 90.0);
 }
 
@@ -128,14 +124,14 @@ static void seam(recipe *r, lab_random *random) {
 
 static void cushion_between(recipe *r, lab_random *random) {
   put_at_cushion(r, random);
-  if (whole(random, 0, 1))
-    add_company(r, random, 1, 1, whole(random, 0, 1) ? 90.0 : -90.0);
+  if (lab_whole(random, 0, 1))
+    add_company(r, random, 1, 1, lab_whole(random, 0, 1) ? 90.0 : -90.0);
   add_attacker(r, random, 0, lab_uniform(random, -60.0, 60.0));
 }
 
 static void hop(recipe *r, lab_random *random) {
-  const int others = whole(random, 0, 2);
-  if (whole(random, 0, 1))
+  const int others = lab_whole(random, 0, 2);
+  if (lab_whole(random, 0, 1))
     put_at_cushion(r, random);
   if (others > 0)
     add_company(r, random, 1, others, 90.0);
@@ -147,9 +143,9 @@ static void hop(recipe *r, lab_random *random) {
 }
 
 static void fall(recipe *r, lab_random *random) {
-  if (whole(random, 0, 1))
+  if (lab_whole(random, 0, 1))
     put_at_cushion(r, random);
-  if (whole(random, 0, 1))
+  if (lab_whole(random, 0, 1))
     add_company(r, random, 1, 1, 0.0);
   add_attacker(r, random, 0, lab_uniform(random, -60.0, 60.0));
   r->height = lab_uniform(random, 1e-3, 0.08);
