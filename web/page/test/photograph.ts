@@ -126,7 +126,8 @@ export function photograph(
     for (let i = 0; i < width; i++) {
       const u = (i + 0.5 - width / 2) / focal;
       const v = -(j + 0.5 - height / 2) / focal;
-      let [a, b] = [u, v];
+      let a = u;
+      let b = v;
       for (let round = 0; round < 5; round++) {
         const g = 1 + bow * (a * a + b * b);
         [a, b] = [u / g, v / g];

@@ -143,7 +143,7 @@ export function fitLens(
     }, 0);
   let lens = start;
   let damping = 1e-3;
-  let now = residuals(lens);
+  let present = residuals(lens);
   for (let round = 0; round < ROUNDS; round++) {
     const step = 1e-6;
     const slopes = Array.from({ length: 9 }, (_, k) => {
@@ -153,24 +153,24 @@ export function fitLens(
           Array.from({ length: 9 }, (_, j) => (j === k ? step : 0)),
         ),
       );
-      return moved.map((x, i) => (x - now[i]!) / step);
+      return moved.map((x, i) => (x - present[i]!) / step);
     });
-    const weights = now.map(weightOf);
+    const weights = present.map(weightOf);
     const product = (a: readonly number[], b: readonly number[]): number =>
       a.reduce((total, x, i) => total + weights[i]! * x * b[i]!, 0);
     const rows = slopes.map((slope, k) => [
-      ...slopes.map((other, j) => product(slope, other) * (j === k ? 1 + damping : 1)),
-      -product(slope, now),
+      ...slopes.map((second, j) => product(slope, second) * (j === k ? 1 + damping : 1)),
+      -product(slope, present),
     ]);
     const change = solve(rows);
     if (!change) break;
     const next = changed(lens, change);
-    const then = residuals(next);
-    const isBetter = costOf(then) < costOf(now);
+    const later = residuals(next);
+    const isBetter = costOf(later) < costOf(present);
     damping *= isBetter ? 0.2 : 10;
-    if (isBetter) [lens, now] = [next, then];
+    if (isBetter) [lens, present] = [next, later];
   }
-  const good = now.slice(0, edges.length).filter((x) => Math.abs(x) < 4);
+  const good = present.slice(0, edges.length).filter((x) => Math.abs(x) < 4);
   const misfit = sigma * Math.sqrt(good.reduce((total, x) => total + x * x, 0) / good.length);
   return { lens, misfit };
 }

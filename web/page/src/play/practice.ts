@@ -9,7 +9,6 @@ import { count, countsOf } from "./keep.js";
 import { DRILLS_MADE as KEY, ownRating, starsOf } from "./ladder.js";
 import { keepRow, type Row } from "./log.js";
 import type { Training } from "./parts.js";
-import { photoPage } from "./photo_page.js";
 import { texts, translate } from "../texts/texts.js";
 
 declare const DRILLS: string;

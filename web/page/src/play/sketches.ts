@@ -15,17 +15,17 @@ const placeOn = ({ state: { r } }: ShotBall): [number, number] => [r[0], r[1]];
 /** The strokes of a run-out: the pot of each, and where the cue ball may come to rest after it. */
 export function runOutSketches({ table, balls }: Play, strokes: readonly SequenceStroke[]) {
   const sketches: Sketch[] = [];
-  let before: readonly ShotBall[] = balls;
+  let layout: readonly ShotBall[] = balls;
   for (const [k, { choice, zone, ruling }] of strokes.entries()) {
     const pocket = table.pockets[choice.pocket];
-    const ball = before[choice.ball];
+    const ball = layout[choice.ball];
     const pot = pocket && ball ? [placeOn(ball), [...pocket.centre]] : [];
     const line: Line = { points: pot, colour: colourOfSketch(k), width: 1.4, isDashed: true };
-    before = ruling.balls;
+    layout = ruling.balls;
     // The stroke that is aimed has its own lines.
     const lines = k > 0 && pot.length > 0 ? [line] : [];
     const isKept = ruling.turn === "keep";
-    sketches.push({ lines, zone: isKept ? zone : [], place: placeOn(before[choice.cue.ball]!) });
+    sketches.push({ lines, zone: isKept ? zone : [], place: placeOn(layout[choice.cue.ball]!) });
   }
   return sketches;
 }

@@ -17,8 +17,10 @@ type Colour = readonly [number, number, number];
 function colourOf({ data, width, height }: Picture, x: number, y: number): Colour {
   const u = Math.min(Math.max(x - 0.5, 0), width - 1.001);
   const v = Math.min(Math.max(y - 0.5, 0), height - 1.001);
-  const [i, j] = [Math.floor(u), Math.floor(v)];
-  const [a, b] = [u - i, v - j];
+  const i = Math.floor(u);
+  const j = Math.floor(v);
+  const a = u - i;
+  const b = v - j;
   const first = 4 * (width * j + i);
   const below = first + 4 * width;
   const channel = (c: number): number =>
@@ -103,20 +105,20 @@ class Table {
     return [u * width + width / 2, v * width + height / 2];
   }
   /** The pixel of a point of a side, and the direction outwards, across the side. */
-  seen(lens: Lens, side: Side, kind: Kind, share: number): { at: Pixel; out: Pixel } {
-    const at = this.pixel(lens, side.point(kind, share, lens.rail));
+  seen(lens: Lens, side: Side, kind: Kind, share: number): { middle: Pixel; out: Pixel } {
+    const middle = this.pixel(lens, side.point(kind, share, lens.rail));
     const next = this.pixel(lens, side.point(kind, share + 0.01, lens.rail));
     const inside = this.pixel(lens, [this.size[0] / 2, this.size[1] / 2, 0]);
-    const far = Math.hypot(next[0] - at[0], next[1] - at[1]);
-    const normal: Pixel = [(next[1] - at[1]) / far, (at[0] - next[0]) / far];
-    const isOut = (inside[0] - at[0]) * normal[0] + (inside[1] - at[1]) * normal[1] < 0;
-    return { at, out: isOut ? normal : [-normal[0], -normal[1]] };
+    const far = Math.hypot(next[0] - middle[0], next[1] - middle[1]);
+    const normal: Pixel = [(next[1] - middle[1]) / far, (middle[0] - next[0]) / far];
+    const isOut = (inside[0] - middle[0]) * normal[0] + (inside[1] - middle[1]) * normal[1] < 0;
+    return { middle, out: isOut ? normal : [-normal[0], -normal[1]] };
   }
   /** How wide the face of a side's cushion is seen, pixels; below 0 where the top hides it. */
   face(lens: Lens, side: Side): number {
-    const { at, out } = this.seen(lens, side, "nose", 0.5);
+    const { middle, out } = this.seen(lens, side, "nose", 0.5);
     const foot = this.pixel(lens, side.point("foot", 0.5, 0));
-    return (at[0] - foot[0]) * out[0] + (at[1] - foot[1]) * out[1];
+    return (middle[0] - foot[0]) * out[0] + (middle[1] - foot[1]) * out[1];
   }
   /** How much of an edge lies at a place. */
   edge(kind: Kind, [x, y]: Pixel, [u, v]: Pixel): number {
@@ -141,11 +143,11 @@ function moveOf(table: Table, lens: Lens, side: Side, reach: number, pull: numbe
   // Edges by place and distance, which all moves read.
   const far = Math.ceil(1.5 * reach);
   const found = lines.map(({ kind, points }) =>
-    points.map(({ share, at, out }) => ({
+    points.map(({ share, middle, out }) => ({
       share,
       edges: Array.from({ length: 2 * far + 1 }, (_, k) =>
         Math.min(
-          table.edge(kind, [at[0] + (k - far) * out[0], at[1] + (k - far) * out[1]], out),
+          table.edge(kind, [middle[0] + (k - far) * out[0], middle[1] + (k - far) * out[1]], out),
           MOST,
         ),
       ),
@@ -223,15 +225,15 @@ function edgesOf(table: Table, lens: Lens, places: number, reach: number): Edge[
       shares(places)
         .filter(side.has)
         .flatMap((share): Edge[] => {
-          const { at, out } = table.seen(lens, side, kind, share);
+          const { middle, out } = table.seen(lens, side, kind, share);
           const edges = steps.map((off) =>
-            table.edge(kind, [at[0] + off * out[0], at[1] + off * out[1]], out),
+            table.edge(kind, [middle[0] + off * out[0], middle[1] + off * out[1]], out),
           );
           const off = middleOf(steps, edges);
           if (off === undefined) return [];
           const seen: Pixel = [
-            (at[0] + off * out[0] - width / 2) / width,
-            (at[1] + off * out[1] - height / 2) / width,
+            (middle[0] + off * out[0] - width / 2) / width,
+            (middle[1] + off * out[1] - height / 2) / width,
           ];
           return [{ point: (rail) => side.point(kind, share, rail), seen, across: out }];
         }),
@@ -282,7 +284,7 @@ export function snapTable(
       return fitted(table, start, FEW, [6, 4]);
     }),
   );
-  const best = tries.reduce((best, one) => (one.score > best.score ? one : best));
+  const best = tries.reduce((best, attempt) => (attempt.score > best.score ? attempt : best));
   const { lens, misfit, count } = fitted(table, best.lens, MANY, [3, 3]);
   if (count < 2 * MANY || misfit > MISFIT) return undefined;
   const noses = table.sides.map((side) => table.pixel(lens, side.point("nose", 0, 0)));
@@ -380,11 +382,12 @@ function centred(
     let count = 0;
     for (const [u, v] of outline) {
       const far = Math.hypot(u, v);
-      const [a, b] = [u / far, v / far];
-      const at = (off: number): Pixel => [x + u + off * a, y + v + off * b];
+      const a = u / far;
+      const b = v / far;
+      const place = (off: number): Pixel => [x + u + off * a, y + v + off * b];
       const off = middleOf(
         steps,
-        steps.map((step) => edge(at(step - ACROSS), at(step + ACROSS))),
+        steps.map((step) => edge(place(step - ACROSS), place(step + ACROSS))),
       );
       if (off === undefined) continue;
       count++;
@@ -428,11 +431,11 @@ export function ballsSeen(
       if (score > SEEN) found.push({ place: [x, y], score });
     }
   found.sort((a, b) => b.score - a.score);
-  const taken = marked.map(camera.place);
+  const occupied = marked.map(camera.place);
   return found.flatMap(({ place }) => {
-    const isTaken = taken.some(([x, y]) => Math.hypot(x - place[0], y - place[1]) < 2 * radius);
+    const isTaken = occupied.some(([x, y]) => Math.hypot(x - place[0], y - place[1]) < 2 * radius);
     if (isTaken) return [];
-    taken.push(place);
+    occupied.push(place);
     return [camera.pixel(place)];
   });
 }

@@ -28,12 +28,12 @@ export function watching(s: Session): Watching {
     back.disabled = strokes === 0;
     forth.disabled = strokes === whole.strokes;
     const { last } = s.play;
-    const told = (): void => {
+    const finish = (): void => {
       says(s, last ? wordsOfStroke(s.play, last, s.seat) : "");
       s.showing.rest();
     };
-    if (isNext && last) s.showing.perform(last, told);
-    else told();
+    if (isNext && last) s.showing.perform(last, finish);
+    else finish();
   }
   function enter(): void {
     if (s.watched || s.play.practice || s.play.strokes === 0) return;
