@@ -19,6 +19,8 @@ export function viewOf() {
   return {
     scale: 1,
     upright: false,
+    /** Its height for its width, as its canvas has it. */
+    ratio: 0,
     /** @type {[number, number]} */
     offset: [0, 0],
     zoom: 1,
@@ -74,9 +76,13 @@ export function fitTable(view, canvas, table, sharp) {
   const upright = document.documentElement.clientWidth < 480;
   view.upright = upright;
   const ratio = upright ? l / w : w / l;
-  // A browser that does not know dvh keeps vh.
-  for (const unit of ["vh", "dvh"])
-    canvas.style.maxWidth = `calc((100${unit} - var(--beside, 9rem)) * ${1 / ratio})`;
+  // It is set where it changes: a page that is laid out anew in each frame of a film is slow.
+  if (view.ratio !== ratio) {
+    view.ratio = ratio;
+    // A browser that does not know dvh keeps vh.
+    for (const unit of ["vh", "dvh"])
+      canvas.style.maxWidth = `calc((100${unit} - var(--beside, 9rem)) * ${1 / ratio})`;
+  }
   const [width, height, dpr] = fit(canvas, ratio, sharp);
   view.scale = width / (upright ? w : l);
   view.offset = [WOOD * view.scale, upright ? height - WOOD * view.scale : WOOD * view.scale];

@@ -86,6 +86,8 @@ function lacquer(): THREE.MeshPhysicalMaterial {
     roughness: 0.25,
     clearcoat: 1,
     clearcoatRoughness: 0.04,
+    // By its lower side, a ball would leave light on the cloth around its contact.
+    shadowSide: THREE.FrontSide,
   });
   const map = numbers();
   material.onBeforeCompile = (shader) => {

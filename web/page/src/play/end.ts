@@ -100,7 +100,7 @@ export function endView(s: Session, restart: () => void, list: () => void): EndV
         button(texts.yourGames, list, "#end-games"),
       ),
     );
-    s.sound.end(isWon);
+    if (!play.isDrawn) s.sound.end(isWon);
     root.classList.toggle("won", isWon);
     root.classList.toggle("lost", !isWon && !play.isDrawn);
     root.hidden = false;

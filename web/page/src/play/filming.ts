@@ -121,11 +121,11 @@ function put(element: HTMLElement, isVisible: boolean): void {
   element.hidden = !isVisible;
   if (appears) element.scrollIntoView({ block: "nearest", inline: "nearest" });
 }
-/** Shows the buttons that have a meaning now, and hides the others. */
+/** Shows the buttons that have a meaning now. */
 function showButtons(s: Session): void {
   const { play, buttons, choices, film, stroke } = s;
   const mayAim = free(s);
-  const mayPush = mayAim && play.acts.includes("push");
+  const mayPush = play.acts.includes("push");
   const isFreePractice = play.practice && !play.setup.drill;
   const isOver = play.isOver && s.continuation === undefined;
   const hasSafety = play.played?.calls === true && !play.practice;
@@ -137,7 +137,7 @@ function showButtons(s: Session): void {
     [buttons.hint, play.played !== undefined],
     [buttons.undo, isFreePractice],
     [buttons.rack, isFreePractice || isOver],
-    [buttons.push, mayPush || hasSafety],
+    [buttons.push, (mayAim && mayPush) || hasSafety],
     ...choices.map(([act, button]) => [button, mayAim && play.acts.includes(act)] as const),
     [buttons.skip, isRolling],
     [s.watching.root, s.watched !== undefined],
@@ -145,16 +145,14 @@ function showButtons(s: Session): void {
     [buttons.link, play.setup.against === "link" || s.watched !== undefined],
   ];
   for (const [element, isVisible] of visible) put(element, isVisible);
-  enableButtons(s);
+  enableButtons(s, mayAim, mayPush);
 }
 /**
- * A button without an effect now keeps its place, so that the others keep theirs, and says why when
- * it is pressed.
+ * Marks the buttons without an effect: each keeps its place, so that the others keep theirs, and
+ * says why when it is pressed.
  */
-function enableButtons(s: Session): void {
+function enableButtons(s: Session, mayAim: boolean, mayPush: boolean): void {
   const { play, buttons, stroke } = s;
-  const mayAim = free(s);
-  const mayPush = play.acts.includes("push");
   const isBusy = ["film", "thinking"].includes(stateOf(s));
   const enabled: [HTMLElement, boolean][] = [
     [stroke.shoot, mayAim],

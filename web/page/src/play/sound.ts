@@ -128,25 +128,29 @@ const panOf = (side: number): number => 0.8 * Math.min(Math.max(side || 0, -1), 
 /** What sounds in one context of audio: voices from their sides, rolling, and their room. */
 export class Mixer {
   readonly #buffers = new Map<Voice, AudioBuffer>();
-  readonly #in: GainNode;
+  readonly #input: GainNode;
   readonly #rolling: { filter: BiquadFilterNode; gain: GainNode; pan: StereoPannerNode };
 
   constructor(readonly context: BaseAudioContext) {
     // Many sounds of a break together stay below what a speaker can do.
-    const out = new DynamicsCompressorNode(context, { threshold: -12, ratio: 6, release: 0.12 });
-    this.#in = new GainNode(context);
-    this.#in.connect(out).connect(context.destination);
+    const speaker = new DynamicsCompressorNode(context, {
+      threshold: -12,
+      ratio: 6,
+      release: 0.12,
+    });
+    this.#input = new GainNode(context);
+    this.#input.connect(speaker).connect(context.destination);
     const echo = new ConvolverNode(context, { buffer: this.#noise(ECHO, ECHO_DECAY) });
-    this.#in
+    this.#input
       .connect(new GainNode(context, { gain: WET }))
       .connect(echo)
-      .connect(out);
+      .connect(speaker);
 
     const source = new AudioBufferSourceNode(context, { buffer: this.#noise(2), loop: true });
     const filter = new BiquadFilterNode(context, { type: "bandpass", Q: 0.6 });
     const gain = new GainNode(context, { gain: 0 });
     const pan = new StereoPannerNode(context);
-    source.connect(filter).connect(gain).connect(pan).connect(this.#in);
+    source.connect(filter).connect(gain).connect(pan).connect(this.#input);
     source.start();
     this.#rolling = { filter, gain, pan };
   }
@@ -167,8 +171,8 @@ export class Mixer {
   }
   #bufferOf(voice: Voice): AudioBuffer {
     const { sampleRate } = this.context;
-    const made = this.#buffers.get(voice);
-    if (made) return made;
+    const known = this.#buffers.get(voice);
+    if (known) return known;
     const samples = wave(voice, sampleRate);
     const buffer = new AudioBuffer({ length: samples.length, sampleRate });
     buffer.copyToChannel(samples, 0);
@@ -192,19 +196,19 @@ export class Mixer {
       .connect(new BiquadFilterNode(context, { type: "lowpass", frequency }))
       .connect(new GainNode(context, { gain: 0.9 * loud }))
       .connect(new StereoPannerNode(context, { pan: panOf(side) }))
-      .connect(this.#in);
+      .connect(this.#input);
     source.start(context.currentTime + delay);
   }
   /** Sounds balls that roll, by their speed, m/s; it fades where nobody renews it. */
   roll(speed: number, side: number): void {
     const { filter, gain, pan } = this.#rolling;
-    const now = this.context.currentTime;
+    const time = this.context.currentTime;
     const share = Math.min(speed / FAST, 1);
-    filter.frequency.setTargetAtTime(420 + 900 * share, now, 0.03);
-    pan.pan.setTargetAtTime(panOf(side), now, 0.03);
-    gain.gain.cancelScheduledValues(now);
-    gain.gain.setTargetAtTime(ROLLING * share, now, 0.03);
-    gain.gain.setTargetAtTime(0, now + 0.2, 0.06);
+    filter.frequency.setTargetAtTime(420 + 900 * share, time, 0.03);
+    pan.pan.setTargetAtTime(panOf(side), time, 0.03);
+    gain.gain.cancelScheduledValues(time);
+    gain.gain.setTargetAtTime(ROLLING * share, time, 0.03);
+    gain.gain.setTargetAtTime(0, time + 0.2, 0.06);
   }
   /** Sounds the chord of a game that is over, tone after tone. */
   end(isWon: boolean): void {
@@ -216,7 +220,7 @@ export class Mixer {
       ] as const;
       const buffer = this.#bufferOf({ tones, noise: [0, 0.01, 0], full: 1 });
       const source = new AudioBufferSourceNode(context, { buffer });
-      source.connect(new GainNode(context, { gain: 0.35 })).connect(this.#in);
+      source.connect(new GainNode(context, { gain: 0.35 })).connect(this.#input);
       source.start(context.currentTime + (isWon ? 0.09 : 0.16) * k);
     });
   }

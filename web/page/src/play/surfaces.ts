@@ -174,8 +174,8 @@ export function shadowPicture(): THREE.CanvasTexture {
   const [canvas, g] = canvasOf(64, 64);
   const fall = g.createRadialGradient(32, 32, 0, 32, 32, 32);
   fall.addColorStop(0, "rgba(0,0,0,.95)");
-  fall.addColorStop(0.28, "rgba(0,0,0,.72)");
-  fall.addColorStop(0.6, "rgba(0,0,0,.22)");
+  fall.addColorStop(0.35, "rgba(0,0,0,.78)");
+  fall.addColorStop(0.65, "rgba(0,0,0,.34)");
   fall.addColorStop(1, "rgba(0,0,0,0)");
   g.fillStyle = fall;
   g.fillRect(0, 0, 64, 64);

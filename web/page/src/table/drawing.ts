@@ -191,6 +191,42 @@ export const labelsOf = (
 /** Letters stand on a ball of this many pixels, and beside a smaller one. */
 const ROOM = 7;
 
+/** How high the picture of a label is, and how far it goes beyond its text, pixels of the page. */
+const HIGH = 18;
+const BEYOND = 4;
+interface LabelPicture {
+  canvas: HTMLCanvasElement;
+  width: number;
+}
+const labelPictures = new Map<string, LabelPicture>();
+/**
+ * A label as a picture, which is drawn once: a letter on its ball has an outline, a label beside its
+ * ball a pill behind it.
+ */
+function labelPicture(text: string, sharp: number, isOnBall = false): LabelPicture {
+  const key = [text, sharp, isOnBall].join();
+  const drawn = labelPictures.get(key);
+  if (drawn) return drawn;
+  const canvas = document.createElement("canvas");
+  const g = canvas.getContext("2d")!;
+  const font = "bold 12px sans-serif";
+  g.font = font;
+  const width = Math.ceil(g.measureText(text).width) + 2 * BEYOND;
+  [canvas.width, canvas.height] = [Math.ceil(width * sharp), Math.ceil(HIGH * sharp)];
+  g.scale(sharp, sharp);
+  Object.assign(g, { font, textAlign: "center", textBaseline: "middle", lineJoin: "round" });
+  const x = width / 2;
+  const y = HIGH / 2;
+  Object.assign(g, { strokeStyle: "#000c", lineWidth: 3, fillStyle: "#0009" });
+  if (isOnBall) g.strokeText(text, x, y);
+  else g.roundRect(1, y - 7.5, width - 2, 14, 7);
+  g.fill();
+  g.fillStyle = "#fff";
+  g.fillText(text, x, y);
+  const picture = { canvas, width };
+  labelPictures.set(key, picture);
+  return picture;
+}
 /**
  * The label of each ball, upright, so that one can name a ball however it has turned and however
  * small it is drawn. A number stands beside its ball, which bears it too; of a ball that has no
@@ -201,23 +237,11 @@ export function drawLabels(
   balls: readonly { state: Pick<ShotBall["state"], "r" | "label">; kind: ShotBall["kind"] }[],
   labels: readonly string[],
 ): void {
-  g.save();
-  g.font = "bold 12px sans-serif";
-  g.textAlign = "center";
-  g.textBaseline = "middle";
-  g.lineJoin = "round";
-  /** A letter on its ball has an outline, a label beside its ball a pill behind it. */
+  const sharp = g.getTransform().a;
   const write = (text: string, x: number, y: number, isOnBall = false): void => {
-    const half = g.measureText(text).width / 2 + 3;
-    g.strokeStyle = "#000c";
-    g.lineWidth = 3;
-    g.fillStyle = "#0009";
-    g.beginPath();
-    if (isOnBall) g.strokeText(text, x, y);
-    else g.roundRect(x - half, y - 7.5, 2 * half, 14, 7);
-    g.fill();
-    g.fillStyle = "#fff";
-    g.fillText(text, x, y);
+    const { canvas, width } = labelPicture(text, sharp, isOnBall);
+    const corner = [x - width / 2, y - HIGH / 2].map((c) => Math.round(c * sharp) / sharp);
+    g.drawImage(canvas, corner[0]!, corner[1]!, width, HIGH);
   };
   // What a label does not cover: the middle and half the size of each ball, and of the labels
   // that are drawn already.
@@ -232,7 +256,7 @@ export function drawLabels(
     const [x, y] = place(state.r[0], state.r[1]);
     const radius = kind.radius * scale;
     if (!(Number(label) > 0) && radius >= ROOM) return write(label, x, y + 0.5, true);
-    const half = g.measureText(label).width / 2;
+    const half = labelPicture(label, sharp).width / 2 - BEYOND;
     const high = 5;
     const away = radius + 2;
     const neighbors = occupied.filter(
@@ -257,5 +281,4 @@ export function drawLabels(
     occupied.push([...best, half + 6, high]); // two labels are not read as one
     write(label, ...best);
   });
-  g.restore();
 }
