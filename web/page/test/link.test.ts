@@ -154,7 +154,8 @@ describePages("a game by link", () => {
         input.value = value;
         input.dispatchEvent(new Event("input"));
       }, value);
-    await act(page, "#shoot", "#skip");
+    // At once: a busy machine presses no Skip within a short film.
+    await act(page, "#new-game", "#rate=1000", "#menu .close", "#shoot");
     await comesToSay(page, "turn", /^Your turn/);
     const secondPage = await open(desk, new URL(await link(page)).hash);
     await says(page, "said", /You are still at the table: send it again after your turn/);
