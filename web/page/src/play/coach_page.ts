@@ -13,7 +13,7 @@ const SETS = ["1", "2", "3"];
 
 /** The odds of a match against a rating, by one's own. */
 function oddsPart(s: Session): { parts: HTMLElement[]; tell(): void } {
-  const said = el("p#odds-said", { role: "status" });
+  const verdict = el("p#odds-said", { role: "status" });
   const pick = (
     id: string,
     text: string,
@@ -39,10 +39,10 @@ function oddsPart(s: Session): { parts: HTMLElement[]; tell(): void } {
     const odds = s.carom.odds({ ratings: [rating, rival], games: toGames, sets: toSets });
     const [mine, theirs] = odds.fair as [number, number];
     const [game, match] = [odds.game, odds.match].map(percent) as [string, string];
-    said.textContent = texts.oddsAgainst(words, rival, game, match, mine, theirs);
+    verdict.textContent = texts.oddsAgainst(words, rival, game, match, mine, theirs);
   }
   const fields = el("div.fields", against.root, games.root, sets.root);
-  return { parts: [el("h3", texts.oddsOfMatch), fields, said], tell };
+  return { parts: [el("h3", texts.oddsOfMatch), fields, verdict], tell };
 }
 
 /** What one misses, by kinds of strokes. */
@@ -115,7 +115,7 @@ export function coachPage(s: Session): { root: HTMLDialogElement; open(): void }
       texts.leavesSnooker(ballOf(s.play.names, ball)),
     );
   });
-  const near = asks(texts.askNear, "ask-near", () => {
+  const closeness = asks(texts.askNear, "ask-near", () => {
     s.asksPlace = true;
     says(s, texts.tapThePlace);
     s.film.canvas.focus();
@@ -130,7 +130,7 @@ export function coachPage(s: Session): { root: HTMLDialogElement; open(): void }
     "coach-page",
     texts.coach,
     el("h3", texts.askTheCoach),
-    el("div.row", safety, hidden, near, best),
+    el("div.row", safety, hidden, closeness, best),
     el("div.row", snooker, snookered.root),
     ...review.parts,
     ...odds.parts,
@@ -139,7 +139,7 @@ export function coachPage(s: Session): { root: HTMLDialogElement; open(): void }
   function listQuestions(): void {
     const { balls, bounds, breaks, hasPockets, practice, strikable, names } = s.play;
     const isAtRest = free(s) && hasPockets && !breaks && s.play.setup.drill === undefined;
-    near.hidden = !isAtRest;
+    closeness.hidden = !isAtRest;
     safety.hidden = !isAtRest || practice;
     for (const control of [hidden, snooker, snookered.root])
       control.hidden = safety.hidden || strikable.length > 1;

@@ -168,11 +168,11 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
           best: outcome === "missed" ? review.trim() : texts.made,
         });
       if (outcome === "on") return { text: texts.goOnWithThe, repeats: false };
-      const made = outcome === "made" ? texts.madeWord : texts.missed;
-      if (!isOwn) return { text: texts.hintedTry(made), repeats: true };
+      const word = outcome === "made" ? texts.madeWord : texts.missed;
+      if (!isOwn) return { text: texts.hintedTry(word), repeats: true };
       const [good, tries] = count(KEY, name, [Number(outcome === "made"), 1]);
       describe();
-      return { text: texts.outcomeOf(made, good, tries, review), repeats: true };
+      return { text: texts.outcomeOf(word, good, tries, review), repeats: true };
     },
   };
 }

@@ -216,9 +216,9 @@ export class Space implements SpaceView {
     const { balls, table } = this.s.play;
     const far = (px: number, py: number): number => Math.hypot(px - x, py - y);
     /** How far off a ball is, beyond its edge: one before the eye is larger than a finger. */
-    const farOff = ([bx, by, bz]: Vec3, radius: number): number => {
-      const [px, py] = scene.place(bx, by, bz);
-      const [tx, ty] = scene.place(bx, by, bz + radius);
+    const farOff = ([u, v, w]: Vec3, radius: number): number => {
+      const [px, py] = scene.place(u, v, w);
+      const [tx, ty] = scene.place(u, v, w + radius);
       return far(px, py) - Math.hypot(tx - px, ty - py);
     };
     const grips = [

@@ -259,16 +259,13 @@ export function drawLabels(
     const half = labelPicture(label, sharp).width / 2 - BEYOND;
     const high = 5;
     const away = radius + 2;
-    const neighbors = occupied.filter(
-      ([bx, by]) => Math.abs(bx! - x) < 80 && Math.abs(by! - y) < 80,
-    );
+    const neighbors = occupied.filter(([u, v]) => Math.abs(u! - x) < 80 && Math.abs(v! - y) < 80);
     // Of twelve places around the ball the one that covers least; the first is at the upper right.
     const covers = ([px, py]: readonly [number, number]): number =>
       neighbors.reduce(
-        (sum, [bx, by, bw, bh]) =>
+        (sum, [u, v, bw, bh]) =>
           sum +
-          Math.max(half + bw! - Math.abs(px - bx!), 0) *
-            Math.max(high + bh! - Math.abs(py - by!), 0),
+          Math.max(half + bw! - Math.abs(px - u!), 0) * Math.max(high + bh! - Math.abs(py - v!), 0),
         0,
       );
     const around = Array.from({ length: 12 }, (_, k) => ((1.5 + k) * Math.PI) / 6).map(
