@@ -111,7 +111,8 @@ function showContact(s: Session): void {
   const { play, first, stroke } = s;
   const meetsBall = free(s) && first !== undefined && first.ball >= 0;
   const isShown = meetsBall && (play.practice || linesOf(s) !== "none");
-  stroke.showContact(isShown ? first : undefined, translate(play.names[first?.ball ?? 0]!));
+  const name = translate(play.names[meetsBall ? first.ball : 0]!);
+  stroke.showContact(isShown ? first : undefined, name);
 }
 
 /** Shows a button or hides it; one that appears is brought into view. */
