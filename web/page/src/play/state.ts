@@ -10,7 +10,7 @@ export function nameOf(play: Play, player: number, seat: number): string {
   if (against === "person") return texts.player(player + 1);
   if (player === seat) return texts.you;
   if (against === "link") return texts.theOtherPlayer;
-  return play.points.length > 2 ? texts.theRatedAt(against, player + 1) : texts.theRated(against);
+  return play.points.length > 2 ? texts.player(player + 1) : texts.theRated(against);
 }
 export const groupOf = (play: Play, player: number): string => {
   const { group } = play.state;
