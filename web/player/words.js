@@ -66,6 +66,7 @@ const NAMED = {
   pink: "#e58fa5",
   black: POOL[7],
   red: POOL[2],
+  maroon: POOL[6],
 };
 
 /** Balls of this radius, m, and larger are those of pyramid: white ones and a yellow cue ball. */

@@ -159,7 +159,7 @@ export class OwnRules {
       this.#numbers.set(rules, number);
     }
     const state = pointer + RULES.offset.state;
-    this.#writeUser(state, Object.assign([...user], { seat }), "user");
+    this.writeUser(state, Object.assign([...user], { seat }), "user");
     memory.i64[(state + STATE.context) / 8] = BigInt(number);
   }
 
@@ -190,7 +190,7 @@ export class OwnRules {
     const user = this.user(state);
     try {
       const result = memory.paused(() => call(this.#known[number]!.deref()!, user));
-      if (method === "judge" || method === "settle") this.#writeUser(state, user, method);
+      if (method === "judge" || method === "settle") this.writeUser(state, user, method);
       keep?.(result);
       return result;
     } catch (error) {
@@ -199,7 +199,8 @@ export class OwnRules {
     }
   }
 
-  #writeUser(state: Pointer, user: Words, name: string): void {
+  /** Writes the words of a state, and its seat. */
+  writeUser(state: Pointer, user: Words, name: string): void {
     if (user.length > WORDS)
       throw new RangeError(`${name}: a state has ${WORDS} words, not ${user.length}`);
     for (let k = 0; k < WORDS; k++)

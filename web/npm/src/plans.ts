@@ -28,7 +28,6 @@ import type {
   Cue,
   Drill,
   EventType,
-  GameRules,
   GameState,
   Odds,
   PlanOptions,
@@ -786,13 +785,15 @@ export class Plans {
       group: names.carom_group[group]!,
       opening: opening !== 0,
       may: MAY.filter((_, k) => (permitted >> k) & 1),
-      ...(custom ? this.#ownState(custom, pointer) : fieldsOf(state, MEMBERS)),
+      ...(custom ? { own: custom } : fieldsOf(state, MEMBERS)),
+      ...this.#wordsOf(pointer, custom !== undefined),
     };
   }
 
-  #ownState(own: GameRules, pointer: Pointer): Pick<GameState, "own" | "user" | "seat"> {
+  /** The words of a state and its seat, of games of the library that have some. */
+  #wordsOf(pointer: Pointer, isOwn: boolean): Pick<GameState, "user" | "seat"> {
     const user = this.customRules.user(pointer);
-    return { own, user: [...user], seat: user.seat };
+    return isOwn || user.some((word) => word > 0) ? { user: [...user], seat: user.seat } : {};
   }
 
   writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer {
@@ -829,6 +830,7 @@ export class Plans {
         `balls: ${rules} has the cue ball and 1 to ${last}, of which some may be down`,
       );
     const stateAt = pointer + RULES.offset.state;
+    const { user = [], seat = 0 } = game;
     const words = {
       group: value("carom_group", group, "group"),
       opening: Number(opening),
@@ -847,6 +849,7 @@ export class Plans {
       },
       "game",
     );
+    this.customRules.writeUser(stateAt, Object.assign([...user], { seat }), "user");
     const wrong = memory.text(
       memory.exports.carom_rules_fault(kind, stateAt, this.#addresses.found),
     );

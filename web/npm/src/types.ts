@@ -299,7 +299,10 @@ export interface GameState
   may?: readonly C.Choice[];
   /** Rules of your own; then nothing else but `user` and `seat` is read. */
   own?: GameRules;
-  /** Up to eight words of the state of your own rules, whole numbers, at least 0. */
+  /**
+   * Up to eight words of the state, whole numbers, at least 0: those of your own rules, or in killer
+   * the lives of each seat, in cut-throat its balls as a set.
+   */
   user?: readonly number[];
   /** The seat at the table in a race of seats. Default 0. */
   seat?: number;

@@ -20,7 +20,7 @@ function roomOf({ carom, table }: Play, { balls, cue, hitBall, pots }: Deed): nu
   return outcome === "falls" && isInside ? phi[1] - phi[0] : undefined;
 }
 /** The best stroke of a player: the pot with the least room for its aim, or the most cushions. */
-function bestOf(play: Play, player: 0 | 1): string {
+function bestOf(play: Play, player: number): string {
   const deeds = play.deeds.filter((deed) => deed.player === player);
   if (!play.hasPockets) {
     const most = Math.max(0, ...deeds.map(({ cushions }) => cushions));

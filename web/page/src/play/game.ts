@@ -20,7 +20,15 @@ import {
   type Table,
 } from "carom";
 import { onTable } from "../table/filmed.js";
-import { GAMES, type GameOf, hasMember, PLAYED, type Played, POOL_TABLES } from "../table/games.js";
+import {
+  GAMES,
+  type GameOf,
+  hasMember,
+  PLAYED,
+  type Played,
+  POOL_TABLES,
+  SEATS,
+} from "../table/games.js";
 import { atHead, isWithin } from "../table/head.js";
 import { placesOf, placesText, pocketed } from "../table/places.js";
 import { wrong } from "../ui.js";
@@ -53,6 +61,8 @@ export interface Setup {
   racks?: readonly [number, number];
   /** Whether the player who does not begin has an equalizing inning, so that games may be drawn. */
   equalInnings?: boolean;
+  /** How many seats play, each for itself. */
+  seats?: number;
   /** How long a stroke may take, s. */
   clock?: number;
 }
@@ -65,7 +75,7 @@ export type Aimer = (typeof AIMERS)[number];
 
 /** A stroke that was played, for its film; or what was instead of one, which has no shot. */
 export interface Stroke {
-  player: 0 | 1;
+  player: number;
   aimer: Aimer;
   /** Whether the time for the stroke was over. */
   isLate?: boolean;
@@ -78,7 +88,7 @@ export interface Stroke {
 }
 /** A stroke that kept the turn, as a look back at the game needs it. */
 export interface Deed {
-  player: 0 | 1;
+  player: number;
   balls: ShotBall[];
   cue: Cue;
   /** The ball that was met first, and those that fell, each with its pocket. */
@@ -157,11 +167,26 @@ function matchOf(play: Play, { rules, opening, state }: Played): Match {
   // Who opens a game of carom strikes the white.
   const group = play.hasPockets ? "open" : "solids";
   const innings = setup.equalInnings ? { innings: 1 } : {};
-  const game = { rules, group, opening: isOpening(rules, setup), ...state, ...innings } as const;
+  const { seats = SEATS[rules]?.[0] } = setup;
+  // What each seat has at first, as a match with the rack says it.
+  const user = seats === undefined ? {} : { user: carom.match(rules, table, { seats }).game.user };
+  const game = {
+    rules,
+    group,
+    opening: isOpening(rules, setup),
+    ...state,
+    ...innings,
+    ...user,
+  } as const;
   // The cue ball of a layout lies where its text says.
   const isLaid = setup.at !== undefined && onTable(balls[0]!.state);
   const hand = play.hasPockets && !isLaid ? (opening as Ruling["hand"]) : "no";
-  return carom.match(game, table, { balls, hand, shot: OPTIONS });
+  return carom.match(game, table, {
+    balls,
+    hand,
+    shot: OPTIONS,
+    ...(seats !== undefined && { seats }),
+  });
 }
 /** The match whose lines have been kept or sent. Of those of its beginning none is left. */
 function matchRead(carom: Carom, lines: Line[]): Match {
@@ -224,11 +249,15 @@ export class Play {
     return this.#match?.game ?? this.#practised;
   }
   /** Who is at the table, and who has won. */
-  get turn(): 0 | 1 {
-    return (this.#match?.player ?? 0) as 0 | 1;
+  get turn(): number {
+    return this.#match?.player ?? 0;
   }
-  get winner(): 0 | 1 | undefined {
-    return this.#match?.winner as 0 | 1 | undefined;
+  get winner(): number | undefined {
+    return this.#match?.winner;
+  }
+  /** Whether each seat plays for itself, with lives or balls of its own. */
+  get isOwn(): boolean {
+    return !this.practice && this.setup.game in SEATS;
   }
   /** Whether the game is over, without a winner where it is drawn. */
   get isOver(): boolean {
@@ -361,7 +390,7 @@ export class Play {
     return this.#ruled({ ...situation, isLate: true }, false);
   }
   /** A player gives the game to the other. */
-  concede(player: 0 | 1): Stroke {
+  concede(player: number): Stroke {
     const situation = this.#situation(this.carom.cue());
     this.#match!.concede(player);
     return this.#ruled({ ...situation, player }, false);

@@ -78,7 +78,7 @@ export function racksOf({ setup, winner }: Pick<Play, "setup" | "winner">): [num
 /** Whether a race is decided. */
 export const isRaceOver = (play: Pick<Play, "setup" | "winner">): boolean =>
   Math.max(...racksOf(play)) >= (play.setup.race ?? 1);
-export const countRack = ({ game, against }: Setup, winner: 0 | 1): unknown =>
+export const countRack = ({ game, against }: Setup, winner: number): unknown =>
   count("carom-racks", `${game}/${against}`, winner === 0 ? [1, 0] : [0, 1]);
 
 async function through(

@@ -20,12 +20,12 @@ type Counted = Pick<SavedGame, "setup" | "aims">;
 /** Whether whoever sits here aimed each own stroke so far. */
 export const isOwn = ({ aims = [] }: Pick<Counted, "aims">): boolean =>
   aims.every((aimer) => aimer === "player" || aimer === "opponent");
-/** Whether a game is of the kind that counts: against the page's player, with one's own errors. */
-export const mayCount = ({ against, own }: Counted["setup"]): boolean =>
-  isComputer(against) && own !== "0";
+/** Whether a game is of the kind that counts: against one player of the page, with own errors. */
+export const mayCount = ({ against, own, seats = 2 }: Counted["setup"]): boolean =>
+  isComputer(against) && own !== "0" && seats === 2;
 /** Whether a game counts: it may, and no hint aimed a stroke. */
 export const isRated = (played: Counted): boolean => mayCount(played.setup) && isOwn(played);
-export function countGame(played: Counted, winner: 0 | 1): void {
+export function countGame(played: Counted, winner: number): void {
   const { game, against } = played.setup;
   if (isRated(played)) count(GAMES, `${game}/${against}`, winner === 0 ? [1, 0] : [0, 1]);
 }

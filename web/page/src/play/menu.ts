@@ -1,6 +1,6 @@
 // The dialog of a new game: which one, against whom, and how the page plays it.
 import { words } from "carom";
-import { GAMES, hasMember, PLAYED, POOL_TABLE_NAMES } from "../table/games.js";
+import { GAMES, hasMember, PLAYED, POOL_TABLE_NAMES, SEATS } from "../table/games.js";
 import { percent, RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
 import { CLOCKS } from "./clock.js";
@@ -109,9 +109,10 @@ const rungsOf = (select: HTMLSelectElement, game: string): HTMLElement[] =>
     return el("li", rung);
   });
 
-/** How an opponent of a rating plays, and how likely one wins by one's own rating. */
-function wordsOfOpponent(s: Session, against: string, kind: string): string {
+/** How an opponent of a rating plays, and how likely one wins by one's own rating against one. */
+function wordsOfOpponent(s: Session, against: string, kind: string, isDuel: boolean): string {
   const { rating, words } = s.training.rating(kind);
+  if (!isDuel) return texts.theComputerPlaysLike(against, words);
   const { game, match } = s.carom.odds({ ratings: [rating, Number(against)], games: RACE });
   return `${texts.theComputerPlaysLike(against, words)} ${texts.youWinOf(percent(game), percent(match), RACE)}`;
 }
@@ -147,6 +148,27 @@ export function menu(
     RACES.map((racks) => [racks, racks === "1" ? texts.oneRack : texts.raceTo(racks)] as const),
     () => undefined,
   );
+  const seats = choice(
+    "new-seats",
+    texts.seats,
+    [2, 3, 4, 5].map((count) => [String(count), texts.seatsCounted(count)] as const),
+    describe,
+  );
+  /** Offers the numbers of seats of a game that each plays for itself, of which none is by link. */
+  function offerSeats(): void {
+    const counts = SEATS[game.select.value] ?? [];
+    const hasSeats = counts.length > 0;
+    for (const option of seats.select.options) {
+      option.disabled = !counts.includes(Number(option.value));
+      option.hidden = option.disabled;
+    }
+    if (hasSeats && seats.select.selectedOptions[0]?.disabled !== false)
+      seats.select.value = String(counts[0]);
+    for (const card of others.querySelectorAll("button"))
+      card.hidden = hasSeats && card.value === "link";
+    if (hasSeats && against.select.value === "link") against.select.value = "person";
+    seats.root.hidden = !hasSeats || against.select.value === "practice";
+  }
   const equal = check("new-equal", texts.equalInnings, () => undefined);
   const clock = choice(
     "new-clock",
@@ -255,9 +277,11 @@ export function menu(
   }
   function describe(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
+    offerSeats();
     errors.root.hidden = against.select.value === "practice";
     const isHere = !["practice", "link"].includes(against.select.value);
     for (const control of [race, clock]) control.root.hidden = !isHere;
+    race.root.hidden ||= !seats.root.hidden;
     equal.root.hidden = against.select.value === "practice" || !knowsInnings();
     markCard(gameCards, game.select.value);
     if (ladder.dataset.game !== game.select.value) showRungs();
@@ -276,7 +300,8 @@ export function menu(
       link: texts.youBreakSendThe,
     };
     const rival = against.select.value;
-    note.textContent = notes[rival] ?? wordsOfOpponent(s, rival, game.select.value);
+    const isDuel = seats.root.hidden || seats.select.value === "2";
+    note.textContent = notes[rival] ?? wordsOfOpponent(s, rival, game.select.value, isDuel);
   }
   const chosenTable = (): ReturnType<typeof tableOf> =>
     tableOf({
@@ -297,6 +322,7 @@ export function menu(
         ...(race.root.hidden || race.select.value === RACES[0]
           ? {}
           : { race: Number(race.select.value), racks: [0, 0] as const }),
+        ...(!seats.root.hidden && { seats: Number(seats.select.value) }),
         ...(!equal.root.hidden && equal.input.checked && { equalInnings: true }),
         ...(!clock.root.hidden &&
           clock.select.value !== CLOCKS[0] && { clock: Number(clock.select.value) }),
@@ -307,6 +333,7 @@ export function menu(
   const games = gamesList(s, () => root.close());
   const fold = el(
     "div.fields.fold",
+    seats.root,
     errors.root,
     race.root,
     clock.root,
@@ -356,6 +383,7 @@ export function menu(
       against.select.value = setup.against;
       errors.select.value = setup.own;
       race.select.value = String(setup.race ?? RACES[0]);
+      seats.select.value = String(setup.seats ?? 2);
       equal.input.checked = setup.equalInnings ?? false;
       clock.select.value = String(setup.clock ?? CLOCKS[0]);
       table.select.value = setup.table ?? "9ft";

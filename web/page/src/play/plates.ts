@@ -32,7 +32,9 @@ function tray(selector: string): { root: HTMLElement; show(play: Play, balls: nu
 const range = (first: number, last: number): number[] =>
   Array.from({ length: last - first + 1 }, (_, k) => first + k);
 /** The balls that a player of two groups has to pot. */
-function ballsOf(play: Play, player: 0 | 1): number[] {
+function ballsOf(play: Play, player: number): number[] {
+  const own = play.setup.game === "cutthroat" ? play.state.user?.[player] : undefined;
+  if (own !== undefined) return range(1, 15).filter((ball) => (own >> ball) & 1);
   if (!isEight(play) || play.practice) return [];
   const group = groupOf(play, player);
   if (group === "open") return [];
@@ -43,6 +45,13 @@ function sharedBalls(play: Play): number[] {
   const isPool = play.hasPockets && play.balls.length <= 16 && play.names[0] === "cue";
   const hasGroups = ballsOf(play, 0).length > 0;
   return isPool && !hasGroups ? range(1, play.balls.length - 1) : [];
+}
+
+/** The seat at the right: the one at the table, or the next that has something left. */
+function opposite({ points }: Play, left: number, atTable: number): number {
+  if (atTable !== left) return atTable;
+  const others = points.map((_, k) => (left + 1 + k) % points.length);
+  return others.find((player) => points.length === 2 || points[player]! > 0)!;
 }
 
 export function plates(s: Session): Plates {
@@ -76,10 +85,10 @@ export function plates(s: Session): Plates {
       visit = {
         game: s.id,
         turn,
-        points: points[turn],
+        points: points[turn]!,
         isWhole: strokes === 0 || visit.game === s.id,
       };
-    return visit.isWhole ? points[turn] - visit.points : 0;
+    return visit.isWhole ? points[turn]! - visit.points : 0;
   }
   /** What a player of snooker needs to know: the balls on, and the break. */
   function wordsOfVisit(play: Play): string {
@@ -88,7 +97,7 @@ export function plates(s: Session): Plates {
     const target = play.setup.game === "snooker" ? texts.ballOn(onOf(play)) : "";
     return [target, made > 0 ? texts.breakOf(made) : ""].filter((part) => part !== "").join(" · ");
   }
-  function showSeat(place: 0 | 1, player: 0 | 1, atTable: number): void {
+  function showSeat(place: 0 | 1, player: number, atTable: number): void {
     const { play, seat } = s;
     const { against, race } = play.setup;
     const { face, name, racks, points, balls, root } = seats[place]!;
@@ -102,8 +111,9 @@ export function plates(s: Session): Plates {
     face.textContent = isMachine ? against : own;
     face.classList.toggle("machine", isMachine);
     root.classList.toggle("at-table", !play.isOver && player === atTable);
-    points.textContent = play.played?.points ? String(play.points[player]).replace("-", "−") : "";
-    racks.textContent = race === undefined ? "" : texts.racksOf(racksOf(play)[player], race);
+    points.textContent =
+      play.played?.points || play.isOwn ? String(play.points[player]).replace("-", "−") : "";
+    racks.textContent = race === undefined ? "" : texts.racksOf(racksOf(play)[player] ?? 0, race);
     balls.show(play, ballsOf(play, player));
   }
   function update(): void {
@@ -119,7 +129,7 @@ export function plates(s: Session): Plates {
     // Whoever sits here is at the left.
     const left = against === "person" ? 0 : seat;
     showSeat(0, left, atTable);
-    showSeat(1, left === 0 ? 1 : 0, atTable);
+    showSeat(1, opposite(play, left, atTable), atTable);
   }
   return { root, update };
 }

@@ -5,13 +5,14 @@ import type { Play, Stroke } from "./game.js";
 import { texts, translate } from "../texts/texts.js";
 
 /** The name of who is at the table: 0 breaks, 1 is the other one. */
-export function nameOf(play: Play, player: 0 | 1, seat: 0 | 1): string {
+export function nameOf(play: Play, player: number, seat: number): string {
   const { against } = play.setup;
   if (against === "person") return texts.player(player + 1);
   if (player === seat) return texts.you;
-  return against === "link" ? texts.theOtherPlayer : texts.theRated(against);
+  if (against === "link") return texts.theOtherPlayer;
+  return play.points.length > 2 ? texts.player(player + 1) : texts.theRated(against);
 }
-export const groupOf = (play: Play, player: 0 | 1): string => {
+export const groupOf = (play: Play, player: number): string => {
   const { group } = play.state;
   if (group === "open" || player === play.turn) return group;
   return group === "solids" ? "stripes" : "solids";
@@ -20,7 +21,7 @@ const ballsLeft = (play: Play, first: number, last: number): number =>
   play.balls.filter(({ state }, k) => k >= first && k <= last && onTable(state)).length;
 
 /** What has just happened, as far as it is not a plain change of turns. */
-function wordsOfFoul(play: Play, { player, ruling, isLate }: Stroke, seat: 0 | 1): string {
+function wordsOfFoul(play: Play, { player, ruling, isLate }: Stroke, seat: number): string {
   const name = nameOf(play, player, seat);
   if (isLate) return texts.fouls(name, name === texts.you, texts.theTimeIsOver);
   if (!ruling?.foul) return "";
@@ -52,6 +53,7 @@ export function wordsOfEnd(play: Play): string {
   const hasLost = winner !== last.player;
   const deciding = isEight(play) ? 8 : { nineball: 9, tenball: 10 }[setup.game];
   if (deciding === undefined) {
+    if (play.isOwn) return texts.nobodyElseHas(setup.game === "killer");
     const score = play.points.join(" : ").replaceAll("-", "−");
     return played?.points ? texts.theScoreIs(score) : "";
   }
@@ -111,7 +113,7 @@ function wordsOfTable(play: Play, name: string): string {
   return name === texts.you ? texts.yourTurn : texts.sTurn(name);
 }
 
-export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = false): string {
+export function wordsOfTurn(play: Play, seat: number, thinks: boolean, short = false): string {
   const struck = short ? "" : wordsOfStruck(play);
   if (play.practice)
     return translate(play.setup.drill ?? texts.practice) + (struck && `.${struck}`);
@@ -135,7 +137,7 @@ export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = fa
 }
 
 /** What fell in a stroke. */
-export function wordsOfStroke(play: Play, stroke: Stroke, seat: 0 | 1): string {
+export function wordsOfStroke(play: Play, stroke: Stroke, seat: number): string {
   const { player, shot, cue, ruling, isLate } = stroke;
   const name = nameOf(play, player, seat);
   if (isLate) return wordsOfFoul(play, stroke, seat).trim();
@@ -149,17 +151,18 @@ export function wordsOfStroke(play: Play, stroke: Stroke, seat: 0 | 1): string {
 }
 
 /** The score: what is left of each, or points. */
-export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, number]): string {
+export function wordsOfScore(play: Play, seat: number, racks: readonly [number, number]): string {
   if (play.practice) {
     const count = ballsLeft(play, 1, play.balls.length);
     return texts.ballsCounted(count);
   }
-  const names = ([0, 1] as const).map((player) => nameOf(play, player, seat));
+  const names = play.points.map((_, player) => nameOf(play, player, seat));
   const wordsOfPoints = (parts: readonly (string | number)[]): string =>
     parts.map((part, k) => `${names[k]}: ${part}`.replace(": -", ": −")).join(" · ");
   const { race } = play.setup;
   const wonAll = racks[0] + racks[1] > 0 ? texts.racksWon(racks[0], racks[1]) : "";
   const won = race === undefined ? wonAll : texts.raceStands(race, racks[0], racks[1]);
+  if (play.isOwn) return wordsOfPoints(play.points.map((left) => texts.countLeft(left)));
   if (play.played?.points)
     return wordsOfPoints(play.points) + (race === undefined ? "" : ` · ${won}`);
   if (isEight(play)) {

@@ -55,15 +55,21 @@ export const GAMES: Record<string, GameOf> = {
     names: (k) => ["white", "yellow", "red"][k] ?? String(k),
   },
 };
-/** The drill, and games that the page has no seats or no balls for. */
-const LEFT_OUT: readonly string[] = ["potting", "killer", "cutthroat", "billiards"];
+/** The drill. */
+const LEFT_OUT: readonly string[] = ["potting"];
+/** The games that each seat plays for itself, with the numbers of seats that the page offers. */
+export const SEATS: Readonly<Record<string, readonly number[]>> = {
+  killer: [2, 3, 4, 5],
+  cutthroat: [3, 5],
+};
 for (const [name, text] of words.rules) {
   const { balls, rack, table } = games[name];
-  if (name === "billiards" || GAMES[rack]?.table === table) continue;
-  const fourball = ["white", "yellow", "red 1", "red 2"];
+  if (GAMES[rack]?.table === table) continue;
+  const fourball = ["white", "yellow", "red", "maroon"];
   const namesOf: Record<string, (k: number) => string> = {
     fourball: (k) => fourball[k] ?? String(k),
     blackball: blackballName,
+    billiards: (k) => ["white", "yellow", "red"][k] ?? String(k),
     pyramid: (k) => (k === 0 ? "yellow" : String(k)),
     cowboy: (k) => ["cue", "1", "3", "5"][k] ?? String(k),
   };
@@ -165,6 +171,7 @@ const OWN: Record<string, Partial<Played>> = {
   fourball: { text: texts.fourBallTo10, begin: { speed: 3, phi: 97, a: 0, b: 0.2 } },
   // The 1 stands before the 3, which is met off a rail.
   cowboy: { begin: { ...BREAK, speed: 3, phi: 53.8 } },
+  billiards: { state: { group: "solids", target: 50 }, begin: { ...BREAK, speed: 3 } },
   straightrail: {
     text: texts.straightRailTo25,
     state: { target: 25 },

@@ -96,7 +96,8 @@ function wordsOfChoice(
 ): string {
   const { kind, ball } = choice;
   if (!namesBall(table, choice)) return WITHOUT[kind] ?? wordsWithoutBall(table, choice);
-  if (table.pockets.length === 0) return texts.theBallFirst(translate(names[ball]!));
+  // A cannon names the ball that is met first.
+  if (choice.pocket < 0) return texts.theBallFirst(translate(names[ball]!));
   const isNamed = kind === "kick" || kind === "rail_first";
   const first = cushionFirst && !isNamed ? texts.offACushionFirst : "";
   return wordsOfPot(table, names, choice, `${BY[kind] ?? ""}${first}`);
