@@ -25,7 +25,8 @@ import {
 /** Hides what lies over the scene, for a picture of the scene alone, or shows it again. */
 const hideChrome = (page: Page, isHidden: boolean) =>
   page.evaluate((isHidden) => {
-    for (const part of document.querySelectorAll<HTMLElement>(".play > :not(.felt)"))
+    const parts = document.querySelectorAll<HTMLElement>(".play > :not(.felt)");
+    for (const part of Array.from(parts))
       part.style.visibility = isHidden ? "hidden" : "";
   }, isHidden);
 

@@ -1,19 +1,23 @@
 // picture.mjs OUT.png [WIDTH HEIGHT]: a picture of the page for docs/figures/, 1300 by 800 or as large
-// as a phone; after `npm run page`. The first of these sizes also writes the words that are seen to
+// as a phone; after `npm run page`. The first of these sizes shows the scene, and also writes the words that are seen to
 // OUT.txt, by which page/test/smoke.test.ts finds pictures that are old.
 import { writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
-/** The page with a game of eight-ball after the break, with a hint; its words, line by line. */
-export async function scene(browser, width, height) {
+/**
+ * The page with a game of eight-ball after the break, with a hint, in a view of the settings; its
+ * words, line by line.
+ */
+export async function scene(browser, width, height, view = "device") {
   const page = await browser.newPage({ viewport: { width, height } });
-  await page.addInitScript(() =>
+  await page.addInitScript((view) => {
     localStorage.setItem(
       "carom-game",
       JSON.stringify({ game: "eightball", against: "500", own: "0", seed: 4, entries: [] }),
-    ),
-  );
+    );
+    localStorage.setItem("carom-settings", JSON.stringify({ view }));
+  }, view);
   await page.goto(`file://${fileURLToPath(new URL("../dist/index.html", import.meta.url))}`);
   await page.waitForSelector("main[aria-busy=false]");
   await page.locator("#shoot").click();
@@ -44,10 +48,13 @@ if (process.argv[1] === fileURLToPath(import.meta.url)) {
   const [out, width = 1300, height = 800] = process.argv.slice(2);
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox"],
+    args: ["--no-sandbox", "--enable-unsafe-swiftshader"],
   });
-  const { page, words } = await scene(browser, Number(width), Number(height));
+  const isWide = Number(width) === 1300;
+  const view = isWide ? "scene" : "device";
+  const { page, words } = await scene(browser, Number(width), Number(height), view);
+  if (isWide) await page.waitForTimeout(5000); // its picture is drawn by the processor
   await page.screenshot({ path: out });
-  if (Number(width) === 1300) writeFileSync(out.replace(/\.png$/, ".txt"), words);
+  if (isWide) writeFileSync(out.replace(/\.png$/, ".txt"), words);
   await browser.close();
 }
