@@ -156,7 +156,11 @@ static void tell_block(shoot_job *job, FILE *out, const played *shots, int count
   size_t size;
   FILE *stream = open_text(&words, &size);
   for (int k = 0; k < count; k++) {
-    if (count > 1)
+    const shoot_flags *flags = &job->flags;
+    const char *name = json_string_value(json_object_get(shots[k].line->json, "id"));
+    if (flags->shared.with.lists + flags->cue_numbers.lists > 0) /* the title does not say them */
+      fprintf(stream, "%d, %s: ", k + 1, text_or(name, ""));
+    else if (count > 1)
       fprintf(stream, "%d: ", k + 1);
     shot_tell(stream, shots[k].line, shots[k].shot, shots[k].spread, count > 1);
     tell_bands(stream, &job->flags.shared.with, shots[k].shot);

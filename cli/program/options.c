@@ -22,23 +22,16 @@ static const option_row help_row = {.name = "help", .letter = 'h', .help = "this
  * of these that it has. */
 static const struct {
   const char *alias, *name;
-} also[] = {{"english", "side"},
-            {"rack", "rules"},
-            {"rack", "balls"},
-            {"game", "rules"},
-            {"power", "speed"},
-            {"fargo", "player"},
-            {"fargo", "players"},
-            {"player", "players"},
-            {"rating", "player"},
-            {"rating", "players"},
-            {"object-balls", "balls"},
-            {"cloth", "mu-slide"},
-            {"cloth-friction", "mu-slide"},
-            {"models", "world"},
-            {"ball-ball", "ball-model"},
-            {"solver", "ball-model"},
-            {"cushion-model", "model"},
+} also[] = {{"english", "side"},         {"rack", "rules"},
+            {"rack", "balls"},           {"game", "rules"},
+            {"power", "speed"},          {"fargo", "player"},
+            {"fargo", "players"},        {"player", "players"},
+            {"rating", "player"},        {"rating", "players"},
+            {"object-balls", "balls"},   {"cloth", "mu-slide"},
+            {"cloth", "with"},           {"cushions", "with"},
+            {"banks", "read"},           {"cloth-friction", "mu-slide"},
+            {"models", "world"},         {"ball-ball", "ball-model"},
+            {"solver", "ball-model"},    {"cushion-model", "model"},
             {"cushion-model", "cushion"}};
 
 /* What players ask for by a name that no option has, and what says it. A subcommand without the
@@ -52,12 +45,11 @@ static const struct {
     {"pivot", "tip",
      "`carom shoot` reports the bridge for back-hand english of each --tip with "
      "side: --tip 0.3,0 --with end_mass=7g"},
-    {"cloth", "with", "--with slow_cloth, medium_cloth or fast_cloth; or mu_slide, mu_roll"},
-    {"cushions", "with", "--with old_cushion, new_cushion or humid_cushion"},
     {"pocket-size", "table", "a measure of --table has it: --table 9ft,corner=4.25in"},
     {"pockets", "table", "a measure of --table has it: --table 9ft,corner=4.25in"},
     {"with", "friction",
      "--friction, --restitution, --mu-slide, --roll, --mass and --radius say it"},
+    {"jump", "elevation", "--elevation 40 --speed 4 jumps; the report says how high and far"},
     {"angle", "aim", "--aim is the direction of the cue, --cut the angle at the ball"},
     {"from", "cue", "--cue is where the cue ball lies"}};
 

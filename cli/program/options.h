@@ -97,11 +97,13 @@ bool set_place(const option_row *row, const char *text, const char *words, int *
 /* What the help calls the argument of an option, "this|that"; NULL for a flag. */
 const char *argument_of(const option_row *row);
 
-/* Several values of one number, of which shots by options take each. */
-enum { LIST_MOST = 32, LISTS_MOST = 6 };
+/* Several values of one number, or several conditions, of which shots by options take each. */
+enum { LIST_MOST = 32, LISTS_MOST = 6, NUMBER_NAME = 64 };
 typedef struct number_list {
-  int part, number, count; /* CAROM_PART_BALL or CAROM_PART_CUE; as carom_number_of() has it */
-  double value[LIST_MOST];
+  int part;   /* CAROM_PART_BALL or CAROM_PART_CUE; CAROM_PART_NONE of conditions */
+  int number; /* as carom_number_of() has it; of conditions the first that they give */
+  int count;
+  double value[LIST_MOST]; /* or carom_condition */
 } number_list;
 
 /* Numbers that --with gives: bit k of `of_balls` is carom_number_of(CAROM_PART_BALL, k), and of
@@ -119,7 +121,7 @@ typedef struct given_numbers {
   number_list list[LISTS_MOST];
   bool in_lines;         /* the lines of the shots have them already */
   const char *condition; /* the last condition of a pool table that is given, or NULL */
-  uint64_t by_condition; /* of `of_balls`, those that conditions gave */
+  unsigned conditions;   /* bit k: carom_condition k is given */
 } given_numbers;
 
 /* Whether a game is played on the tables that the conditions describe; else a complaint. */
@@ -127,6 +129,9 @@ bool condition_fits(const given_numbers *numbers, carom_game game);
 
 /* Gives value `k` of a list. */
 void give_of_list(const number_list *list, int k, given_numbers *numbers);
+
+/* "mass 0.17 kg", or "fast_cloth". */
+void name_of_list(const number_list *list, int k, char text[NUMBER_NAME]);
 
 /* Puts the numbers that are given into those of a ball, or of a cue. */
 void give_ball(const given_numbers *numbers, carom_ball_kind *kind);

@@ -48,6 +48,13 @@ static const struct {
             {"gentle", "soft"},
             {"firm", "fast"},
             {"hard", "fast"},
+            {"slow", "slow_cloth"},
+            {"dirty", "slow_cloth"},
+            {"medium", "medium_cloth"},
+            {"fast", "fast_cloth"},
+            {"old", "old_cushion"},
+            {"new", "new_cushion"},
+            {"humid", "humid_cushion"},
             {"check", "reverse"},
             {"top", "high"},
             {"follow", "high"},
@@ -55,6 +62,14 @@ static const struct {
             {"draw", "low"},
             {"screw", "low"},
             {"stun", "centre"}};
+
+/* What players ask for by a word that is no value, and what says it. */
+static const struct {
+  const char *word, *advice;
+} advices[] = {
+    {"kitchen", "head-spot is on its line; `carom plan --in-hand --opening` chooses a place in it"},
+    {"lag", "`carom shoot --cue 1d,2d --leave 1d,0.2d` finds it"},
+    {"straight", "`carom plan --rules straight --balls straight --opening` plans its break"}};
 
 /* The letters of a word in lower case, without hyphens, underscores and blanks. */
 static size_t plain(const char *text, size_t size, char letters[LONGEST_WORD + 1]) {
@@ -176,6 +191,11 @@ const char *did_you_mean(const char *text, const char *words, char hint[HINT_TEX
   const int size = (int)strlen(text);
   int least = (size + 4) / 3; /* a third of the letters may be wrong, and one of few */
   hint[0] = '\0';
+  for (size_t k = 0; k < COUNT_OF(advices); k++)
+    if (same_word(text, strlen(text), advices[k].word, strlen(advices[k].word)))
+      snprintf(hint, HINT_TEXT, "; %s", advices[k].advice);
+  if (hint[0] != '\0')
+    return hint;
   if (place_among(words, text, strlen(text)) >= 0) /* it is something else that is wrong */
     return hint;
   for (int length; *words != '\0'; words += length + (words[length] != '\0')) {

@@ -36,9 +36,9 @@ bool same_word(const char *text, size_t size, const char *word, size_t length);
 /* The place of such a text among words with bars between them; -1 if it is none of them. */
 int word_among(const char *words, const char *text, size_t size);
 
-/* "; did you mean 'follow'?" where `text` is nearly one of the words, or the beginning of one;
- * else "". Returns `hint`. */
-enum { HINT_TEXT = 64 };
+/* "; did you mean 'follow'?" where `text` is nearly one of the words, or the beginning of one, or
+ * what says a word that is no value anywhere; else "". Returns `hint`. */
+enum { HINT_TEXT = 128 };
 const char *did_you_mean(const char *text, const char *words, char hint[HINT_TEXT]);
 
 #endif

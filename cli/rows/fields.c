@@ -348,20 +348,55 @@ static bool give_fit(const char *path, given_numbers *numbers) {
   return good;
 }
 
-void give_of_list(const number_list *list, int k, given_numbers *numbers) {
-  give_value(numbers, (carom_part_kind)list->part, list->number, list->value[k]);
+/* Gives the numbers of a condition, which are not 0. */
+static void give_numbers_of(const carom_ball_kind *kind, given_numbers *numbers) {
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
+    double x;
+    memcpy(&x, (const char *)kind + n->offset, sizeof x);
+    if (x != 0.0)
+      give_value(numbers, CAROM_PART_BALL, k, x);
+  }
 }
 
-/* Adds a value to the list of a number, which begins with the value that it has; false after a
- * complaint. */
+/* The first number that a condition gives. */
+static int first_given(const carom_ball_kind *kind) {
+  given_numbers given = {0};
+  int first = 0;
+  give_numbers_of(kind, &given);
+  while ((given.of_balls >> first & 1) == 0)
+    first++;
+  return first;
+}
+
+void give_of_list(const number_list *list, int k, given_numbers *numbers) {
+  carom_ball_kind kind = {0};
+  if (list->part != CAROM_PART_NONE) {
+    give_value(numbers, (carom_part_kind)list->part, list->number, list->value[k]);
+    return;
+  }
+  carom_condition_give((carom_condition)list->value[k], &kind);
+  give_numbers_of(&kind, numbers);
+}
+
+void name_of_list(const number_list *list, int k, char text[NUMBER_NAME]) {
+  const carom_number *n = carom_number_of((carom_part_kind)list->part, list->number);
+  if (list->part == CAROM_PART_NONE)
+    snprintf(text, NUMBER_NAME, "%s", carom_word(CAROM_WORDS_CONDITION, (int)list->value[k]));
+  else
+    snprintf(text, NUMBER_NAME, "%s %.6g%s%s", n->name, list->value[k],
+             text_if(n->unit[0] != '\0', " "), n->unit);
+}
+
+/* Adds a value to a list, which begins with `first`, the value that was given before; false after
+ * a complaint. */
 static bool add_to_list(const option_row *row, given_numbers *numbers, carom_part_kind part, int k,
-                        double x) {
+                        double first, double x) {
   number_list *list = numbers->list;
   while (list < numbers->list + numbers->lists && (list->part != (int)part || list->number != k))
     list++;
   if (row->only == CUSHION_ONLY) {
-    complain("--%s: %s takes one value here; `carom shoot` takes a list", row->name,
-             carom_number_of(part, k)->name);
+    complain("--%s takes one value of a number here; `carom shoot` takes a list", row->name);
     return false;
   }
   if (list == numbers->list + LISTS_MOST || list->count == LIST_MOST) {
@@ -370,12 +405,12 @@ static bool add_to_list(const option_row *row, given_numbers *numbers, carom_par
     return false;
   }
   if (list == numbers->list + numbers->lists) {
-    *list = (number_list){.part = (int)part, .number = k, .count = 1};
-    memcpy(list->value, given_at(numbers, part, k), sizeof *list->value);
+    *list = (number_list){.part = (int)part, .number = k, .count = 1, .value = {first}};
     numbers->lists++;
   }
   list->value[list->count++] = x;
-  *given_set(numbers, part) &= ~((uint64_t)1 << k);
+  if (part != CAROM_PART_NONE)
+    *given_set(numbers, part) &= ~((uint64_t)1 << k);
   return true;
 }
 
@@ -395,41 +430,36 @@ static bool read_numbers(const option_row *row, const carom_number *n, char *tex
   return good || refuse_value(row, n, text_or(text, ""));
 }
 
-/* What a condition of the table changes, by its name, with its word; NULL where it is none. */
-static const char *condition_named(const char *name, carom_ball_kind *kind) {
+/* The condition of the table with that name; -1: none. */
+static int condition_named(const char *name) {
   const char *word;
-  int k = 0;
-  while ((word = carom_word(CAROM_WORDS_CONDITION, k)) != NULL &&
-         !same_word(name, strlen(name), word, strlen(word)))
-    k++;
-  memset(kind, 0, sizeof *kind);
-  carom_condition_give((carom_condition)k, kind);
-  return word;
+  for (int k = 0; (word = carom_word(CAROM_WORDS_CONDITION, k)) != NULL; k++)
+    if (same_word(name, strlen(name), word, strlen(word)))
+      return k;
+  return -1;
 }
 
-/* Gives the numbers of a condition; false after a complaint: an impact has no rolling ball. */
-static bool give_condition(const option_row *row, const char *word, const carom_ball_kind *kind,
-                           given_numbers *numbers) {
-  const carom_number *n;
-  numbers->condition = word;
-  if (row->only == CUSHION_ONLY && kind->restitution_cushion == 0.0) {
+/* Gives the numbers of a condition, or makes a list of those of one thing, the cloth or the
+ * cushions; false after a complaint: an impact has no rolling ball. */
+static bool give_condition(const option_row *row, int condition, given_numbers *numbers) {
+  const char *word = numbers->condition = carom_word(CAROM_WORDS_CONDITION, condition);
+  const unsigned before = numbers->conditions;
+  carom_ball_kind kind = {0};
+  carom_condition_give((carom_condition)condition, &kind);
+  const int first = first_given(&kind);
+  if (row->only == CUSHION_ONLY && kind.restitution_cushion == 0.0) {
     complain("--%s: %s has no effect on one impact; `carom shoot --with` takes it", row->name,
              word);
     return false;
   }
-  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
-    double x;
-    memcpy(&x, (const char *)kind + n->offset, sizeof x);
-    if (x == 0.0)
-      continue;
-    if ((numbers->by_condition >> k & 1) != 0) {
-      complain("--%s: %s and a condition before it both set %s: give one of them", row->name, word,
-               n->name);
-      return false;
-    }
-    numbers->by_condition |= UINT64_C(1) << k;
-    give_value(numbers, CAROM_PART_BALL, k, x);
+  numbers->conditions |= 1U << condition;
+  for (int k = 0; carom_word(CAROM_WORDS_CONDITION, k) != NULL; k++) {
+    carom_ball_kind other = {0};
+    carom_condition_give((carom_condition)k, &other);
+    if ((before >> k & 1) != 0 && first_given(&other) == first)
+      return add_to_list(row, numbers, CAROM_PART_NONE, first, k, condition);
   }
+  give_numbers_of(&kind, numbers);
   return true;
 }
 
@@ -452,16 +482,35 @@ static bool has_own_cushion(const option_row *row, const given_numbers *numbers)
   return !shared->of_game;
 }
 
+/* Whether each condition of a list gives a number, which has no other value then. */
+static bool is_listed(const given_numbers *numbers, const named_number *named) {
+  bool listed = false;
+  for (int k = 0; k < numbers->lists && named->part == CAROM_PART_BALL; k++) {
+    given_numbers given = {0};
+    if (numbers->list[k].part == CAROM_PART_NONE)
+      give_of_list(&numbers->list[k], 0, &given);
+    listed |= (given.of_balls >> named->index & 1) != 0;
+  }
+  return listed;
+}
+
 /* Gives a number its value, or its values; where it has one already, as further ones. */
 static bool give_values(const option_row *row, const named_number *named, char *text,
                         bool is_further, given_numbers *numbers) {
   static values list;
   if (!read_numbers(row, named->number, text, &list))
     return false;
+  if (is_listed(numbers, named)) {
+    complain("--%s: %s is given by several conditions: leave it out, or them", row->name,
+             named->number->name);
+    return false;
+  }
   if (!is_further)
     give_value(numbers, named->part, named->index, list.item[0].x);
+  double first;
+  memcpy(&first, given_at(numbers, named->part, named->index), sizeof first);
   for (int k = is_further ? 0 : 1; k < list.count; k++)
-    if (!add_to_list(row, numbers, named->part, named->index, list.item[k].x))
+    if (!add_to_list(row, numbers, named->part, named->index, first, list.item[k].x))
       return false;
   return true;
 }
@@ -476,13 +525,12 @@ static bool give_part(const option_row *row, char *part, named_number *last,
   if (text == NULL && last->number != NULL && strchr("+-.0123456789", *part) != NULL)
     return give_values(row, last, part, true, numbers);
 
-  carom_ball_kind changed;
-  const char *condition = NULL;
+  int condition = -1;
   if (text == NULL && !has_own_cushion(row, numbers))
-    condition = condition_named(part, &changed);
-  if (condition != NULL) {
+    condition = condition_named(part);
+  if (condition >= 0) {
     last->number = NULL;
-    return give_condition(row, condition, &changed, numbers);
+    return give_condition(row, condition, numbers);
   }
 
   if (text != NULL)
@@ -661,11 +709,12 @@ static OPTION_SET(set_player) {
   player->rated = true;
   if (end != NULL && same_text(end, ".json"))
     return take_filmed(row, text, player);
-  if (!set_number(row, text, &player->rating))
-    return false;
-  const bool good = player->rating >= 200.0 && player->rating <= 850.0;
+  const bool good =
+      parse_number(text, &player->rating) && player->rating >= 200.0 && player->rating <= 850.0;
   if (!good)
-    complain("--%s: it must be 200 to 850, not %g", row->name, player->rating);
+    complain("--%s is a Fargo rating, 200 to 850, or FIT.json, not '%s'%s", row->name, text,
+             text_or(one_hint(text), "; a 200 is a beginner, a 500 plays in a league, a 700 is a "
+                                     "strong amateur"));
   return good;
 }
 
@@ -765,4 +814,6 @@ ROW(option_with_of_shots, "with", with, "NAME=X,...", set_numbers, 0, ANY_KIND,
     "numbers of all balls, their cushions and the cue, instead of those of IN, such as "
     "mu_slide=0.15,mass=6oz,end_mass=0.01: `carom models` lists them. M is the cue's mass. Several "
     "values, end_mass=0.003,0.007, give several shots of `carom shoot` by options. Or the file "
-    "of a fit, FIT.json; or conditions of a pool table, such as fast_cloth,old_cushion");
+    "of a fit, FIT.json; or conditions of a pool table, such as fast_cloth,old_cushion; "
+    "slow_cloth,fast_cloth "
+    "are two shots");

@@ -173,26 +173,6 @@ static void list_units(int measure, char *text, size_t room) {
     }
 }
 
-static bool refuse(const option_row *row, const char *text) {
-  char list[MOST_TEXT] = "", known[MOST_TEXT] = "", hint[HINT_TEXT];
-  const char *word = text + strspn(text, "+-.0123456789");
-  list_units(row->least, list, sizeof list);
-  for (int k = 0; k < WORDS; k++)
-    if ((words[k].measures & OF(row->least)) != 0)
-      append(known, sizeof known, "|", "%s", words[k].name);
-  for (int k = 0; k < UNITS; k++)
-    if ((units[k].measures & OF(row->least)) != 0)
-      append(known, sizeof known, "|", "%s", units[k].name);
-  complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'%s", row->name,
-           list, text, did_you_mean(word, known, hint));
-  return false;
-}
-
-bool too_many(const option_row *row, double count, int most) {
-  complain("--%s: these are %.0f values; at most %d", row->name, count, most);
-  return false;
-}
-
 /* A word, of parts of a ball also as half-ball. */
 static bool set_word(const char *text, int measure, value *v) {
   const char *end = strstr(text, "-ball");
@@ -206,6 +186,35 @@ static bool set_word(const char *text, int measure, value *v) {
       snprintf(v->name, sizeof v->name, "%s", text);
       return true;
     }
+  return false;
+}
+
+/* Where the word of one spin is given for the other one. */
+static const char *other_spin(int measure, const char *text) {
+  value v;
+  if (measure == MEASURE_SPIN)
+    return text_if(set_word(text, MEASURE_SIDE, &v) || set_word(text, MEASURE_SIDE_RAIL, &v),
+                   "; --side has it");
+  return text_if((OF(measure) & SIDES) != 0 && set_word(text, MEASURE_SPIN, &v), "; --spin has it");
+}
+
+static bool refuse(const option_row *row, const char *text) {
+  char list[MOST_TEXT] = "", known[MOST_TEXT] = "", hint[HINT_TEXT];
+  const char *word = text + strspn(text, "+-.0123456789");
+  list_units(row->least, list, sizeof list);
+  for (int k = 0; k < WORDS; k++)
+    if ((words[k].measures & OF(row->least)) != 0)
+      append(known, sizeof known, "|", "%s", words[k].name);
+  for (int k = 0; k < UNITS; k++)
+    if ((units[k].measures & OF(row->least)) != 0)
+      append(known, sizeof known, "|", "%s", units[k].name);
+  complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'%s", row->name,
+           list, text, text_or(other_spin(row->least, text), did_you_mean(word, known, hint)));
+  return false;
+}
+
+bool too_many(const option_row *row, double count, int most) {
+  complain("--%s: these are %.0f values; at most %d", row->name, count, most);
   return false;
 }
 

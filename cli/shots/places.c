@@ -305,9 +305,7 @@ static int rack_named(const option_row *row, const char *text) {
 OPTION_SET(set_places) {
   place_list *list = field;
   char copy[MOST_TEXT], *rest;
-  *list = (place_list){.rack = rack_named(row, text)};
-  if (list->rack > 0)
-    return true;
+  *list = (place_list){.count = 0};
   if (strlen(text) >= sizeof copy)
     return refuse(row, text);
   if (row->least == MEASURE_TIP)
@@ -321,13 +319,15 @@ OPTION_SET(set_places) {
   char *next = strtok_r(copy, ":", &rest);
   for (; next != NULL; next = strtok_r(NULL, ":", &rest)) {
     place_entry entry;
+    if (list->rack == 0 && (list->rack = rack_named(row, next)) > 0)
+      continue;
     if (list->count == MOST_PLACES)
       return too_many(row, entries, MOST_PLACES);
     split_entry(row, next, &entry);
     if (!add_entry(row, &entry, text, list))
       return false;
   }
-  return list->count > 0 || refuse(row, text);
+  return list->rack > 0 || list->count > 0 || refuse(row, text);
 }
 
 double place_along(const value *v, double diamond) {

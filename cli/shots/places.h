@@ -17,16 +17,16 @@ typedef struct given_place {
 
 typedef struct place_list {
   int count;
-  int rack; /* 1 + the carom_rack_kind that stood there instead; or 0 */
+  int rack; /* 1 + the carom_rack_kind that stood there, whose balls have these places; or 0 */
   given_place place[MOST_PLACES];
 } place_list;
 
 /* 1 + the carom_rack_kind with which a game is played, by the name of its rules; else 0. */
 int rack_of_game(const char *text);
 
-/* For a place_list: X,Y:X,Y:..., each perhaps behind NAME=, where balls are named, or the name of a
- * rack or of a game, by row->words. Of a ball on a spot of snooker that is its name. RAIL,X in place
- * of X,Y touches a rail, frozen-BALL,X a ball. */
+/* For a place_list: X,Y:X,Y:..., each perhaps behind NAME=, where balls are named, also beside the
+ * name of a rack or of a game, by row->words. Of a ball on a spot of snooker that is its name.
+ * RAIL,X in place of X,Y touches a rail, frozen-BALL,X a ball. */
 OPTION_SET(set_places);
 
 /* Places that have a name, as help and complaints list them. */

@@ -63,7 +63,8 @@ const option_row option_balls = {
     .argument = "X,Y:...",
     .help = "places of the other balls, as in --cue, with colons between them: 0.6,1.5:foot-spot. "
             "Their names are 1, 2, ..., those of their spots of snooker, or given, as in "
-            "8=0.6,1.5. A word is a rack, or a game that has one",
+            "8=0.6,1.5. A word is a rack, or a game that has one; straight:1=3d,5.5d is a break "
+            "ball beside it",
     .set = set_places,
     .field = offsetof(shoot_flags, balls),
     .least = MEASURE_PLACE,
@@ -346,15 +347,42 @@ static void choose_balls(layout *l, carom_shot_cushion cushion, const chosen_num
   }
 }
 
+/* The ball of a rack that has a place beside it, or the cue ball after a complaint. With `opens`
+ * the ball in front takes its place in the rack. */
+static int take_from_rack(layout *l, const char *name, bool opens) {
+  char names[NAMES_TEXT];
+  const int ball = ball_named(l, name, strlen(name), names);
+  if (ball < 0) {
+    complain("--balls: %s is no ball of this rack: %s", name, names_there(names));
+    return 0;
+  }
+  int front = ball;
+  for (int k = 1; k < l->count && opens; k++)
+    if (l->ball[k].state.r[1] < l->ball[front].state.r[1])
+      front = k;
+  l->ball[front].state = l->ball[ball].state;
+  return ball;
+}
+
 /* Puts the balls that have a place there, by their names; false after a complaint. */
 static bool lay_balls(const shoot_flags *f, layout *l) {
-  for (int k = 1; k < l->count; k++) {
+  char name[PLACE_NAME];
+  for (int k = 1; k <= f->balls.count; k++) {
     const given_place *request = &f->balls.place[k - 1];
+    int ball = k, laid = k;
     if (request->name[0] != '\0')
-      snprintf(l->name[k], PLACE_NAME, "%s", request->name);
+      snprintf(name, PLACE_NAME, "%s", request->name);
     else
-      snprintf(l->name[k], PLACE_NAME, "%d", k);
-    if (!lay(l, k, request, k))
+      snprintf(name, PLACE_NAME, "%d", k);
+    if (f->balls.rack > 0) {
+      /* the break ball of straight pool, whose rack is that of eight-ball */
+      const bool breaks = k == 1 && f->balls.rack == 1 + (int)CAROM_RACK_EIGHTBALL;
+      ball = take_from_rack(l, name, breaks);
+      laid = l->count;
+    }
+    if (f->balls.rack == 0)
+      memcpy(l->name[ball], name, PLACE_NAME);
+    if (ball == 0 || !lay(l, ball, request, laid))
       return false;
   }
   return true;
@@ -377,7 +405,7 @@ static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion,
   const bool last = cue != NULL && cue->touches[0] != '\0' && rail_of(cue->touches) < 0;
   if (cue != NULL && !last && !lay(l, 0, cue, 0))
     return false;
-  if (f->balls.rack == 0 && !lay_balls(f, l))
+  if (!lay_balls(f, l))
     return false;
   return !last || lay(l, 0, cue, l->count);
 }
@@ -550,11 +578,12 @@ static void name_shot(const shoot_flags *f, const combination *c, char id[MOST_T
              f->target.place[c->way].x.name, f->target.place[c->way].y.name);
   name_value(id, "elevation", &f->elevation, c->rise);
   const number_list *list;
-  for (int k = 0; (list = number_list_at(f, k)) != NULL; k++)
-    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%s%s%s %.6g", text_if(id[0] != '\0', ", "),
-             text_if(k >= f->shared.with.lists && list->part == CAROM_PART_BALL, "cue ball "),
-             carom_number_of((carom_part_kind)list->part, list->number)->name,
-             list->value[c->number[k]]);
+  for (int k = 0; (list = number_list_at(f, k)) != NULL; k++) {
+    char name[NUMBER_NAME];
+    name_of_list(list, c->number[k], name);
+    append(id, MOST_TEXT, ", ", "%s%s",
+           text_if(k >= f->shared.with.lists && list->part == CAROM_PART_BALL, "cue ball "), name);
+  }
   name_value(id, "speed", c->speeds, c->speed);
   if (f->tip.count > 1)
     snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%stip %s,%s", text_if(id[0] != '\0', ", "),
@@ -843,7 +872,7 @@ static const char *stroke_fault(shot_read outcome, const shot_line *shot, const 
     return text;
   }
   if (strokes > 0 && !same_balls(shot, first))
-    return "the balls must be those of the first shot";
+    return "the balls must be those of the first shot; `carom shoot` plays layouts that differ";
   return NULL;
 }
 

@@ -1,4 +1,4 @@
-# questions: thirty-eight that players ask, as they type them first, and the lines that answer.
+# questions: fifty that players ask, as they type them first, and the lines that answer.
 ask() {
   number=$1 lines=$2
   shift 2
@@ -43,3 +43,17 @@ ask 35 'white .*table|meets red' shoot --table 10ft --cue white=0.6,0.8 --balls 
 ask 36 '^1' plan --rules straightrail --cue 0.6,0.8 --balls 0.8,1.9:0.4,1 --shots 300
 ask 37 'a cut' shoot --cue 0.6,0.8 --balls 0.8,1.9:0.72,1.6 --at-ball 1 --cut -70,0,60 --speed 2
 ask 38 'not on the table' shoot --cue 0.6,0.8 --balls 0.8,3.9 --at-ball 1 --speed 2
+ask 39 'meets 1|rests' shoot --cue 2d,2d --balls 1=frozen-cue,90,1m --at-ball 1 --tip draw --speed 3
+ask 40 ^ shoot --cue 2d,1d --speed 3 --cloth slow,fast --cushions old,new
+ask 41 '^[0-9]' shoot --cue 2d,1d --with M=18oz,21oz
+ask 42 '^[1-3]|wins' plan --rules straight --balls straight:1=3d,5.5d --cue 1.5d,4.5d --shots 300 --player 600
+ask 43 opening break --rules straight-pool
+ask 44 in-hand shoot --cue kitchen
+ask 45 leave shoot --speed lag
+ask 45 '^leave' shoot --cue 1d,2d --leave 1d,0.2d
+ask 46 , hit --cut 45 --side outside,inside,none --quantity throw
+ask 47 '[-]-side' rail --spin left
+ask 48 beginner ways --player beginner --balls 1=2d,4d
+ask 49 '^r|^f' calibrate --banks 4.8,5.8,5.6
+ask 50 elevation shoot --balls 1=2d,2d --jump
+ask 50 'passes|flies|lands' shoot --cue 2d,1d --balls 1=2d,2d --elevation 40 --speed 4
