@@ -53,7 +53,7 @@ export function shotAcross(
 ): Shot {
   const isTall = frame.width < frame.height;
   const end = Math.sin(phi / DEGREES) >= 0 ? -1 : 1;
-  const [angle, slope] = isTall ? [40, 1.2] : [34, 0.5];
+  const [angle, slope] = isTall ? [40, 1.5] : [34, 0.5];
   const half = Math.tan(angle / 2 / DEGREES);
   const extent = length / 2 + WOOD;
   // The eye goes back, and up, until the far end is seen and the near one, which is the wider one.
@@ -187,11 +187,12 @@ export class Scene {
     }
     if (Math.abs(seen) > 1.2) seen = 0;
     const gaze = direction + clamp(seen / 2, -0.65 * aside, 0.65 * aside);
-    // The far wood is near the upper edge, and the cue ball not above the middle by much.
+    // Above the far wood one sees the lamps of the room, and the cue ball is not above the middle by
+    // much.
     const far = back + this.#wayToWood(place, along, 1);
     const down =
       Math.min(
-        0.7 * half + Math.atan2(height, far) * DEGREES,
+        0.55 * half + Math.atan2(height, far) * DEGREES,
         Math.atan2(height, back) * DEGREES - 0.1 * half,
       ) / DEGREES;
     const target = new THREE.Vector3(
