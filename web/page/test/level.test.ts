@@ -104,6 +104,15 @@ describePages("by level", () => {
     expect(await page.locator("#end").innerText()).toMatch(
       /You have won\s+The 9 fell\.[^]*Your best stroke: ball 9 into the head-left pocket; its aim had a room of \d+\.\d\d°\.\s+Your first rating is 487\.\s+Won at the level 500: 1 of 3\./,
     );
+    // The other balls roll out, unless motion is to be reduced.
+    const rolling = () =>
+      page
+        .locator("#end .out svg")
+        .evaluateAll((balls) => balls.map((ball) => getComputedStyle(ball).animationName));
+    expect(await rolling()).toEqual(Array(9).fill("roll-out"));
+    await page.emulateMedia({ reducedMotion: "reduce" });
+    expect(await rolling()).toEqual(Array(9).fill("none"));
+    await page.emulateMedia({ reducedMotion: null });
     expect(await violations(page)).toEqual([]);
     expect(await ladder(page)).toBe('{"nineball/500":[1,0]}');
     await act(page, "#play-again");

@@ -201,6 +201,27 @@ describePages("a game", () => {
     expect(await isRead()).toBe(true);
   });
 
+  test("of long words two lines lie over the table, and all of them where they are touched", async () => {
+    const page = await open("", PHONE);
+    const said = page.locator("#said");
+    const lines = () =>
+      said.evaluate((element) => {
+        const { height } = element.getBoundingClientRect();
+        return Math.round(height / parseFloat(getComputedStyle(element).lineHeight));
+      });
+    const say = (text: string) =>
+      said.evaluate((element, words) => void (element.textContent = words), text);
+    await say("A word. ".repeat(60));
+    await expect.poll(lines).toBe(2);
+    await said.click();
+    expect(await lines()).toBeGreaterThan(5);
+    // Short words leave a touch to the table below them.
+    await say("A word.");
+    await expect
+      .poll(() => said.evaluate((words) => getComputedStyle(words).pointerEvents))
+      .toBe("none");
+  });
+
   test.each(sizes)("no button moves while words change: %s", async (_, how) => {
     const page = await resume(gameOf("nineball", "300"), how);
     // All at one moment.

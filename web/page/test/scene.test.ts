@@ -1,11 +1,13 @@
 // The scene: what a picture of it costs, and what is seen of ways and of balls that fall.
+import * as THREE from "three";
 import { expect, test } from "vitest";
 import { drawBall } from "../../player/ball.js";
 import { trailsOf } from "../../player/film.js";
-import { viewOf } from "../../player/table.js";
+import { viewOf, WOOD } from "../../player/table.js";
 import { carom } from "../../test/builds.js";
+import { shotAcross } from "../src/play/scene.js";
 import { filmOf, pathsOf } from "../src/table/filmed.js";
-import { act, describePages, pages, PHONE } from "./page.js";
+import { act, describePages, pages, PHONE, says } from "./page.js";
 
 /** A ball that is played straight into the foot-right pocket. */
 function potted() {
@@ -68,6 +70,29 @@ test("the way of a ball that falls ends in its pocket", () => {
   expect(Math.min(...far)).toBeLessThan(1);
 });
 
+test.each([
+  ["a phone that stands", 339, 560],
+  ["a phone that lies", 650, 340],
+  ["a desk", 1203, 660],
+])("a film shows all of the table between the controls of %s", (_, width, height) => {
+  for (const name of ["9ft", "snooker"] as const)
+    for (const phi of [80, 260]) {
+      const table = carom.table(name);
+      const { eye, target, angle } = shotAcross(table, phi, { width, height });
+      const camera = new THREE.PerspectiveCamera(angle, width / height);
+      camera.up.set(0, 0, 1);
+      camera.position.copy(eye);
+      camera.lookAt(target);
+      camera.updateMatrixWorld();
+      const seen = [-WOOD, table.width + WOOD].flatMap((x) =>
+        [-WOOD, table.length + WOOD].map((y) => new THREE.Vector3(x, y, 0).project(camera)),
+      );
+      const far = seen.flatMap(({ x, y }) => [Math.abs(x), Math.abs(y)]);
+      expect(Math.max(...far)).toBeLessThanOrEqual(1);
+      expect(Math.max(...far)).toBeGreaterThan(0.97);
+    }
+});
+
 describePages("in a browser", () => {
   const { open, turnTo, frames } = pages();
 
@@ -116,5 +141,15 @@ describePages("in a browser", () => {
     const behind = await cost(100);
     expect(behind).toBeGreaterThan(5);
     expect(behind).toBeLessThanOrEqual(25);
+  });
+
+  test("a game with fewer balls begins while a film of the one before is shown", async () => {
+    const page = await open("", PHONE, { game: "eightball", against: "person", own: "0", seed: 7 });
+    await act(page, "#shoot");
+    await page.locator("#skip").waitFor();
+    await frames(page, 4);
+    await act(page, "#new-game", "#new-against=person", "#new-which=fourball", "#start");
+    await says(page, "turn", /^Player 1/);
+    expect(await page.locator("#table-scene").getAttribute("aria-label")).toContain("Four-ball");
   });
 });

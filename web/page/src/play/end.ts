@@ -35,11 +35,18 @@ function bestOf(play: Play, player: number): string {
   return texts.aPotWithRoom(wordsOfPot(play.table, play.names, best), best.room.toFixed(2));
 }
 
-/** The ball that the game ended with, as an emblem. */
+/** The ball that the game ended with, as an emblem, from behind which the others roll out. */
 function emblem({ last, names, balls, winner }: Play): HTMLElement {
   const fallen = last?.shot?.events.filter(({ type }) => type === "ball_pocket") ?? [];
   const ball = winner === last?.player ? (fallen.at(-1)?.a ?? last?.cue.ball ?? 0) : 0;
-  return el("div.emblem", ballPicture(names[ball]!, ball, balls[ball]!.kind.radius));
+  const pictures = balls.map(({ kind }, k) => ballPicture(names[k]!, k, kind.radius));
+  const [ended] = pictures.splice(ball, 1);
+  pictures.forEach((picture, k) => {
+    picture.classList.add("out");
+    picture.style.setProperty("--side", k % 2 === 0 ? "-1" : "1");
+    picture.style.setProperty("--place", String(k));
+  });
+  return el("div.emblem", ...pictures, ended);
 }
 
 /** What a game against the computer did to one's rating, and to one's level. */

@@ -25,6 +25,10 @@ export function start(s: Session, play: Play, id: string, seat: 0 | 1 = 0): void
   drop("plan");
   s.end.hide();
   s.end.rated = undefined;
+  // What is drawn of the film before is of the game before.
+  s.space.putAway();
+  s.film.stop();
+  s.film.look(1);
   const turned = play.balls.map(() => [1, 0, 0, 0] as const);
   Object.assign(s, {
     searchGeneration: s.searchGeneration + 1,
@@ -43,8 +47,6 @@ export function start(s: Session, play: Play, id: string, seat: 0 | 1 = 0): void
     hint: undefined,
     asksPlace: false,
   });
-  s.film.stop();
-  s.film.look(1);
 }
 /** What a game says as it begins. */
 function wordsOfStart({ setup, practice }: Play, training: Session["training"]): string {

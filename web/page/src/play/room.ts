@@ -41,7 +41,7 @@ export function roomOf({ width, length }: Table): THREE.Object3D[] {
   ground.position.set(width / 2, length / 2, FLOOR);
   const around = new THREE.Mesh(
     new THREE.CylinderGeometry(WALL, WALL, 3.2, 48, 1, true).rotateX(Math.PI / 2),
-    new THREE.MeshBasicMaterial({ map: wall(), side: THREE.BackSide }),
+    new THREE.MeshBasicMaterial({ map: wall(), side: THREE.BackSide, fog: false }),
   );
   around.position.set(width / 2, length / 2, FLOOR + 1.6);
   return [ground, around];
@@ -74,7 +74,8 @@ export function surroundings(renderer: THREE.WebGLRenderer, cloth: string): THRE
   panel([30, 30], [0, 0, -3], cloth, 0.2);
   for (let k = 0; k < 8; k++) {
     const turn = (k * Math.PI) / 4 + 0.3;
-    panel([2.2, 1.6], [8 * Math.cos(turn), 8 * Math.sin(turn), 1.6], "#ffb46a", 1.1);
+    // Nearly a band: small lights would be specks on small balls.
+    panel([5.6, 1.6], [8 * Math.cos(turn), 8 * Math.sin(turn), 1.6], "#ffb46a", 0.42);
   }
   panel([24, 24], [0, 0, 12], "#c9d6ff", 0.32);
   const generator = new THREE.PMREMGenerator(renderer);

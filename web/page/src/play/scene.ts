@@ -13,11 +13,22 @@ import { clamp, turned } from "./shapes.js";
 import { layStick, type Stick, stickMesh } from "./stick.js";
 import { styleOf } from "./surfaces.js";
 
-/** A camera: its place, what it looks at, and how much it sees, degrees from top to bottom. */
+/**
+ * A camera: its place, what it looks at, and how much it sees, degrees from top to bottom of its
+ * frame: the part of the picture that no control covers counts so much for that, 0 to 1.
+ */
 interface Shot {
   eye: THREE.Vector3;
   target: THREE.Vector3;
   angle: number;
+  framed: number;
+}
+/** Part of a picture, pixels from its corner. */
+export interface Frame {
+  left: number;
+  top: number;
+  width: number;
+  height: number;
 }
 const DEGREES = 180 / Math.PI;
 /** How high the camera of the view from above hangs: so high that its picture is nearly flat. */
@@ -34,6 +45,33 @@ const FINE = 0.0045;
 /** How many pictures are drawn before one is timed: the first ones make programs and shadows. */
 const WARM = 2;
 
+/** From high behind an end of the table, from where all of it is seen within a frame. */
+export function shotAcross(
+  { width, length }: Table,
+  phi: number,
+  frame: Pick<Frame, "width" | "height">,
+): Shot {
+  const isTall = frame.width < frame.height;
+  const end = Math.sin(phi / DEGREES) >= 0 ? -1 : 1;
+  const [angle, slope] = isTall ? [40, 1.5] : [34, 0.5];
+  const half = Math.tan(angle / 2 / DEGREES);
+  const extent = length / 2 + WOOD;
+  // The eye goes back, and up, until the far end is seen and the near one, which is the wider one.
+  for (let back = extent; ; back += 0.02) {
+    const height = slope * back;
+    const near = Math.atan2(height, back - extent);
+    const far = Math.atan2(height, back + extent);
+    const spread = (near - far) / 2;
+    const ahead = Math.hypot(height, back - extent) * Math.cos(spread);
+    const wide = (width / 2 + WOOD) / ahead / half;
+    if (Math.tan(spread) > half || wide > frame.width / frame.height) continue;
+    const y = length / 2 + end * back;
+    const gaze = height / Math.tan((near + far) / 2);
+    const eye = new THREE.Vector3(width / 2, y, height);
+    return { eye, target: new THREE.Vector3(width / 2, y - end * gaze, 0), angle, framed: 1 };
+  }
+}
+
 export class Scene {
   readonly canvas: HTMLCanvasElement;
   readonly #renderer: THREE.WebGLRenderer;
@@ -48,6 +86,7 @@ export class Scene {
   #shot: Shot | undefined;
   #goal: Shot | undefined;
   #isFlat = true;
+  #frame: Frame = { left: 0, top: 0, width: 1, height: 1 };
   #pixel = LINE;
 
   /** `isFine`: for a graphics processor, with smooth edges, shadows of the lamp, and threads. */
@@ -79,9 +118,10 @@ export class Scene {
     if (!isFine) this.coarsen();
   }
 
-  size(width: number, height: number): void {
+  /** `frame`: the part that no control covers. */
+  size(width: number, height: number, frame: Frame): void {
     this.#renderer.setSize(width, height);
-    this.#camera.aspect = width / height;
+    this.#frame = frame;
   }
 
   // ---- Cameras
@@ -128,7 +168,7 @@ export class Scene {
     height: number,
     pocket?: readonly number[],
   ): void {
-    const { aspect } = this.#camera;
+    const aspect = this.canvas.clientWidth / this.canvas.clientHeight;
     const isTall = aspect < 1;
     const angle = isTall ? 56 : 40;
     const half = angle / 2;
@@ -147,11 +187,12 @@ export class Scene {
     }
     if (Math.abs(seen) > 1.2) seen = 0;
     const gaze = direction + clamp(seen / 2, -0.65 * aside, 0.65 * aside);
-    // The far wood is near the upper edge, and the cue ball not above the middle by much.
+    // Above the far wood one sees the lamps of the room, and the cue ball is not above the middle by
+    // much.
     const far = back + this.#wayToWood(place, along, 1);
     const down =
       Math.min(
-        0.7 * half + Math.atan2(height, far) * DEGREES,
+        0.55 * half + Math.atan2(height, far) * DEGREES,
         Math.atan2(height, back) * DEGREES - 0.1 * half,
       ) / DEGREES;
     const target = new THREE.Vector3(
@@ -159,7 +200,7 @@ export class Scene {
       Math.sin(gaze) * Math.cos(down),
       -Math.sin(down),
     );
-    this.#aim({ eye, target: target.add(eye), angle });
+    this.#aim({ eye, target: target.add(eye), angle, framed: 0 });
   }
   /** How far the outer wood is off a place, along a direction or against it. */
   #wayToWood(place: readonly number[], along: readonly [number, number], sign: 1 | -1): number {
@@ -171,18 +212,9 @@ export class Scene {
     });
     return Math.min(...ways);
   }
-  /** As on television: from high behind the end of the table from which the stroke was played. */
+  /** As on television, from behind the end of the table from which the stroke was played. */
   lookAcross(phi: number): void {
-    const { width, length } = this.#table;
-    const isTall = this.#camera.aspect < 1;
-    const end = Math.sin(phi / DEGREES) >= 0 ? -1 : 1;
-    const back = (isTall ? 1.02 : 0.98) * length;
-    const height = (isTall ? 0.82 : 0.5) * length;
-    this.#aim({
-      eye: new THREE.Vector3(width / 2, length / 2 + end * back, height),
-      target: new THREE.Vector3(width / 2, length / 2 + 0.1 * end * length, 0),
-      angle: isTall ? 50 : 34,
-    });
+    this.#aim(shotAcross(this.#table, phi, this.#frame));
   }
   #aim(goal: Shot): void {
     this.#goal = goal;
@@ -190,7 +222,7 @@ export class Scene {
     Object.assign(this.#fog, { near: 3.2, far: 9 });
     this.#scene.environmentIntensity = 1;
     if (this.#isFlat || !this.#shot)
-      this.#shot = { eye: goal.eye.clone(), target: goal.target.clone(), angle: goal.angle };
+      this.#shot = { ...goal, eye: goal.eye.clone(), target: goal.target.clone() };
     this.#isFlat = false;
   }
   /** Moves the camera towards its goal for so many s, and returns whether it has come there. */
@@ -202,10 +234,24 @@ export class Scene {
     shot.eye.lerp(goal.eye, share);
     shot.target.lerp(goal.target, share);
     shot.angle += (goal.angle - shot.angle) * share;
+    shot.framed += (goal.framed - shot.framed) * share;
     if (shot.eye.distanceTo(goal.eye) + shot.target.distanceTo(goal.target) > 2e-3) return false;
     shot.eye.copy(goal.eye);
     shot.target.copy(goal.target);
     return true;
+  }
+
+  /** Lays the frame of a shot into the picture. */
+  #frameShot({ angle, framed }: Shot): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    const { left, top, width, height } = this.#frame;
+    const camera = this.#camera;
+    const wide = clientWidth + framed * (width - clientWidth);
+    const high = clientHeight + framed * (height - clientHeight);
+    camera.fov = angle;
+    camera.aspect = wide / high;
+    const corner = [-framed * left, -framed * top] as const;
+    camera.setViewOffset(wide, high, ...corner, clientWidth, clientHeight);
   }
 
   // ---- Pictures
@@ -217,8 +263,7 @@ export class Scene {
     if (stick) layStick(this.#stick, stick, this.#table);
     const camera = this.#camera;
     if (!this.#isFlat && this.#shot) {
-      camera.fov = this.#shot.angle;
-      camera.updateProjectionMatrix();
+      this.#frameShot(this.#shot);
       camera.position.copy(this.#shot.eye);
       camera.lookAt(this.#shot.target);
     }

@@ -296,8 +296,18 @@ export class Space implements SpaceView {
   #size(scene: Scene): void {
     const { clientWidth, clientHeight } = this.felt;
     const { canvas } = scene;
-    if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight)
-      scene.size(clientWidth, clientHeight);
+    if (canvas.clientWidth === clientWidth && canvas.clientHeight === clientHeight) return;
+    // The padding keeps free of controls what is between.
+    const style = getComputedStyle(this.felt);
+    const [top, right, bottom, left] = ["Top", "Right", "Bottom", "Left"].map((side) =>
+      parseFloat(style[`padding${side}` as "paddingTop"]),
+    ) as [number, number, number, number];
+    scene.size(clientWidth, clientHeight, {
+      left,
+      top,
+      width: clientWidth - left - right,
+      height: clientHeight - top - bottom,
+    });
   }
   #lines(): Line[] {
     return [...trailsOf(this.s.filmed!), ...linesOfAim(this.s)];

@@ -146,26 +146,41 @@ export function boards(): THREE.CanvasTexture {
   return textureOf(canvas);
 }
 
+/** Where lamps stand on the panels of a wall: as high as one sees along a cue. */
+const LAMPS = 182;
 /** A wall behind the dark: panels, and lamps that wash it. */
 export function wall(): THREE.CanvasTexture {
   const [canvas, g] = canvasOf(2048, 256);
   const up = g.createLinearGradient(0, 256, 0, 0);
-  up.addColorStop(0, "#1c130d");
-  up.addColorStop(0.3, "#2a1b12");
-  up.addColorStop(0.31, "#17120f");
-  up.addColorStop(1, "#0a0909");
+  up.addColorStop(0, "#0f0a07");
+  up.addColorStop(0.23, "#170f0a");
+  up.addColorStop(0.24, "#0d0a08");
+  up.addColorStop(1, "#060505");
   g.fillStyle = up;
   g.fillRect(0, 0, 2048, 256);
   g.globalCompositeOperation = "lighter";
-  for (let k = 0; k < 8; k++) {
-    const x = 128 + 256 * k;
-    const glow = g.createRadialGradient(x, 132, 0, x, 132, 124);
-    glow.addColorStop(0, "rgba(255,205,140,.95)");
-    glow.addColorStop(0.08, "rgba(240,160,90,.5)");
-    glow.addColorStop(0.4, "rgba(160,88,40,.22)");
+  // One is straight ahead of a player at either end.
+  for (let x = 0; x <= 2048; x += 256) {
+    const glow = g.createRadialGradient(x, LAMPS, 0, x, LAMPS, 104);
+    glow.addColorStop(0, "rgba(255,205,140,.6)");
+    glow.addColorStop(0.08, "rgba(240,160,90,.32)");
+    glow.addColorStop(0.4, "rgba(160,88,40,.13)");
     glow.addColorStop(1, "rgba(0,0,0,0)");
     g.fillStyle = glow;
     g.fillRect(x - 128, 0, 256, 256);
+    // The lamp itself: its shade, and the foot.
+    g.fillStyle = "#ffd896";
+    g.beginPath();
+    for (const [u, v] of [
+      [-4, -8],
+      [4, -8],
+      [8, 5],
+      [-8, 5],
+    ] as const)
+      g.lineTo(x + u, LAMPS + v);
+    g.fill();
+    g.fillStyle = "#6b4a2c";
+    g.fillRect(x - 1, LAMPS + 5, 2, 12);
   }
   return textureOf(canvas);
 }

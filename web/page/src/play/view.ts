@@ -221,9 +221,12 @@ function fadingWords({ words }: Session, clock: HTMLElement, felt: HTMLElement):
   let timer = 0;
   const fade = (): void => words.message.classList.add("read");
   const show = (): void => {
-    words.message.classList.remove("read");
+    const { message } = words;
+    message.classList.remove("read");
+    // Only words that are cut off need a touch; others leave it to the table below them.
+    message.classList.toggle("cut", message.scrollHeight > message.clientHeight + 1);
     window.clearTimeout(timer);
-    timer = window.setTimeout(fade, readingTime(words.message.textContent!));
+    timer = window.setTimeout(fade, readingTime(message.textContent!));
   };
   new MutationObserver(show).observe(words.message, { childList: true });
   const root = el("div.words", { tabindex: "0" }, words.turn, words.score, clock, words.message);
