@@ -26,8 +26,7 @@ import {
 const hideChrome = (page: Page, isHidden: boolean) =>
   page.evaluate((isHidden) => {
     const parts = document.querySelectorAll<HTMLElement>(".play > :not(.felt)");
-    for (const part of Array.from(parts))
-      part.style.visibility = isHidden ? "hidden" : "";
+    for (const part of Array.from(parts)) part.style.visibility = isHidden ? "hidden" : "";
   }, isHidden);
 
 describePages("beside the game", () => {
