@@ -62,9 +62,11 @@ export function shoot(s: Session): void {
 export function choose(s: Session, what: Choice): void {
   if (!free(s)) return says(s, why(s));
   s.searchGeneration++; // a search for a hint ends here
-  s.verdict = "";
   try {
-    finishTurn(s, s.play.choose(what));
+    const stroke = s.play.choose(what);
+    s.verdict = what === "pass" ? wordsOfStroke(s.play, stroke, s.seat) : "";
+    says(s, "");
+    finishTurn(s, stroke);
   } catch (error) {
     says(s, wrong(error));
   }
