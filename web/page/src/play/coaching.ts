@@ -35,6 +35,7 @@ import {
   wantedOf,
   why,
   wordsOfLevel,
+  wordsOfOutcome,
 } from "./session.js";
 import { runOutSketches, safetySketches } from "./sketches.js";
 import { texts } from "../texts/texts.js";
@@ -375,10 +376,13 @@ async function reviewOf(
     return undefined;
   }
 }
-function wordsOfReview({ value, came }: Review): string {
-  const cost = value - came;
+/** What a stroke was worth to a player with the errors of its own, what came, and what it cost. */
+async function wordsOfCost(request: Request, cue: Cue, review: Review): Promise<string> {
+  // A review knows the worth of a stroke at a pocket alone.
+  const { value } = review.ball >= 0 ? review : await chancesOf(request, cue);
+  const cost = value - review.came;
   const words = cost < 0 ? texts.itWon(percent(-cost)) : texts.itCost(percent(cost));
-  return ` ${texts.whatCame(percent(value), percent(came), words)}`;
+  return texts.whatCame(percent(value), percent(review.came), Math.abs(cost) < 0.005 ? "" : words);
 }
 
 export const coaching = (s: Session): Coach => ({
@@ -393,20 +397,22 @@ export const coaching = (s: Session): Coach => ({
   review() {
     const request = requestOf(s.play, levelOf(s));
     return async (cue, call, aimer, isTold) => {
-      const { setup } = s.play;
-      const reviewed = reviewOf(request, cue, call).then((review) => {
-        // The coach's page sums up what the player aimed.
-        if (review && aimer === "player") countReview(review, setup, request.balls);
-        return review ? wordsOfReview(review) : "";
-      });
-      if (!isTold) return;
       s.chancesGeneration++; // chances of this stroke that come later do not hide its review
       const { play } = s;
-      const advice = await lookBack(s.carom, request, cue, call, aimer);
-      const verdict = advice + (await reviewed);
-      if (play !== s.play) return; // another game is on the table
-      s.verdict = verdict;
-      says(s, verdict);
+      const ownStrokes = (): number => play.aims.filter((other) => other !== "opponent").length;
+      const strokes = ownStrokes();
+      const review = await reviewOf(request, cue, call);
+      // The coach's page sums up what the player aimed.
+      if (review && aimer === "player") countReview(review, play.setup, request.balls);
+      // The look back knows the cost in games that have no reviews.
+      const isCompared = isTold || !review;
+      const advice = isCompared ? await lookBack(s.carom, request, cue, call, aimer) : "";
+      const cost = review ? await wordsOfCost(request, cue, review) : "";
+      if (play !== s.play || strokes !== ownStrokes()) return; // another stroke was played
+      // What is said since then stays: a hint, or what the page's player does.
+      const isSaid = s.words.message.textContent === wordsOfOutcome(s);
+      s.verdict = `${s.verdict} ${`${advice} ${cost}`.trim()}`;
+      if (isSaid) says(s, wordsOfOutcome(s));
     };
   },
 });

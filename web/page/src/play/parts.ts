@@ -207,7 +207,7 @@ export interface Progress {
   seat: 0 | 1;
   chosen: Chosen;
   special: "push" | "pass" | undefined;
-  /** What the coach said of the last stroke; "" where nothing. */
+  /** What came of the last own stroke, and what it cost; "" where nothing is said. */
   verdict: string;
   /** The stroke of the last hint that was asked for at this stroke. */
   hint: Cue | undefined;

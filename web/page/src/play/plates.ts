@@ -7,7 +7,7 @@ import { isComputer, type Play } from "./game.js";
 import { racksOf } from "./keep.js";
 import { ballPicture } from "./marks.js";
 import type { Plates, Session } from "./parts.js";
-import { groupOf, isEight, nameOf, onOf } from "./state.js";
+import { groupOf, isEight, nameOf, wordsOfTarget } from "./state.js";
 import { texts, translate } from "../texts/texts.js";
 
 /** A row of balls, drawn anew only where they are others than before. */
@@ -90,12 +90,13 @@ export function plates(s: Session): Plates {
       };
     return visit.isWhole ? points[turn]! - visit.points : 0;
   }
-  /** What a player of snooker needs to know: the balls on, and the break. */
+  /** What to meet first, where the rules name it, and the break. */
   function wordsOfVisit(play: Play): string {
     if (play.practice || play.isOver) return "";
     const made = play.played?.points ? breakOf(play) : 0;
-    const target = play.setup.game === "snooker" ? texts.ballOn(onOf(play)) : "";
-    return [target, made > 0 ? texts.breakOf(made) : ""].filter((part) => part !== "").join(" · ");
+    return [wordsOfTarget(play), made > 0 ? texts.breakOf(made) : ""]
+      .filter((part) => part !== "")
+      .join(" · ");
   }
   function showSeat(place: 0 | 1, player: number, atTable: number): void {
     const { play, seat } = s;

@@ -5,9 +5,10 @@ import type { Call, Carom, Cue, PlanOptions, Player } from "carom";
 import { onTable } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { cueWith, strokeOf } from "../table/stroke.js";
-import { type Aimer, OPTIONS, type Play } from "./game.js";
+import { type Aimer, isComputer, OPTIONS, type Play } from "./game.js";
 import { guessOf, lookAlong } from "./look.js";
 import type { Chosen, Lines, Progress, Session } from "./parts.js";
+import { wordsOfStroke } from "./state.js";
 import { texts } from "../texts/texts.js";
 
 export const NONE: Chosen = { ball: -1, pocket: -1, hitBall: -1 };
@@ -57,6 +58,13 @@ export function stateOf(s: Session): "aiming" | "thinking" | "film" | "waiting" 
 export const free = (s: Session): boolean => stateOf(s) === "aiming";
 export const says = (s: Pick<Session, "words">, text: string): void =>
   void (s.words.message.textContent = text);
+
+/** What came of the last own stroke, and of the one that the page's player has played since. */
+export function wordsOfOutcome({ play, seat, verdict }: Session): string {
+  const { last, setup } = play;
+  const isTheirs = last?.aimer === "opponent" && isComputer(setup.against);
+  return `${verdict} ${isTheirs ? wordsOfStroke(play, last, seat) : ""}`.trim();
+}
 
 /** The stroke that the controls set. */
 export function cueOf({ carom, play, stroke }: Pick<Session, "carom" | "play" | "stroke">): Cue {

@@ -1,4 +1,5 @@
 // How a game stands, in words: whose turn it is, on which balls, and the score.
+import type { Ruling } from "carom";
 import { onTable } from "../table/filmed.js";
 import { ballOf } from "../table/words.js";
 import type { Play, Stroke } from "./game.js";
@@ -44,6 +45,12 @@ function wordsOfEight({ state, ruling, balls, shot, call }: Stroke): string {
   const isCalled = typeof call === "object" && call.ball === 8;
   return isCalled ? texts.the8FellInto : texts.the8WasNot;
 }
+/** The score that ended a game of points; whoever wins with less of it wins by fouls of the other. */
+function wordsOfFinalScore({ points, winner }: Play, { foul, why }: Ruling): string {
+  const isBehind = winner !== undefined && points[winner]! < Math.max(...points);
+  if (isBehind && foul) return texts.theThirdFoulIn(translate(why));
+  return texts.theScoreIs(points.join(" : ").replaceAll("-", "−"));
+}
 /** Why the game has ended, as far as the stroke tells more than the score. */
 export function wordsOfEnd(play: Play): string {
   const { last, setup, played, winner } = play;
@@ -54,8 +61,7 @@ export function wordsOfEnd(play: Play): string {
   const deciding = isEight(play) ? 8 : { nineball: 9, tenball: 10 }[setup.game];
   if (deciding === undefined) {
     if (play.isOwn) return texts.nobodyElseHas(setup.game === "killer");
-    const score = play.points.join(" : ").replaceAll("-", "−");
-    return played?.points ? texts.theScoreIs(score) : "";
+    return played?.points ? wordsOfFinalScore(play, last.ruling) : "";
   }
   if (!hasLost) return fell(last, deciding) ? texts.theFell(deciding) : "";
   const isEightGone = fell(last, 8) || last.shot?.final[8]?.label === "off";
@@ -74,6 +80,15 @@ export function onOf(play: Play): string {
   if (targets.length === 0) return "nothing";
   if (targets.every((ball) => ball < 16)) return texts.aRed;
   return targets.length === 1 ? translate(play.names[targets[0]!]!) : texts.aColour;
+}
+
+/** What is to be met first, where the rules let meet nothing else. */
+export function wordsOfTarget(play: Play): string {
+  if (play.setup.game === "snooker") return texts.ballOn(onOf(play));
+  const [target, ...others] = play.hasPockets ? play.carom.ballsOn(play.state, play.balls) : [];
+  return target !== undefined && others.length === 0
+    ? texts.firstBall(translate(play.names[target]!))
+    : "";
 }
 
 /** Whether whoever is at the table has the equalizing inning. */
@@ -136,7 +151,7 @@ export function wordsOfTurn(play: Play, seat: number, thinks: boolean, short = f
   return `${prefix}${wordsOfTable(play, name)}${aim}.${wordsOfHand(play)}${struck}`;
 }
 
-/** What fell in a stroke. */
+/** What came of a stroke: what fell, and the points where they are not those balls. */
 export function wordsOfStroke(play: Play, stroke: Stroke, seat: number): string {
   const { player, shot, cue, ruling, isLate } = stroke;
   const name = nameOf(play, player, seat);
@@ -147,7 +162,12 @@ export function wordsOfStroke(play: Play, stroke: Stroke, seat: number): string 
       ? texts.theBallNamed(translate(play.names[a]!))
       : [],
   );
-  return texts.whoPocketed(name, fallen.length > 0 ? fallen.join(texts.andWord) : texts.noBall);
+  const { foul = true, points = 0 } = ruling ?? {};
+  const hasScored = play.played?.points && points !== fallen.length;
+  const scored = !foul && (hasScored || !play.hasPockets) ? texts.whoScored(name, points) : "";
+  if (!play.hasPockets || (scored && fallen.length === 0)) return scored;
+  const pocketed = fallen.length > 0 ? fallen.join(texts.andWord) : texts.noBall;
+  return `${texts.whoPocketed(name, pocketed)} ${scored}`.trim();
 }
 
 /** The score: what is left of each, or points. */
@@ -173,7 +193,7 @@ export function wordsOfScore(play: Play, seat: number, racks: readonly [number, 
     return `${wordsOfPoints(balls.map((count) => (count === 0 ? texts.onThe8 : texts.countLeft(count))))}${won && ` · ${won}`}`;
   }
   if (["nineball", "tenball"].includes(play.setup.game)) {
-    const next = play.balls.findIndex(({ state }, k) => k > 0 && onTable(state));
+    const next = play.isOver ? -1 : play.balls.findIndex(({ state }, k) => k > 0 && onTable(state));
     return [next > 0 ? texts.lowestBall(next) : "", won].filter((part) => part !== "").join(" · ");
   }
   return won;

@@ -24,6 +24,7 @@ import {
   strokeToPlay,
   wantedOf,
   why,
+  wordsOfOutcome,
 } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfStroke } from "./state.js";
 import { texts } from "../texts/texts.js";
@@ -48,10 +49,10 @@ export function shoot(s: Session): void {
   try {
     const { cue, call, aimer } = strokeToPlay(s);
     const stroke = play.stroke(cue, call, aimer);
-    s.verdict = "";
+    const isReviewed = play.played !== undefined && play.setup.drill === undefined;
+    s.verdict = isReviewed ? wordsOfStroke(play, stroke, s.seat) : "";
     says(s, "");
-    if (play.played && play.setup.drill === undefined)
-      void review(cue, call, aimer, settings.coach);
+    if (isReviewed) void review(cue, call, aimer, settings.coach);
     finishTurn(s, stroke);
   } catch (error) {
     says(s, wrong(error));
@@ -62,7 +63,10 @@ export function choose(s: Session, what: Choice): void {
   if (!free(s)) return says(s, why(s));
   s.searchGeneration++; // a search for a hint ends here
   try {
-    finishTurn(s, s.play.choose(what));
+    const stroke = s.play.choose(what);
+    s.verdict = what === "pass" ? wordsOfStroke(s.play, stroke, s.seat) : "";
+    says(s, "");
+    finishTurn(s, stroke);
   } catch (error) {
     says(s, wrong(error));
   }
@@ -150,15 +154,14 @@ function judgeDrill({ play, training, words, carom }: Session): void {
 }
 /** Begins the turn of the player who is now at the table. */
 export function next(s: Session): void {
-  const { link, play, seat, training } = s;
+  const { link, play, training } = s;
   judgeDrill(s);
   if (link.waiting()) return link.onward();
   // Words about the last stroke, and about a game that it ended.
   const { last, setup, isOver } = play;
   const isAgainstComputer = isComputer(setup.against);
-  const wasTheirs = last !== undefined && last.player !== seat;
-  if (wasTheirs && play.hasPockets && isAgainstComputer)
-    says(s, `${wordsOfStroke(play, last, seat)} ${s.verdict}`.trim());
+  const outcome = wordsOfOutcome(s);
+  if (outcome !== "") says(s, outcome);
   if (isOver && isRated(play)) says(s, training.rating(setup.game).words);
   if (isOver) s.end.show();
   // The page's player begins to plan, or the person at the page begins to aim.
