@@ -11,13 +11,13 @@ import { chromium } from "playwright-core";
  */
 export async function scene(browser, width, height, view = "device") {
   const page = await browser.newPage({ viewport: { width, height } });
-  await page.addInitScript((view) => {
+  await page.addInitScript(() => {
+    if (localStorage.getItem("carom-settings")) return;
     localStorage.setItem(
       "carom-game",
       JSON.stringify({ game: "eightball", against: "500", own: "0", seed: 4, entries: [] }),
     );
-    localStorage.setItem("carom-settings", JSON.stringify({ view }));
-  }, view);
+  });
   await page.goto(`file://${fileURLToPath(new URL("../dist/index.html", import.meta.url))}`);
   await page.waitForSelector("main[aria-busy=false]");
   await page.locator("#shoot").click();
@@ -28,6 +28,13 @@ export async function scene(browser, width, height, view = "device") {
       [id, start],
       { timeout: 60000 },
     );
+  await says("#turn", "Your turn");
+  // The film was drawn, as the processor draws too few pictures of the scene.
+  await page.evaluate(
+    (view) => localStorage.setItem("carom-settings", JSON.stringify({ view })),
+    view,
+  );
+  await page.reload();
   await says("#turn", "Your turn");
   await page.locator("#hint").click();
   await says("#said", "Hint: ");
