@@ -47,7 +47,7 @@ static double points(const carom_rules_state *game, uint32_t in_play, int ball) 
   if (ball < 0 || ball > 3)
     return usual_points;
   if (game->score[0] >= LAST) /* a ball is more easily potted than the cue ball off it */
-    return 0.25 * LAST_POINT;
+    return 0.25 * (double)LAST_POINT;
   if (game->score[0] >= CAROMS_ONLY)
     return POINT_OF_CAROMS;
   if (game->score[0] + number_of[ball] > CAROMS_ONLY)

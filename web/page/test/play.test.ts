@@ -334,7 +334,7 @@ describePages("a game", () => {
     expect(await sticks()).toBeGreaterThan(40);
     expect(await page.evaluate(() => (window as unknown as { left: number }).left)).toBe(0);
     expect(await valueOf(page, "power")).toBe("1");
-    await says(page, "said", /^The 300 /);
+    await says(page, "said", /^You .*The 300 /);
   }, 180_000);
 
   test.each(sizes)(
@@ -564,7 +564,7 @@ describePages("a game", () => {
     await turnTo(page, 225);
     await act(page, "#power=2", "#shoot");
     await comesToSay(page, "turn", /^Player 1 fouls: .*Player 2's turn.* Cue ball in hand/);
-    await says(page, "said", "");
+    await says(page, "said", "Player 1 pocketed no ball.");
   });
 
   test("a game hides the way of the balls, practice shows it; undo is of practice", async () => {
@@ -686,7 +686,7 @@ describePages("a game", () => {
         const saved = await keptGame(page);
         expect((JSON.parse(saved) as { game: string }).game).toBe(game);
         expect(linesOf(saved, "shot")).toHaveLength(against === "practice" ? 0 : played);
-        await says(page, "said", /^$|Drag/);
+        await says(page, "said", /^$|Drag|^Player 1 /);
         await reload(page);
         expect(await keptGame(page)).toBe(saved);
       }
