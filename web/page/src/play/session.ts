@@ -59,11 +59,14 @@ export const free = (s: Session): boolean => stateOf(s) === "aiming";
 export const says = (s: Pick<Session, "words">, text: string): void =>
   void (s.words.message.textContent = text);
 
-/** What came of the last own stroke, and of the one that the page's player has played since. */
+/**
+ * What came of the last own stroke, and of the one that the page's player has played since. Who plays
+ * by link has the words of the link.
+ */
 export function wordsOfOutcome({ play, seat, verdict }: Session): string {
   const { last, setup } = play;
-  const isTheirs = last?.aimer === "opponent" && isComputer(setup.against);
-  return `${verdict} ${isTheirs ? wordsOfStroke(play, last, seat) : ""}`.trim();
+  if (!last || last.player === seat || setup.against === "person") return verdict;
+  return isComputer(setup.against) ? `${verdict} ${wordsOfStroke(play, last, seat)}`.trim() : "";
 }
 
 /** The stroke that the controls set. */
