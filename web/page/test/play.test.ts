@@ -686,7 +686,7 @@ describePages("a game", () => {
         const saved = await keptGame(page);
         expect((JSON.parse(saved) as { game: string }).game).toBe(game);
         expect(linesOf(saved, "shot")).toHaveLength(against === "practice" ? 0 : played);
-        await says(page, "said", /^$|Drag|^Player 1 /);
+        await says(page, "said", /^$|Drag|^(Player \d|You|That stroke) /);
         await reload(page);
         expect(await keptGame(page)).toBe(saved);
       }

@@ -411,7 +411,7 @@ export const coaching = (s: Session): Coach => ({
       if (play !== s.play || strokes !== ownStrokes()) return; // another stroke was played
       // What is said since then stays: a hint, or what the page's player does.
       const isSaid = s.words.message.textContent === wordsOfOutcome(s);
-      s.verdict = `${s.verdict} ${`${advice} ${cost}`.trim()}`;
+      s.verdict = [s.verdict, advice.trim(), cost].filter(Boolean).join(" ");
       if (isSaid) says(s, wordsOfOutcome(s));
     };
   },
