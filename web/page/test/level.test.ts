@@ -229,8 +229,8 @@ describePages("by level", () => {
     expect(await valueOf(page, "new-which")).toBe("nineball");
     await act(page, "#new-which=snooker", "#new-against=person");
     expect(await page.locator("#menu .card[aria-pressed=true] b").allTextContents()).toEqual([
-      "Snooker",
       "a person at this page",
+      "Snooker",
     ]);
     const drills = await page.locator("#drill option").allTextContents();
     for (const drill of ["Draw ☆☆☆", "Side pocket ★★★", "Follow ★☆☆", "Stop shot –"])
