@@ -39,7 +39,8 @@ ask 31 'a game|to 7' odds --players 550,620 --race 7
 printf 'against,won,lost\n520,9,7\n610,3,9\n' | ask 32 rating rating -
 ask 33 '^1|chances' plan --only safeties --cue 2d,2d --balls 1=1d,6d:9=3d,5d --rules nineball --shots 300
 ask 34 'meets 2' shoot --balls onepocket --speed 8
-ask 35 'white .*table|meets red' shoot --table 10ft --cue white=0.6,0.8 --balls yellow=0.8,1.9:red=0.5,2 --at-ball red --speed 2
+ask 35 'white .*table|meets red' shoot --table 10ft --cue white=0.6,0.8 \
+  --balls yellow=0.8,1.9:red=0.5,2 --at-ball red --speed 2
 ask 36 '^1' plan --rules straightrail --cue 0.6,0.8 --balls 0.8,1.9:0.4,1 --shots 300
 ask 37 'a cut' shoot --cue 0.6,0.8 --balls 0.8,1.9:0.72,1.6 --at-ball 1 --cut -70,0,60 --speed 2
 ask 38 'not on the table' shoot --cue 0.6,0.8 --balls 0.8,3.9 --at-ball 1 --speed 2

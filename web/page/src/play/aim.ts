@@ -136,7 +136,8 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   const radius = play.balls[0]!.kind.radius * film.scale;
   // A rack, and balls that are large enough to be read, have labels only where they are asked for.
   const isRead = (play.breaks || radius > READABLE) && !hasLetters;
-  const labels = isRead ? [] : labelsOf(play.names, hasLetters ? texts.letters : {});
+  const letters = hasLetters ? texts.letters : {};
+  const labels = isRead ? [] : labelsOf(play.names, letters);
   if (film.time > 0 || film.playing) {
     // Balls that are too small to be read while they roll have their labels beside them.
     const poses = radius < 8 || hasLetters ? s.filmed!.shots[0]!.poses(film.time) : [];

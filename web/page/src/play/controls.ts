@@ -178,7 +178,9 @@ export function controls(s: Session): Controls {
       const colour = colourOf(names[ball]!, ball, balls[ball]!.kind.radius);
       // The cue ball lies over the one that it meets, as whoever aims sees both.
       const over = 2 * contact.side * (1 - contact.share);
-      part.innerHTML = `<svg viewBox="-3.1 -1.1 6.2 2.2">${ballMarkup(names[ball]!, colour, false)}<circle cx="${over}" r="1" fill="#fbfaf570" stroke="#000a" stroke-width="0.06"/></svg>`;
+      const cueBall = `<circle cx="${over}" r="1" fill="#fbfaf570" stroke="#000a" stroke-width="0.06"/>`;
+      const target = ballMarkup(names[ball]!, colour, false);
+      part.innerHTML = `<svg viewBox="-3.1 -1.1 6.2 2.2">${target}${cueBall}</svg>`;
       const share = `${Math.round(100 * contact.share)} %`;
       part.setAttribute("aria-label", texts.theAimMeetsOf(share, name));
     },

@@ -182,9 +182,10 @@ function sightsOf({ width, length, pockets }: Table): THREE.BufferGeometry[] {
   if (length > 3) return [];
   const isPool = pockets.length > 0;
   const sight = (x: number, y: number, isAlongX: boolean): THREE.BufferGeometry => {
-    const disc = new THREE.CircleGeometry(isPool ? 0.0095 : 0.0065, isPool ? 4 : 20);
-    if (isPool) disc.scale(isAlongX ? 1.35 : 0.8, isAlongX ? 0.8 : 1.35, 1);
-    return disc.translate(x, y, TOP + 0.0008);
+    const high = TOP + 0.0008;
+    if (!isPool) return new THREE.CircleGeometry(0.0065, 20).translate(x, y, high);
+    const [long, wide] = isAlongX ? [1.35, 0.8] : [0.8, 1.35];
+    return new THREE.CircleGeometry(0.0095, 4).scale(long, wide, 1).translate(x, y, high);
   };
   const middle = (CUSHION + WOOD) / 2;
   const long = [1, 2, 3, 4, 5, 6, 7].filter((k) => k !== 4 || !isPool);

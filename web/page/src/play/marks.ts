@@ -10,11 +10,20 @@ const IVORY = "#f7f2e4";
 export function ballMarkup(name: string, colour: string, hasNumber = true): string {
   const number = Number(name);
   const isStripe = number > 8;
-  const band = `<path d="M-0.87-0.5H0.87A1 1 0 0 1 0.87 0.5H-0.87A1 1 0 0 1 -0.87-0.5Z" fill="${colour}"/>`;
-  const label = `<circle r="0.48" fill="${IVORY}"/><text y="0.25" text-anchor="middle" font-size="0.68" font-weight="bold" fill="#16181b">${name}</text>`;
-  return `<circle r="1" fill="${isStripe ? IVORY : colour}"/>${isStripe ? band : ""}${
-    number > 0 && hasNumber ? label : ""
-  }<circle cx="-0.35" cy="-0.4" r="0.22" fill="#fffa"/><circle r="0.97" fill="none" stroke="#0005" stroke-width="0.06"/>`;
+  const parts = [`<circle r="1" fill="${isStripe ? IVORY : colour}"/>`];
+  if (isStripe) {
+    const band = "M-0.87-0.5H0.87A1 1 0 0 1 0.87 0.5H-0.87A1 1 0 0 1 -0.87-0.5Z";
+    parts.push(`<path d="${band}" fill="${colour}"/>`);
+  }
+  if (number > 0 && hasNumber) {
+    const font = 'text-anchor="middle" font-size="0.68" font-weight="bold" fill="#16181b"';
+    parts.push(`<circle r="0.48" fill="${IVORY}"/>`, `<text y="0.25" ${font}>${name}</text>`);
+  }
+  parts.push(
+    '<circle cx="-0.35" cy="-0.4" r="0.22" fill="#fffa"/>',
+    '<circle r="0.97" fill="none" stroke="#0005" stroke-width="0.06"/>',
+  );
+  return parts.join("");
 }
 /** A picture of a square around the middle, hidden from readers of the screen. */
 function picture(side: number, markup: string): HTMLElement {
