@@ -96,17 +96,25 @@ install_with_apt() {
   keep_saying "installing" "$log"
   saying=$!
   $as_root apt-get update > "$log" 2>&1 || say "apt-get update failed; going on with the lists that are here"
-  # shellcheck disable=SC2086
-  if [ -n "$missing" ] && ! apt_install $missing; then
-    kill "$saying" 2> /dev/null
-    tail -n 20 "$log" >&2
-    rm -f "$log"
-    fail "apt-get could not install:$missing"
-  fi
-  failed=''
+  # One call installs everything, because apt-get needs seconds to resolve each call. If a package is not available, each
+  # one is tried alone.
+  failed='' newest=''
   for package in $wanted; do
-    apt_install "$(newest_of "$package")" || failed="$failed $package"
+    found=$(newest_of "$package")
+    newest="$newest ${found:-$package}"
   done
+  # shellcheck disable=SC2086
+  if ! apt_install $missing $newest; then
+    if [ -n "$missing" ] && ! apt_install $missing; then
+      kill "$saying" 2> /dev/null
+      tail -n 20 "$log" >&2
+      rm -f "$log"
+      fail "apt-get could not install:$missing"
+    fi
+    for package in $wanted; do
+      apt_install "$(newest_of "$package")" || failed="$failed $package"
+    done
+  fi
   kill "$saying" 2> /dev/null
   wait "$saying" 2> /dev/null || true
   rm -f "$log"
