@@ -8,7 +8,7 @@ api.py c INCLUDE            a C program that prints the same as its compiler see
 
 The declarations are parsed by pycparser. A comment beside or above a declaration is its
 description. Sizes and offsets are those of 64-bit systems; "wasm32" has those with pointers of 32
-bits. The tests install/abi and bindings/api compare them with compilers.
+bits. The tests packaging/abi and bindings/api compare them with compilers.
 """
 
 import json
@@ -144,7 +144,7 @@ def header_of(include, name):
     """The planner's header is in a folder of its own."""
     return next(
         path
-        for path in (include / name, include.parent / "plan" / "include" / name)
+        for path in (include / name, include.parents[1] / "games" / "include" / name)
         if path.exists()
     )
 
@@ -347,7 +347,7 @@ def describe(include):
 
 
 def abi(api, bits=None):
-    """Sizes, offsets and values as lines, as tests/install/abi compares them; `bits`: "wasm32" for
+    """Sizes, offsets and values as lines, as packaging/tests/abi compares them; `bits`: "wasm32" for
     those of that system.
     """
     lines = []

@@ -1,4 +1,4 @@
-"""The rows of src/schema as data: what the library says of itself at run time, for what is needed
+"""The rows of core/src/schema as data: what the library says of itself at run time, for what is needed
 before it runs.
 
 rows.py json      numbers of a ball, options and words, as carom_number_of() and carom_word() tell
@@ -12,7 +12,7 @@ import sys
 import textwrap
 from pathlib import Path
 
-SOURCE = Path(__file__).resolve().parent.parent / "src"
+SOURCE = Path(__file__).resolve().parent.parent / "core/src"
 
 
 def arguments(text):
@@ -130,7 +130,7 @@ def words():
     found = {}
     for file, macro in (
         ("schema/words.h", "CAROM_WORD_ROWS"),
-        ("../plan/src/words.h", "CAROM_GAME_WORD_ROWS"),
+        ("../../games/rules/words.h", "CAROM_GAME_WORD_ROWS"),
     ):
         for _, (word_set, _value, word, text) in rows(file, macro):
             found.setdefault(word_set, []).append((text_of(word), text_of(text)))
@@ -141,7 +141,8 @@ def words():
     found["CUSHION_MODEL"] = models
     found["SHOT_CUSHION"] += models
     found["RULES"] = [
-        (text_of(row[2]), text_of(row[3])) for _, row in rows("../plan/src/games.h", "CAROM_GAMES")
+        (text_of(row[2]), text_of(row[3]))
+        for _, row in rows("../../games/rules/games.h", "CAROM_GAMES")
     ]
     found["BALL_FRICTION"] = [
         (text_of(row[1]), text_of(row[-1]))
@@ -204,7 +205,7 @@ def games():
             calls,
             members,
             _may,
-        ) in rows("../plan/src/games.h", "CAROM_GAMES")
+        ) in rows("../../games/rules/games.h", "CAROM_GAMES")
     }
 
 
@@ -227,7 +228,7 @@ def options():
     found = {}
     for group, struct in STRUCTS.items():
         for _, (name, key, form, low, high, error, text, *_place) in rows(
-            "../plan/src/plan_options.h" if group == "PLAN" else "schema/options.h",
+            "../../games/search/plan_options.h" if group == "PLAN" else "schema/options.h",
             f"CAROM_{group}_OPTIONS",
         ):
             kind, word_set = re.fullmatch(r"(\w+)(?:\((.*)\))?", form).groups()

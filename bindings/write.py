@@ -683,7 +683,7 @@ words! {
 
 def main():
     out = Path(sys.argv[1])
-    api = describe(HERE.parent / "include")
+    api = describe(HERE.parent / "core/include")
     texts = {
         "api.json": json.dumps(api, indent=1, ensure_ascii=False) + "\n",
         "csharp/Runtime/Native.cs": CSharp(api).text(),

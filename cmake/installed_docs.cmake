@@ -6,7 +6,7 @@ foreach(page IN LISTS pages)
   set(before "${text}")
   cmake_path(GET page PARENT_PATH folder)
   file(RELATIVE_PATH to_headers "${folder}" "${headers}")
-  string(REGEX REPLACE "\\]\\([./]*include/(carom[a-z_]*\\.h)" "](${to_headers}/\\1" text "${text}")
+  string(REGEX REPLACE "\\]\\([./]*core/include/(carom[a-z_]*\\.h)" "](${to_headers}/\\1" text "${text}")
   # The links as a list, in which brackets and semicolons would have a meaning; those with a colon lead to other sites.
   string(REGEX REPLACE ";" "" flat "${text}")
   string(REPLACE "](" "<to:" flat "${flat}")

@@ -18,7 +18,7 @@ target_compile_options(
             $<$<BOOL:${CAROM_WERROR}>:-Werror>
             # Parity with pooltool to the last bit: a*b + c stays two roundings unless a source asks for fma().
             -ffp-contract=off)
-# Where src/platform/promise.h asks what comments promise.
+# Where core/src/platform/promise.h asks what comments promise.
 set(checked $<$<CONFIG:Debug>:CAROM_CHECKED>)
 if(CAROM_SANITIZE) # its commas would part the expression
   set(checked CAROM_CHECKED)

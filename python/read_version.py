@@ -15,7 +15,7 @@ def dynamic_metadata(settings: Mapping[str, Any], project: Mapping[str, Any]) ->
     """
     folder = Path(__file__).parent
     library = folder / "library" if (folder / "library").is_dir() else folder.parent
-    header = (library / "include" / "carom.h").read_text(encoding="utf-8")
+    header = (library / "core/include/carom.h").read_text(encoding="utf-8")
     numbers = dict(
         re.findall(r"^#define CAROM_VERSION_(MAJOR|MINOR|PATCH) +(\d+)$", header, re.MULTILINE)
     )

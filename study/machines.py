@@ -4,7 +4,7 @@ machines.csv has a machine a row: its name, processor, compiler, the run's date 
 source of the numbers, and for each kernel the speedup over base in clang's default configuration.
 `float@archnative` is the build that the paper found to be the fastest. A cell is empty where
 nobody has measured, and has words where the paper gives words. docs/study/paper.md shows the file
-as a table, and tests/report/test_machines.py compares the two.
+as a table, and study/tests/report/test_machines.py compares the two.
 """
 
 import argparse

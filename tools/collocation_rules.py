@@ -2,8 +2,8 @@
 
 Needs mpmath; what it prints is kept in the tree:
 
-    python3 tools/collocation_rules.py ball_ball > src/ball_ball/quadrature.h
-    python3 tools/collocation_rules.py contact_law > src/contact_law/quadrature.h
+    python3 tools/collocation_rules.py ball_ball > core/src/ball_ball/quadrature.h
+    python3 tools/collocation_rules.py contact_law > core/src/contact_law/quadrature.h
     tools/format
 
 For contact_law: Gauss's rule of 8 nodes on [0, 1] in double precision, described in that file. For

@@ -18,8 +18,10 @@ from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-SRC, PLAN = ROOT / "src", ROOT / "plan"
-HEADERS = {path.name: path for folder in (ROOT, PLAN) for path in (folder / "include").glob("*.h*")}
+SRC, PLAN = ROOT / "core/src", ROOT / "games"
+ROOMS = [PLAN / room for room in ("rules", "ratings", "search", "coach", "match")]
+INCLUDES = (ROOT / "core/include", PLAN / "include", ROOT / "bindings/cpp")
+HEADERS = {path.name: path for folder in INCLUDES for path in folder.glob("*.h*")}
 PUBLIC = sorted(name for name in HEADERS if name.endswith(".h"))
 WRAPPER = "carom.hpp"
 # What CMakeLists.txt compiles once for every instruction set, with the definitions of each time,
@@ -51,14 +53,13 @@ SYSTEM = re.compile(r"^[ \t]*#[ \t]*include[ \t]+<[^>]+>[^\n]*\n", re.M)
 
 
 def text_of(name):
-    """A file of src/, or else of plan/src/."""
-    return next(path for path in (SRC / name, PLAN / "src" / name) if path.exists()).read_text(
-        encoding="utf-8"
-    )
+    """A file of core/src/, or else of a room of games/."""
+    places = (SRC / name, *(room / name for room in ROOMS))
+    return next(path for path in places if path.exists()).read_text(encoding="utf-8")
 
 
 def included(name, seen):
-    """The headers of src/ that a file needs, each behind those that it needs."""
+    """The headers of core/src/ that a file needs, each behind those that it needs."""
     for header in LOCAL.findall(text_of(name)):
         if header not in PUBLIC and header not in seen:
             seen[header] = None
@@ -180,7 +181,7 @@ def expanded(name, remaining):
         remaining.remove(found[1])
         return expanded(found[1], remaining)
 
-    return f"\n/* ==== src/{name} ==== */\n" + SYSTEM.sub("", LOCAL.sub(header, text_of(name)))
+    return f"\n/* ==== core/src/{name} ==== */\n" + SYSTEM.sub("", LOCAL.sub(header, text_of(name)))
 
 
 def guarded(name, text, others):
@@ -191,7 +192,7 @@ def guarded(name, text, others):
     pattern = re.compile(f"({skipped})|\\b({'|'.join(sorted(renamed)) or '(?!)'})\\b", re.S)
     text = pattern.sub(lambda found: found[1] or f"{found[2]}_of_{tag}", bare(text))
     endings = "".join(f"#undef {private}\n" for private in sorted(macros(text) - {"_GNU_SOURCE"}))
-    return f"\n/* ==== src/{name} ==== */\n{text}{endings}"
+    return f"\n/* ==== core/src/{name} ==== */\n{text}{endings}"
 
 
 def listed(folder, target):
@@ -210,9 +211,8 @@ def listed(folder, target):
 def main():
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    sources = listed(SRC, "carom_objects") + sorted(
-        path.name for path in (PLAN / "src").glob("*.c")
-    )
+    sources = listed(SRC, "carom_objects")
+    sources += sorted(path.name for room in ROOMS for path in room.glob("*.c"))
     sources += ["platform/processors.c", "platform/processors_windows.c"]
     kernels = {name: f"{room}/{name}" for name, room in KERNELS.items()}
 
@@ -269,7 +269,7 @@ def main():
     out.append("".join(f'#include "{name}"\n' for name in PUBLIC))
     for name in common:
         if name != "platform/arithmetic.h":
-            out.append(f"\n/* ==== src/{name} ==== */\n{bare(texts[name])}")
+            out.append(f"\n/* ==== core/src/{name} ==== */\n{bare(texts[name])}")
     for name in sources:
         windows_alone = {
             "platform/processors.c": "#ifndef _WIN32\n",
@@ -409,7 +409,7 @@ def names_of_pass(name):
 def version():
     numbers = re.findall(
         r"#define CAROM_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)",
-        (ROOT / "include" / "carom.h").read_text(encoding="utf-8"),
+        (ROOT / "core/include/carom.h").read_text(encoding="utf-8"),
     )
     return ".".join(numbers)
 

@@ -152,6 +152,13 @@ keep_saying() {
   while sleep 60 > /dev/null 2>&1 && kill -0 $$ 2> /dev/null; do say "still $1: $(tail -n 1 "$2" | cut -c 1-90)"; done &
 }
 
+# note_stage WHAT SECONDS: keeps the seconds of a stage for the end of a run.
+stage_seconds=''
+note_stage() {
+  stage_seconds="$stage_seconds${stage_seconds:+
+}  $2 $1"
+}
+
 # stage WHAT COMMAND...: runs the command and prints one line about it, with its time; quiet but for a line a minute. What it said is in
 # $log, for the caller to show and to remove. Returns the command's exit code.
 stage() {
@@ -165,6 +172,7 @@ stage() {
   kill "$saying" 2> /dev/null
   wait "$saying" 2> /dev/null || true
   printf '%s s' $(($(date +%s) - begun)) >&2
+  note_stage "$what" $(($(date +%s) - begun))
   return $ended
 }
 

@@ -152,7 +152,7 @@ def places(p):
     yield "docs/using/building.md", r"(`carom/)[\d.]+(`)", p["version"]
     yield "docs/using/building.md", r"(find_package\(carom |`libcarom)[\d.]+( REQUIRED|`)", minor
     yield "docs/reference/compatibility.md", r"(`libcarom\.so\.)[\d.]+(`)", minor
-    for test in ("tests/install/plain", "tests/install/consumer-cmake/CMakeLists.txt"):
+    for test in ("packaging/tests/plain", "packaging/tests/consumer-cmake/CMakeLists.txt"):
         yield test, r"(find_package\(carom )[\d.]+( REQUIRED)", minor
 
 
@@ -188,7 +188,7 @@ def written(root, p):
         "TRACKER": p["tracker"],
     }
     macros = "".join(f'#define PROJECT_{key} "{value}"\n' for key, value in defined.items())
-    texts["src/schema/project.h"] = (
+    texts["core/src/schema/project.h"] = (
         "/* Written by tools/project.py from packaging/project.toml: authors and lines of the citation as\n"
         " * BibTeX, and for CMake where bugs are reported. */\n#ifndef CAROM_PROJECT_H\n#define CAROM_PROJECT_H\n\n"
         + macros

@@ -39,7 +39,7 @@ for kind in ("vcpkg", "homebrew", "nuget"):
 conan = OUT / "conan/carom"
 shutil.copytree(ROOT / "packaging/conan", conan / "all")
 shutil.copytree(
-    ROOT / "tests/install/consumer-cmake", conan / "all/test_package", dirs_exist_ok=True
+    ROOT / "packaging/tests/consumer-cmake", conan / "all/test_package", dirs_exist_ok=True
 )
 (conan / "config.yml").write_text(f'versions:\n  "{version}":\n    folder: all\n', encoding="utf-8")
 (conan / "all/conandata.yml").write_text(

@@ -67,7 +67,7 @@ def of_c(source):
     sys.path.insert(0, str(source / "bindings"))
     from api import describe
 
-    api = describe(source / "include")
+    api = describe(source / "core/include")
 
     def typed(about):
         """const double *v[3]"""

@@ -31,8 +31,9 @@ GROUPS = {
 CONTRIBUTE = ["CONTRIBUTING.md", "docs/contributing/extending.md", "CHANGELOG.md"]
 ROOMS = sorted(
     str(page.relative_to(SOURCE))
-    for room in "cli data lab plan python src tests web".split()
-    for page in (*SOURCE.glob(f"{room}/README.md"), *SOURCE.glob(f"{room}/*/README.md"))
+    for room in ("bindings", "command", "core", "data", "games", "python", "study", "web")
+    for page in SOURCE.glob(f"{room}/**/README.md")
+    if "node_modules" not in page.parts
 )
 # Pages that a search shows before others: manuals before mentions, and the study for its words.
 BOOSTS = {"docs/study/": 6, "docs/start/": 3, "docs/using/": 2, "docs/reference/": 2}

@@ -32,7 +32,7 @@ class Carom(ConanFile):
             self.version = next(iter(self.conan_data["sources"]))
             return
         # The version has one source, the public header.
-        header = load(self, Path(self.recipe_folder, TREE, "include", "carom.h"))
+        header = load(self, Path(self.recipe_folder, TREE, "core/include/carom.h"))
         self.version = ".".join(
             re.search(rf"^#define CAROM_VERSION_{part} (\d+)$", header, re.M)[1]
             for part in ("MAJOR", "MINOR", "PATCH")
@@ -46,11 +46,17 @@ class Carom(ConanFile):
             "LICENSE",
             "NOTICE",
             "cmake/*",
-            "include/*",
-            "plan/CMakeLists.txt",
-            "plan/include/*",
-            "plan/src/*",
-            "src/*",
+            "core/CMakeLists.txt",
+            "core/include/*",
+            "core/src/*",
+            "games/CMakeLists.txt",
+            "games/include/*",
+            "games/rules/*",
+            "games/ratings/*",
+            "games/search/*",
+            "games/coach/*",
+            "games/match/*",
+            "bindings/cpp/*",
         ):
             copy(self, part, Path(self.recipe_folder, TREE), self.export_sources_folder)
 

@@ -22,7 +22,7 @@ import pytest
 pytest.importorskip("matplotlib", reason="matplotlib is not installed")
 EXAMPLES = Path(__file__).parents[1] / "examples"
 FIGURES = EXAMPLES.parents[1] / "docs/figures"
-sys.path[:0] = [str(EXAMPLES), str(EXAMPLES.parents[1] / "tests/docs")]
+sys.path[:0] = [str(EXAMPLES), str(EXAMPLES.parents[1] / "docs/tests")]
 
 import figures  # noqa: E402
 import refine_aim  # noqa: E402

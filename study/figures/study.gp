@@ -1,5 +1,5 @@
 # What the study's figures share beyond the style of all: the machine at the foot, and how a kernel looks.
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../cli/figures/style.gp" ARG1 ARG2 ARG3
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../command/figures/style.gp" ARG1 ARG2 ARG3
 
 # Where and with what the data were measured: two lines at the foot, which need a bottom margin of about 105 points.
 # The compiler named is that of what is drawn: the ladder's, by its configuration such as clang-default, the library's, or both, as

@@ -2,7 +2,7 @@
  *
  * Every impulse is set to zero and then, branch by branch, to its value; all velocities are
  * updated from all impulses; all slip velocities and their magnitudes are computed anew at the
- * end of a step. The arithmetic is that of src/ball_ball/euler.c, operation by operation, so
+ * end of a step. The arithmetic is that of core/src/ball_ball/euler.c, operation by operation, so
  * where the compiler may not rearrange it (o3, novec) the result is pooltool's to the last bit.
  *
  * Paper: 1.00, 85.3 cycles a step on Zen 2. A square root and a division stand in the chain that

@@ -2,7 +2,7 @@
  *
  * A rung takes two approaching balls of equal mass from the instant of contact to the end of the
  * collision, in about N steps of Mathavan's algorithm (physics and symbols:
- * src/ball_ball/euler.c). Getting into the frame and out of it, and refusing what a rung could
+ * core/src/ball_ball/euler.c). Getting into the frame and out of it, and refusing what a rung could
  * not end or could not represent, is done once for all of them in resolve.c; so a rung is the
  * loop and nothing else, and `diff cse.c reorder.c` shows the idea of reorder and nothing else.
  *

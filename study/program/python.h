@@ -1,4 +1,4 @@
-/* Subcommands that are programs in Python: study/paper.py, lab/published.py, ... */
+/* Subcommands that are programs in Python: study/paper.py, study/lab/published.py, ... */
 #ifndef CAROM_STUDY_PYTHON_H
 #define CAROM_STUDY_PYTHON_H
 

@@ -5,7 +5,7 @@
 #include "program/command.h"
 
 #define COMMAND COMMAND_DECLARED
-#include "../../lab/program/commands.def"
+#include "../lab/program/commands.def"
 #undef COMMAND
 
 #endif

@@ -17,28 +17,28 @@ from study.report.sheets import ROOT, Sheet
 # The sources of each solver of the library, those that its calls are linked with; what these files
 # include belongs to it too.
 SHARED = (
-    "src/ball_ball/arguments.c src/ball_ball/batch.c src/ball_ball/collide.c "
-    "src/ball_ball/kernels.c src/platform/elementary.c src/platform/threads.c"
+    "core/src/ball_ball/arguments.c core/src/ball_ball/batch.c core/src/ball_ball/collide.c "
+    "core/src/ball_ball/kernels.c core/src/platform/elementary.c core/src/platform/threads.c"
 ).split()
 COLLOCATION = (
     *SHARED,
-    "src/ball_ball/collocate.c",
-    "src/ball_ball/rows.c",
-    "src/contact_law/advance.c",
-    "src/contact_law/impact.c",
+    "core/src/ball_ball/collocate.c",
+    "core/src/ball_ball/rows.c",
+    "core/src/contact_law/advance.c",
+    "core/src/contact_law/impact.c",
 )
 SOLVERS = {
     "exact": COLLOCATION,
     "fast": COLLOCATION,
-    "euler": (*SHARED, "src/ball_ball/euler.c"),
+    "euler": (*SHARED, "core/src/ball_ball/euler.c"),
 }
-FOLDERS = [ROOT / folder for folder in ("src", "study/ladder")]
+FOLDERS = [ROOT / folder for folder in ("core/src", "study/ladder")]
 # Tables of names and of citations, which decide nothing that is measured. Neither do the public
 # headers, which change with every new function.
 TABLES = {
     ROOT / "study/ladder/kernels.def",
-    ROOT / "src/schema/numbers.h",
-    ROOT / "src/schema/sources.h",
+    ROOT / "core/src/schema/numbers.h",
+    ROOT / "core/src/schema/sources.h",
 }
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*|^# [^\n]*", re.S | re.M)
 

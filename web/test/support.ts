@@ -1,5 +1,5 @@
 // What the tests of package and page share: the command `carom`, and the draws of
-// tests/platforms/bits.c.
+// core/tests/platforms/bits.c.
 import { execFileSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { fileURLToPath } from "node:url";
@@ -23,7 +23,7 @@ export function run(args: string[], input = ""): string {
 
 const MASK = (1n << 64n) - 1n;
 
-/** Draws by splitmix64, as in tests/platforms/bits.c. */
+/** Draws by splitmix64, as in core/tests/platforms/bits.c. */
 export class Draws {
   constructor(private state: bigint) {}
 

@@ -1,4 +1,4 @@
-"""Builds and runs the program of tests/install/consumer-cmake with the package that `conan create`
+"""Builds and runs the program of packaging/tests/consumer-cmake with the package that `conan create`
 has just made.
 """
 
@@ -22,7 +22,7 @@ class Consumer(ConanFile):
         # In the tree's build/, which git ignores.
         self.folders.root = "../../.."
         cmake_layout(
-            self, src_folder="tests/install/consumer-cmake", build_folder="build/conan-consumer"
+            self, src_folder="packaging/tests/consumer-cmake", build_folder="build/conan-consumer"
         )
 
     def generate(self):

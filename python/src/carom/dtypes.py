@@ -83,7 +83,7 @@ def _record(name: str) -> Record:
     return _dtype(ffi.typeof(name))
 
 
-# The headers in include/ have the fields of each, with their units.
+# The headers in core/include/ have the fields of each, with their units.
 # Two balls at the instant of contact: a, b (r, v, w, radius, mass, mu_slide), mu_ball, restitution.
 # 26 doubles.
 impact: Record = _record("carom_impact")

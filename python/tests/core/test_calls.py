@@ -417,7 +417,7 @@ def test_a_dtype_is_called_as_its_struct():
     """docs/using/python.md says so: a header has the fields of each, with their units."""
     headers = "".join(
         header.read_text(encoding="utf-8")
-        for room in ("include", "plan/include")
+        for room in ("core/include", "games/include")
         for header in (Path(__file__).parents[3] / room).glob("*.h")
     )
     for name, record in vars(carom.dtypes).items():
@@ -438,8 +438,7 @@ def test_what_to_cite():
 def test_the_revision_of_the_physics():
     golden = (
         Path(__file__).parents[3]
-        / "tests"
-        / "platforms"
+        / "core/tests/platforms"
         / f"bits-{carom.physics_revision()}.expected"
     )
     assert golden.is_file()

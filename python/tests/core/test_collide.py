@@ -260,7 +260,7 @@ def test_the_lock_of_the_interpreter_is_released(impacts):
 def test_statuses_and_labels_are_those_of_c():
     from carom._carom import ffi
 
-    header = (Path(__file__).parents[3] / "include" / "carom.h").read_text(encoding="utf-8")
+    header = (Path(__file__).parents[3] / "core/include/carom.h").read_text(encoding="utf-8")
     enumerators = header[header.index("enum carom_status") :].partition("}")[0]
     names = {
         int(value): name

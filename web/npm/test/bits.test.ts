@@ -1,4 +1,4 @@
-// The bits of `plain` on every machine: the golden hashes of tests/platforms/bits.expected, of
+// The bits of `plain` on every machine: the golden hashes of core/tests/platforms/bits.expected, of
 // collisions and of whole shots.
 import { describe, expect, test } from "vitest";
 import type { BallState, Carom, Game, RackName, ShotOptions, TableName } from "../dist/index.js";

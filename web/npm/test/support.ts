@@ -1,5 +1,5 @@
 // What tests of the package share besides: the tree's data, and the hashes of
-// tests/platforms/bits.c.
+// core/tests/platforms/bits.c.
 import { readFileSync } from "node:fs";
 import { expect } from "vitest";
 import type { Carom, ShotBall, Table } from "../dist/index.js";
@@ -74,10 +74,11 @@ export class Hash {
 
 /** The hash that bits.expected has for a line. */
 export function golden(what: string): string {
-  const line = readFileSync(`${root}tests/platforms/bits.expected`, "utf8")
+  const line = readFileSync(`${root}core/tests/platforms/bits.expected`, "utf8")
     .split("\n")
     .find((line) => line.startsWith(`${what} `));
-  if (line === undefined) throw new Error(`tests/platforms/bits.expected has no line for: ${what}`);
+  if (line === undefined)
+    throw new Error(`core/tests/platforms/bits.expected has no line for: ${what}`);
   return line.slice(what.length + 1);
 }
 

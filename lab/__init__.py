@@ -1,1 +1,0 @@
-"""What measures the product, in Python, run from the root of the tree: `tools/python -m lab.published`."""
