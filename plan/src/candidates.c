@@ -3,12 +3,14 @@
  * first that is on. */
 #include "candidates.h"
 
+#include "draws.h"
 #include "miss.h"
 #include "places.h"
 #include "platform/elementary.h"
 #include "platform/promise.h"
 #include "ranking.h"
 #include "rows.h"
+#include "stick.h"
 #include "table/marks.h"
 
 #include <math.h>

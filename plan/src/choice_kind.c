@@ -2,6 +2,7 @@
  * which the ball that is named falls. */
 #include "choice_kind.h"
 
+#include "draws.h"
 #include "pot_kind.h"
 #include "rows.h"
 

@@ -14,6 +14,7 @@
  * of this table but that it is one. */
 #include "drawn_tables.h"
 
+#include "draws.h"
 #include "platform/elementary.h"
 
 #include <math.h>

@@ -4,6 +4,7 @@
 #include "goals.h"
 
 #include "rules.h"
+#include "view.h"
 
 #include <math.h>
 

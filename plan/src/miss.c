@@ -12,8 +12,10 @@
  *
  * which a hundred shots with errors would show less well. */
 #include "miss.h"
+#include "draws.h"
 
 #include "platform/elementary.h"
+#include "player.h"
 #include "rows.h"
 
 #include <math.h>

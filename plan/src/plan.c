@@ -23,6 +23,7 @@
 #include "carom_coach.h"
 #include "coach.h"
 #include "drawn_tables.h"
+#include "draws.h"
 #include "goals.h"
 #include "listing.h"
 #include "places.h"

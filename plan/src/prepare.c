@@ -1,5 +1,6 @@
 /* Plans before their searches: arguments are checked, and the layout is read by the rules. */
 #include "prepare.h"
+#include "player.h"
 
 #include "carom_coach.h"
 #include "goals.h"

@@ -7,6 +7,7 @@
  * so the costs add up to that of all. */
 #include "carom_coach.h"
 #include "coach.h"
+#include "draws.h"
 #include "goals.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
