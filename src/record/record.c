@@ -626,7 +626,7 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
   case CAROM_RECORD_SHOT:
   case CAROM_RECORD_CONTINUE:
     /* the caller is to play it before the next line */
-    record->pending = 1;
+    record->pending = CAROM_PENDING_SHOT;
     record->played.hash = hash; /* for carom_record_play() */
     record->shots++;
     return true;
@@ -655,7 +655,7 @@ static bool may_come(reader *in, int kind) {
   const carom_record *record = in->record;
   const char *why = out_of_place(record, kind);
   const bool waits = kind != CAROM_RECORD_EVENT && kind != CAROM_RECORD_END;
-  if (why == NULL && record->pending == 1 && waits)
+  if (why == NULL && record->pending == CAROM_PENDING_SHOT && waits)
     why = "comes before the shot above was played";
   return why == NULL || wrong(in, why);
 }
@@ -778,7 +778,7 @@ static void note_end(carom_record *record, carom_record_kind kind, carom_status 
                      const carom_shot *played) {
   const carom_record_end recorded = record->recorded;
   uint64_t hash = record->hash;
-  if (record->pending == 1)
+  if (record->pending == CAROM_PENDING_SHOT)
     hash = record->played.hash;
   memset(&record->recorded, 0, sizeof recorded);
   hash = stir_line(hash, (int)kind, record);
@@ -788,7 +788,7 @@ static void note_end(carom_record *record, carom_record_kind kind, carom_status 
   hash = carom_fingerprint(hash, record->final, (size_t)record->count * sizeof *record->final);
   record->played.hash = hash;
   record->moved = 1;
-  record->pending = 2;
+  record->pending = CAROM_PENDING_LINE;
   record->kind = kind;
 }
 
@@ -985,7 +985,7 @@ static bool can_be_written(const carom_record *record, int kind) {
   if (kind == CAROM_RECORD_BALLS)
     return record->count > 0;
   if (is_shot(kind))
-    return record->pending == 2 && (int)record->kind == kind;
+    return record->pending == CAROM_PENDING_LINE && (int)record->kind == kind;
   return true;
 }
 
@@ -1009,7 +1009,7 @@ static uint64_t complete_line(carom_record *record, int kind) {
 /* What a line that was written means for those behind it. */
 static void pass_line(carom_record *record, int kind, uint64_t hash) {
   if (is_shot(kind)) {
-    record->pending = 0;
+    record->pending = CAROM_PENDING_NONE;
     record->shots++;
   }
   if (kind != CAROM_RECORD_END)
