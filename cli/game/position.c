@@ -51,7 +51,7 @@ static shot_file *strokes_of(const shoot_flags *f, const carom_shot_options *opt
   if (shots == NULL)
     return NULL;
   if (json_array_size(shots) > 0)
-    return shot_file_of(shots, SHOTS_GIVEN);
+    return shot_file_of(shots, SHOTS_GIVEN, options->cushion_model);
   complain("--leave: none of the speeds and tips that carom tries has such an aim");
   json_decref(shots);
   return NULL;

@@ -832,7 +832,7 @@ json_t *flags_shots(shoot_flags *f, const carom_shot_options *options, int most)
 
 shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int most) {
   json_t *shots = flags_shots(f, options, most);
-  return shots != NULL ? shot_file_of(shots, SHOTS_GIVEN) : NULL;
+  return shots != NULL ? shot_file_of(shots, SHOTS_GIVEN, options->cushion_model) : NULL;
 }
 
 shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_options *options,

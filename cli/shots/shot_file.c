@@ -219,10 +219,11 @@ shot_file *shot_file_open(const char *path, carom_shot_cushion cushion, layout_m
   return file;
 }
 
-shot_file *shot_file_of(json_t *lines, const char *name) {
+shot_file *shot_file_of(json_t *lines, const char *name, carom_shot_cushion cushion) {
   shot_file *file = allocate(1, sizeof *file);
   file->lines = lines;
   file->path = name;
+  file->cushion = cushion;
   return file;
 }
 

@@ -43,8 +43,8 @@ typedef enum layout_moment { LAYOUT_DEFAULT, LAYOUT_START, LAYOUT_FINAL } layout
 shot_file *shot_file_open(const char *path, carom_shot_cushion cushion, layout_moment moment);
 
 /* Shots that are no file but an array of lines of JSON, which it takes over; `name` is for
- * messages. */
-shot_file *shot_file_of(json_t *lines, const char *name);
+ * messages, and the games have their constants for the model of the cushion. */
+shot_file *shot_file_of(json_t *lines, const char *name, carom_shot_cushion cushion);
 
 /* Writes those lines, with the shortest numbers. */
 void shot_file_print(FILE *out, const shot_file *file);
