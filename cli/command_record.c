@@ -7,6 +7,7 @@
 #include "rows/number.h"
 #include "shots/shoot_flags.h"
 #include "shots/shot_file.h"
+#include "shots/strokes.h"
 #include "subcommands.h"
 
 #include <errno.h>

@@ -4,7 +4,13 @@
  * value and its place in carom_record. A key that is missing has the value 0; in an object of a
  * list, the value of the object before it. So a writer leaves out the fields that have the bytes of
  * that default, and a reader begins with it. Every other key is refused, and every one that comes
- * twice. */
+ * twice.
+ *
+ * The command has a second reader of balls and cues, cli/shots/shot_file.c, because its files are
+ * another format: pooltool's keys and defaults, in JSON that people write by hand and that Jansson
+ * parses. This one is in the library, which depends on nothing but C's library, and reads what it
+ * wrote to the same bits and the same hash. Both take the numbers of a ball and of a cue from the
+ * rows of schema/numbers.h, so a new number is one row for both. */
 #include "platform/arithmetic.h"
 #include "platform/fingerprint.h"
 #include "platform/promise.h"
