@@ -9,8 +9,10 @@
 #include "program/output.h"
 #include "program/words.h"
 #include "rows/quantities.h"
+#include "shots/given_shots.h"
 #include "shots/shoot_flags.h"
 #include "shots/shot_file.h"
+#include "shots/strokes.h"
 #include "subcommands.h"
 
 #include <math.h>

@@ -18,6 +18,7 @@
 #include "shots/shot_fault.h"
 #include "shots/shot_file.h"
 #include "shots/shot_story.h"
+#include "shots/strokes.h"
 #include "subcommands.h"
 
 #include "carom_coach.h"
@@ -268,6 +269,7 @@ static bool is_playable(const plan_job *job, const shot_line *line, const char *
 
 /* Makes the ball of the cue ball 0. */
 static void put_cue_ball_first(shot_line *line) {
+  shot_line_keep(line);
   const int64_t cue = line->cue.ball;
   const carom_shot_ball ball = line->ball[0];
   char *const name = line->name[0];

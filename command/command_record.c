@@ -7,6 +7,7 @@
 #include "rows/number.h"
 #include "shots/shoot_flags.h"
 #include "shots/shot_file.h"
+#include "shots/strokes.h"
 #include "subcommands.h"
 
 #include <errno.h>
@@ -228,7 +229,7 @@ static bool next_line(recording *r, carom_record *game, bool *failed) {
 }
 
 static bool is_shot(const carom_record *game) {
-  return game->pending == 1;
+  return game->pending == CAROM_PENDING_SHOT;
 }
 
 static bool same_bits(double a, double b) {
@@ -274,7 +275,7 @@ int command_replay(int argc, char **argv) {
       if (!is_shot(game))
         continue;
       const carom_status status = carom_record_play(game, (carom_record_kind)game->kind, NULL);
-      if ((failed = game->pending == 1)) {
+      if ((failed = game->pending == CAROM_PENDING_SHOT)) {
         complain("%s:%" PRId64 ": %s", r.path, game->line, carom_status_string(status));
         break;
       }
@@ -467,7 +468,7 @@ static int verify(recording *r, player *p) {
       line = game->line;
       compared = 0;
       const carom_status status = play(p, (carom_record_kind)game->kind);
-      if (game->pending == 1) {
+      if (game->pending == CAROM_PENDING_SHOT) {
         tell_shot(r, game, line);
         printf(" cannot be played: %s\n", carom_status_string(status));
         return EXIT_SOME;

@@ -5,10 +5,12 @@
 #include "pictures/shot_drawings.h"
 #include "program/program.h"
 #include "rows/doubts.h"
+#include "shots/given_shots.h"
 #include "shots/shoot_flags.h"
 #include "shots/shot_fault.h"
 #include "shots/shot_file.h"
 #include "shots/shot_story.h"
+#include "shots/strokes.h"
 #include "subcommands.h"
 
 /* lines in error that are named */
@@ -157,7 +159,7 @@ static void tell_block(shoot_job *job, FILE *out, const played *shots, int count
   FILE *stream = open_text(&words, &size);
   for (int k = 0; k < count; k++) {
     const shoot_flags *flags = &job->flags;
-    const char *name = json_string_value(json_object_get(shots[k].line->json, "id"));
+    const char *name = shots[k].line->title;
     if (flags->shared.with.lists + flags->cue_numbers.lists > 0) /* the title does not say them */
       fprintf(stream, "%d, %s: ", k + 1, text_or(name, ""));
     else if (count > 1)

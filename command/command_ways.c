@@ -14,6 +14,7 @@
 #include "shots/shoot_flags.h"
 #include "shots/shot_fault.h"
 #include "shots/shot_file.h"
+#include "shots/strokes.h"
 #include "subcommands.h"
 
 #include <math.h>

@@ -37,7 +37,7 @@ static verdict judge(carom_record *game, const char *line, size_t size) {
   }
   if (game->kind == CAROM_RECORD_SHOT || game->kind == CAROM_RECORD_CONTINUE) {
     const carom_status played = carom_record_play(game, (carom_record_kind)game->kind, NULL);
-    if (game->pending == 1) { /* nothing was played */
+    if (game->pending == CAROM_PENDING_SHOT) { /* nothing was played */
       printf("rejected: shot %" PRId64 ": %s\n", game->shots, carom_status_string(played));
       return REJECTED;
     }

@@ -572,7 +572,7 @@ public:
   /* Whether the shot of the last line was played, with the bits that were recorded. */
   bool same() const {
     const carom_record_end &is = game_->played, &was = game_->recorded;
-    return game_->pending == 2 && std::memcmp(&is, &was, sizeof is) == 0;
+    return game_->pending == CAROM_PENDING_LINE && std::memcmp(&is, &was, sizeof is) == 0;
   }
 
 private:
@@ -595,7 +595,8 @@ inline bool recording::load(std::string_view lines) {
     size = std::min(lines.find('\n'), lines.size() - 1) + 1;
     if (read(lines.substr(0, size)) < 0)
       return false;
-    if (game_->pending == 1 && (play(static_cast<carom_record_kind>(game_->kind)), !same()))
+    if (game_->pending == CAROM_PENDING_SHOT &&
+        (play(static_cast<carom_record_kind>(game_->kind)), !same()))
       return false;
   }
   return true;

@@ -30,7 +30,7 @@ int main(int count, char **arguments) {
       fprintf(stderr, "%s\n", record.fault);
       return 1;
     }
-    if (record.pending == 1)
+    if (record.pending == CAROM_PENDING_SHOT)
       carom_record_play(&record, (carom_record_kind)record.kind, NULL);
     if (record.played.hash != record.recorded.hash) {
       fprintf(stderr, "shot %" PRId64 " has other bits than were recorded\n", record.shots);

@@ -107,13 +107,11 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
   const char *colon = strchr(pocket, ':'), *name = colon != NULL ? colon + 1 : "";
   char known[NAMES_TEXT] = "", balls[NAMES_TEXT], way_words[AIMED_TEXT], hint[HINT_TEXT];
   char ball[PLACE_NAME];
-  named_table *t = built_in_table(l->table_name, &(json_fault){{0}});
-  carom_pot pot = {.pocket = pocket_named(&l->table, t->pocket, name, known),
+  carom_pot pot = {.pocket = pocket_named(&l->table, l->named->pocket, name, known),
                    .ball =
                        ball_named(l, pocket, colon != NULL ? (size_t)(colon - pocket) : 0, balls)};
   snprintf(ball, sizeof ball, "%.*s", (int)strcspn(pocket, ":"), pocket);
   bool good = false;
-  free_table(t);
   if (l->table.pockets == 0)
     complain("--pocket: the table has no pockets");
   else if (pot.ball < 0 || pot.pocket < 0) {

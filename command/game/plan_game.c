@@ -122,6 +122,7 @@ bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
       numbered.ball[k].state =
           (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
     }
+  shot_line_keep(line);
   memcpy(line->ball, numbered.ball, sizeof numbered.ball);
   memcpy(line->name, numbered.name, sizeof numbered.name);
   line->count = last + 1;

@@ -5,6 +5,8 @@
 
 #include "game/ways.h"
 #include "program/message.h"
+#include "shots/given_shots.h"
+#include "shots/strokes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -47,13 +49,11 @@ static shot_file *strokes_of(const shoot_flags *f, const carom_shot_options *opt
     values_default(&usual.speed, MEASURE_SPEED, "0.5:4:0.1");
   if (f->tip.count == 0)
     option_tip.set(&option_tip, (char[]){TIPS_TO_LEAVE}, &usual.tip);
-  json_t *shots = flags_shots(&usual, options, MOST_ROWS);
-  if (shots == NULL)
-    return NULL;
-  if (json_array_size(shots) > 0)
-    return shot_file_of(shots, SHOTS_GIVEN);
+  shot_file *file = flags_open(&usual, options, MOST_ROWS);
+  if (file == NULL || shot_file_count(file) > 0)
+    return file;
   complain("--leave: none of the speeds and tips that carom tries has such an aim");
-  json_decref(shots);
+  shot_file_close(file);
   return NULL;
 }
 

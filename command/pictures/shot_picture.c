@@ -351,10 +351,8 @@ static double draw_legend(FILE *out, double left, double y, double letters, int 
   const double line = 1.25 * letters;
   double x = 0.0, height = 0.0;
   for (int shot = 0; shot < count && count > 1; shot++) {
-    const json_t *id = json_object_get(shots[shot].line->json, "id");
     char text[80];
-    snprintf(text, sizeof text, "%d: %s", shot + 1,
-             json_is_string(id) ? json_string_value(id) : "shot");
+    snprintf(text, sizeof text, "%d: %s", shot + 1, text_or(shots[shot].line->title, "shot"));
     const double wide = (letter_width * (double)strlen(text) + 4.0) * letters;
     if (height == 0.0 || x + wide > letter_width * letters * columns) {
       height += line;

@@ -37,21 +37,24 @@ static void set_diamonds(const double place[2], value *x, value *y) {
   value_in_unit(MEASURE_PLACE, place[1], "d", y);
 }
 
+rail_name rail_named(const char *text, size_t size) {
+  return (rail_name)word_among(RAILS, text, size);
+}
+
 /* The point of a rail's nose in "left,4d" and what follows; `text` where it is none. */
 static const char *point_of_rail(const char *text, value *x, value *y) {
-  enum { HEAD, FOOT, LEFT, RIGHT };
   static const double noses[][2] = {
-      [HEAD] = {0, 0}, [FOOT] = {0, 8}, [LEFT] = {0, 0}, [RIGHT] = {4, 0}};
+      [RAIL_HEAD] = {0, 0}, [RAIL_FOOT] = {0, 8}, [RAIL_LEFT] = {0, 0}, [RAIL_RIGHT] = {4, 0}};
   char number[PLACE_TEXT];
   const size_t size = strcspn(text, ",");
-  const int rail = word_among(RAILS, text, size);
-  if (text[size] != ',' || rail < 0)
+  const rail_name rail = rail_named(text, size);
+  if (text[size] != ',' || rail == RAIL_NONE)
     return text;
   const char *digits = text + size + 1, *rest = digits + strcspn(digits, ",");
   snprintf(number, sizeof number, "%.*s", (int)(rest - digits), digits);
   set_diamonds(noses[rail], x, y);
   value *along = x;
-  if (rail == LEFT || rail == RIGHT)
+  if (rail == RAIL_LEFT || rail == RAIL_RIGHT)
     along = y;
   if (!value_of(MEASURE_PLACE, number, along))
     return text;
@@ -195,7 +198,7 @@ static bool read_touching(const char *text, given_place *place) {
   if (size == 0 || size >= PLACE_NAME)
     return false;
   snprintf(place->touches, PLACE_NAME, "%.*s", (int)size, text);
-  if (word_among(RAILS, place->touches, size) >= 0)
+  if (rail_named(place->touches, size) != RAIL_NONE)
     return value_of(MEASURE_PLACE, comma + 1, &place->x);
   const char *gap = strchr(comma + 1, ',');
   if (gap == NULL)

@@ -7,6 +7,13 @@
 
 enum { MOST_PLACES = 64 };
 
+/* The rails by their names, with bars between them, in the order of rail_name. */
+#define RAILS "head|foot|left|right"
+typedef enum rail_name { RAIL_NONE = -1, RAIL_HEAD, RAIL_FOOT, RAIL_LEFT, RAIL_RIGHT } rail_name;
+
+/* The rail that the first `size` letters of a text name. */
+rail_name rail_named(const char *text, size_t size);
+
 /* A pair of numbers, with the name that stood before it. Of a ball that touches a rail or another
  * ball, x is how far along the rail, or the direction from that ball, degrees, and y the gap
  * between the balls, m. */

@@ -2,27 +2,27 @@
 #ifndef CAROM_CLI_SHOOT_AIM_H
 #define CAROM_CLI_SHOOT_AIM_H
 
+#include "shots/shot_table.h"
+
 #include "carom_shot.h"
 
 #include <stdbool.h>
 
 enum { PLACE_NAME = 16, AIMED_TEXT = 400 };
-/* The rails, with bars between them. */
-#define RAILS "head|foot|left|right"
 enum { NAMES_TEXT = CAROM_BALLS_MOST * (PLACE_NAME + 1) + 128 };
 
 /* The balls on the table, the cue ball first. */
 typedef struct layout {
   carom_game game;
-  const char *table_name;
-  char sloped[200]; /* the same with the slope of a fit */
+  const named_table *named; /* with the slope of a fit; and the same without the names */
   carom_table table;
   carom_shot_ball ball[CAROM_BALLS_MOST];
   char name[CAROM_BALLS_MOST][PLACE_NAME];
   int count;
-  bool *missed;     /* becomes true where there is no aim, */
-  bool *fell_short; /* and this where the ball comes to rest on its way; */
-  bool quiet;       /* nothing is told of it */
+  uint64_t own_numbers; /* as in a shot_line */
+  bool *missed;         /* becomes true where there is no aim, */
+  bool *fell_short;     /* and this where the ball comes to rest on its way; */
+  bool quiet;           /* nothing is told of it */
 } layout;
 
 /* The ball other than that of the cue with this name, or -1; their names, with bars between. */

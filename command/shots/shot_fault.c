@@ -150,6 +150,6 @@ void shot_numbers(shot_line *line, const shared_options *shared, const char *fil
           json_real(*(const double *)(const void *)((const char *)&with->cue + n->offset)));
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
     if ((with->of_balls >> k & 1) != 0)
-      shot_line_give(line, n,
+      shot_line_give(line, k,
                      *(const double *)(const void *)((const char *)&with->kind + n->offset));
 }

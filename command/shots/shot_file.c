@@ -1,5 +1,10 @@
-/* Tables and shots from JSON Lines. What is missing takes pooltool's defaults; what is wrong is
- * told by its key. */
+/* Tables and shots from JSON Lines, and shots by options. What is missing in a line takes
+ * pooltool's defaults; what is wrong is told by its key.
+ *
+ * The library has a second reader of balls and cues, core/src/record/record.c, because recordings
+ * are another format: the names of members as keys, 0 as default, and exact text with a hash, which
+ * the library reads without a parser of JSON. Both take the numbers of a ball and of a cue from the
+ * rows of core/src/schema/numbers.h: here by carom_number_of(), there by macros. */
 #include "shots/shot_file.h"
 
 #include "program/program.h"
@@ -12,8 +17,9 @@
 enum { FIRST_ROOM = 512 }; /* for events */
 
 struct shot_file {
-  FILE *in;      /* NULL where */
-  json_t *lines; /* they are an array */
+  FILE *in;         /* NULL of shots by options, */
+  shot_line *given; /* which are these: `count` of them, of which `number` have been read */
+  size_t count, given_room;
   const char *path;
   char *text;
   size_t space, number;
@@ -36,7 +42,26 @@ static void keep_table(shot_file *file, named_table *t) {
   file->table[file->tables++] = t;
 }
 
+const named_table *shot_file_table(shot_file *file, const char *name, json_fault *f) {
+  named_table *table = find_table(file, name);
+  if (table != NULL)
+    return table;
+  table = built_in_table(name, f);
+  if (table != NULL)
+    keep_table(file, table);
+  return table;
+}
+
 /* ---- Shots */
+
+uint64_t numbers_that_differ(const carom_ball_kind *a, const carom_ball_kind *b) {
+  const carom_number *n;
+  uint64_t differ = 0;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
+    if (memcmp((const char *)a + n->offset, (const char *)b + n->offset, sizeof(double)) != 0)
+      differ |= (uint64_t)1 << k;
+  return differ;
+}
 
 /* The numbers of a ball by their keys; the bits of `own_numbers` become those that differ from the
  * game's. */
@@ -44,14 +69,10 @@ static bool read_kind(const json_t *params, const char *where, carom_ball_kind *
                       uint64_t *own_numbers, json_fault *f) {
   const carom_ball_kind of_game = *kind;
   char known[JSON_KEYS];
-  const carom_number *n;
   if (!json_get_part(params, where, CAROM_PART_BALL, kind, f) ||
       !json_only(params, where, json_keys_of(CAROM_PART_BALL, "game", known), f))
     return false;
-  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
-    if (memcmp((const char *)kind + n->offset, (const char *)&of_game + n->offset,
-               sizeof(double)) != 0)
-      *own_numbers |= (uint64_t)1 << k;
+  *own_numbers |= numbers_that_differ(kind, &of_game);
   return true;
 }
 
@@ -81,16 +102,21 @@ static bool read_game(shot_file *file, const json_t *params, const char *where,
                     words_of(CAROM_WORDS_GAME, true, (char[MOST_WORDS]){""}));
 }
 
+/* Whether no ball before ball k has its name. */
+static bool has_own_name(const shot_line *line, int k, json_fault *f) {
+  for (int earlier = 0; earlier < k; earlier++)
+    if (same_text(line->name[earlier], line->name[k]))
+      return json_wrong(f, "balls[%d].id '%s' is that of another ball", k, line->name[k]);
+  return true;
+}
+
 /* Ball k of a line; its state is that of `final`, if there is one, which the line then has too. */
 static bool read_ball(shot_file *file, json_t *v, int k, const json_t *final, shot_line *line,
                       json_fault *f) {
   char where[64], key[80];
   snprintf(where, sizeof where, "balls[%d].", k);
-  if (!json_get_id(v, where, &line->name[k], f))
+  if (!json_get_id(v, where, &line->name[k], f) || !has_own_name(line, k, f))
     return false;
-  for (int earlier = 0; earlier < k; earlier++)
-    if (same_text(line->name[earlier], line->name[k]))
-      return json_wrong(f, "%sid '%s' is that of another ball", where, line->name[k]);
   carom_ball_kind *kind = &line->ball[k].kind;
   const json_t *params = json_object_get(v, "params");
   if (params != NULL && !json_is_object(params))
@@ -171,6 +197,8 @@ static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json
   size_t k;
   if (id != NULL)
     line->id = json_dumps(id, JSON_ENCODE_ANY);
+  if (json_is_string(id))
+    line->title = copy_text(json_string_value(id));
   if (table != NULL && !json_is_string(table))
     return json_wrong(f, "table must be the id of a table");
   if (!json_get_list(json, "balls", CAROM_BALLS_MOST, &balls, f))
@@ -187,11 +215,7 @@ static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json
   if (!read_cue(json, line, f))
     return false;
   const char *name = table != NULL ? json_string_value(table) : "pooltool";
-  const named_table *found = find_table(file, name);
-  named_table *built_in = found == NULL ? built_in_table(name, f) : NULL;
-  if (built_in != NULL)
-    keep_table(file, built_in);
-  found = found != NULL ? found : built_in;
+  const named_table *found = shot_file_table(file, name, f);
   char known[MOST_WORDS];
   if (found == NULL && f->text[0] != '\0') {
     const json_fault of_measures = *f;
@@ -219,17 +243,35 @@ shot_file *shot_file_open(const char *path, carom_shot_cushion cushion, layout_m
   return file;
 }
 
-shot_file *shot_file_of(json_t *lines, const char *name) {
+shot_file *shot_file_given(const char *name) {
   shot_file *file = allocate(1, sizeof *file);
-  file->lines = lines;
+  json_use_memory();
   file->path = name;
   return file;
 }
 
+void shot_file_add(shot_file *file, const shot_line *shot) {
+  file->given = grow(file->given, &file->given_room, file->count + 1, sizeof *file->given);
+  file->given[file->count++] = *shot;
+}
+
+void shot_file_clear(shot_file *file) {
+  for (size_t k = file->number; k < file->count; k++)
+    shot_line_free(&file->given[k]);
+  file->count = file->number = 0;
+}
+
+size_t shot_file_count(const shot_file *file) {
+  return file->count;
+}
+
 void shot_file_print(FILE *out, const shot_file *file) {
-  for (size_t k = 0; k < json_array_size(file->lines); k++) {
-    json_write_short(out, json_array_get(file->lines, k));
+  for (size_t k = file->number; k < file->count; k++) {
+    const shot_line *line = &file->given[k];
+    json_t *json = shot_line_of_options(line);
+    json_write_short(out, json);
     putc('\n', out);
+    json_decref(json);
   }
 }
 
@@ -293,13 +335,19 @@ static shot_read take_line(shot_file *file, json_t *json, shot_line *line) {
   return SHOT_END;
 }
 
-/* The next line of the array. */
-static shot_read next_of_array(shot_file *file, shot_line *line) {
-  if (file->number == json_array_size(file->lines))
+/* The next of the shots by options. */
+static shot_read next_given(shot_file *file, shot_line *line) {
+  json_fault f;
+  if (file->number == file->count)
     return SHOT_END;
-  json_t *json = json_incref(json_array_get(file->lines, file->number++));
-  *line = (shot_line){.number = file->number};
-  return take_line(file, json, line);
+  *line = file->given[file->number++];
+  line->number = file->number;
+  for (int k = 0; k < line->count; k++)
+    if (!has_own_name(line, k, &f)) {
+      line->table = NULL;
+      return bad_line(line, f.text);
+    }
+  return SHOT_SHOT;
 }
 
 /* The end of the file, unless it could not be read or is empty. */
@@ -314,8 +362,8 @@ static shot_read end_of(const shot_file *file) {
 }
 
 shot_read shot_file_next(shot_file *file, shot_line *line, const char **text) {
-  if (file->lines != NULL)
-    return next_of_array(file, line);
+  if (file->in == NULL)
+    return next_given(file, line);
   ssize_t size;
   while ((size = getline(&file->text, &file->space, file->in)) >= 0) {
     if (file->number++ == 0 && size >= 3 && memcmp(file->text, "\xEF\xBB\xBF", 3) == 0)
@@ -351,15 +399,25 @@ shot_read shot_file_next_shot(shot_file *file, shot_line *line) {
   return what;
 }
 
-void shot_line_give(shot_line *line, const carom_number *n, double x) {
-  for (int k = 0; k < line->count; k++) {
-    memcpy((char *)&line->ball[k].kind + n->offset, &x, sizeof x);
-    json_t *ball = json_array_get(json_object_get(line->json, "balls"), (size_t)k);
+void shot_line_give(shot_line *line, int k, double x) {
+  const carom_number *n = carom_number_of(CAROM_PART_BALL, k);
+  json_t *balls = json_object_get(line->json, "balls");
+  line->given.of_balls |= (uint64_t)1 << k;
+  line->given.of_cue_ball |= (uint64_t)1 << k;
+  for (int i = 0; i < line->count; i++)
+    memcpy((char *)&line->ball[i].kind + n->offset, &x, sizeof x);
+  for (size_t i = 0; i < json_array_size(balls); i++) {
+    json_t *ball = json_array_get(balls, i);
     json_t *params = json_object_get(ball, "params");
     if (params == NULL)
       json_object_set_new(ball, "params", params = json_object());
     json_object_set_new(params, n->key, json_real(x));
   }
+}
+
+void shot_line_keep(shot_line *line) {
+  if (line->json == NULL && line->given.by_options)
+    line->json = shot_line_of_options(line);
 }
 
 /* Once more, with room for all, where the events are more than there was room for. */
@@ -379,6 +437,7 @@ void shot_line_free(shot_line *line) {
   for (int k = 0; k < CAROM_BALLS_MOST; k++)
     free(line->name[k]);
   free(line->id);
+  free(line->title);
   free(line->error);
   json_decref(line->json);
   *line = (shot_line){0};
@@ -391,6 +450,7 @@ void shot_file_close(shot_file *file) {
   free(file->text);
   if (file->in != NULL && file->in != stdin)
     fclose(file->in);
-  json_decref(file->lines);
+  shot_file_clear(file);
+  free(file->given);
   free(file);
 }

@@ -17,10 +17,19 @@ static inline bool is_out_of_play(const carom_ball_state *state) {
   return state->label == CAROM_BALL_POCKETED || state->label == CAROM_BALL_OFF;
 }
 
-/* A shot as it was read. */
+/* Which numbers the options of a shot gave, which its line of JSON has to say: bit k is number k.
+ * */
+typedef struct given_keys {
+  bool by_options; /* false: of a file, all else is 0 */
+  carom_game game;
+  uint64_t of_balls, of_cue_ball, of_cue;
+} given_keys;
+
+/* A shot, of a line of a file or by options. */
 typedef struct shot_line {
-  size_t number;            /* of the line, from 1 */
+  size_t number;            /* of the line, or of the shot by options, from 1 */
   char *id;                 /* as JSON text, or NULL where there is none */
+  char *title;              /* the id where it is a text; else NULL */
   const named_table *table; /* NULL where the line is in error */
   int count;
   carom_shot_ball ball[CAROM_BALLS_MOST];
@@ -28,7 +37,8 @@ typedef struct shot_line {
   carom_cue cue;
   uint64_t own_numbers; /* numbers of balls that are not those of the game: bit k is number k */
   char *error;          /* what is wrong with the line, or NULL */
-  json_t *json;         /* the line; NULL where it is no JSON */
+  json_t *json;         /* the line; NULL where it is no JSON, and of a shot by options */
+  given_keys given;     /* of a shot by options */
 } shot_line;
 
 typedef struct shot_file shot_file;
@@ -42,15 +52,25 @@ typedef enum layout_moment { LAYOUT_DEFAULT, LAYOUT_START, LAYOUT_FINAL } layout
  * Complains and returns NULL if that fails. */
 shot_file *shot_file_open(const char *path, carom_shot_cushion cushion, layout_moment moment);
 
-/* Shots that are no file but an array of lines of JSON, which it takes over; `name` is for
- * messages. */
-shot_file *shot_file_of(json_t *lines, const char *name);
-
-/* Writes those lines, with the shortest numbers. */
+/* Shots by options, none yet, that are read as those of a file; `name` is for messages. */
+shot_file *shot_file_given(const char *name);
+/* Adds a shot, which the file takes over; drops all; and tells how many there are. */
+void shot_file_add(shot_file *file, const shot_line *shot);
+void shot_file_clear(shot_file *file);
+size_t shot_file_count(const shot_file *file);
+/* Writes those that have not been read, as the lines that a file would have, with the shortest
+ * numbers. */
 void shot_file_print(FILE *out, const shot_file *file);
+
+/* The table of this name: one of the lines so far, or one that is built in, which the file keeps.
+ * NULL where there is none, with the reason in *f, or "" if none of that name is built in. */
+const named_table *shot_file_table(shot_file *file, const char *name, json_fault *f);
 
 /* The balls of a game for a model of the cushion; tells once where the game has none for it. */
 void kind_of_game(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind);
+
+/* The numbers in which two kinds of balls differ: bit k is number k. */
+uint64_t numbers_that_differ(const carom_ball_kind *a, const carom_ball_kind *b);
 
 /* The name of the file for messages. */
 const char *shot_file_name(const shot_file *file);
@@ -65,8 +85,13 @@ shot_read shot_file_next(shot_file *file, shot_line *line, const char **text);
 /* Reads on to the next shot, over tables. */
 shot_read shot_file_next_shot(shot_file *file, shot_line *line);
 
-/* Gives all balls a number besides those that were read; the line says so where it is written. */
-void shot_line_give(shot_line *line, const carom_number *number, double x);
+/* Gives all balls their number `k`, besides those that were read; the line says so where it is
+ * written. */
+void shot_line_give(shot_line *line, int k, double x);
+
+/* Keeps what the line of a shot has where it is written, before a subcommand adds balls or changes
+ * their order. */
+void shot_line_keep(shot_line *line);
 
 /* Plays a shot that was read without error; shot->events, all of them, are to be freed. */
 carom_status shot_line_play(const shot_line *line, const carom_shot_options *options,
@@ -86,6 +111,13 @@ int shot_event_side(const carom_event *event, int ball);
 const char *shot_part_name(const named_table *table, const carom_event *event);
 
 enum { EVENTS_NONE, EVENTS_BRIEF, EVENTS_FULL };
+
+/* What the line of a shot has under a key: as it was read, or as options gave it; NULL where it has
+ * no such key. */
+json_t *shot_line_value(const shot_line *line, const char *key);
+
+/* The line that a file would have of a shot by options. */
+json_t *shot_line_of_options(const shot_line *line);
 
 /* A line of a shot: its head, to which results may be added. Takes over the parts, and leaves out
  * those that are NULL. */

@@ -420,15 +420,14 @@ void story_rows(FILE *out, int number, const shot_line *line, const carom_shot *
   static const char *const what[] = {"leaves", "meets",  "rail",  "jaw", "rolls", "flies",
                                      "lands",  "passes", "falls", "off", "rests", "moves"};
   static story s;
-  const json_t *id = json_object_get(line->json, "id");
   for (int ball = 0; ball < line->count; ball++) {
     if (!ball_moved(shot, ball))
       continue;
     story_of(line, shot, ball, &s);
     for (int k = 0; k < s.count; k++) {
       char text[WHERE_TEXT];
-      fprintf(out, "%d,\"%s\",%s,%s,%s", number, json_is_string(id) ? json_string_value(id) : "",
-              line->name[ball], what[s.moment[k].kind], with_words(line, &s.moment[k], text));
+      fprintf(out, "%d,\"%s\",%s,%s,%s", number, text_or(line->title, ""), line->name[ball],
+              what[s.moment[k].kind], with_words(line, &s.moment[k], text));
       write_moment(out, &s.moment[k]);
     }
   }

@@ -113,17 +113,75 @@ json_t *shot_json(json_t *id, json_t *family, const char *table, json_t *cue, js
   return line;
 }
 
-/* What was read, as it was read; NULL where the line has no such key. */
-static json_t *line_value(const shot_line *line, const char *key) {
-  return json_incref(json_object_get(line->json, key));
+/* ---- What the lines of shots by options say */
+
+/* The numbers of a cue by their keys: the stroke, and what is given or not 0 besides. */
+static json_t *cue_of_options(const shot_line *line) {
+  const carom_number *n;
+  json_t *object = json_object();
+  for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
+    double x = 0.0;
+    if (n->key[0] != '\0')
+      memcpy(&x, (const char *)&line->cue + n->offset, sizeof x);
+    const bool of_stroke = n->offset <= (int32_t)offsetof(carom_cue, b);
+    if (x != 0.0 || (line->given.of_cue >> k & 1) != 0 || of_stroke)
+      json_object_set_new(object, n->key, json_short(x + 0.0));
+  }
+  json_object_set_new(object, "ball", json_string(line->name[line->cue.ball]));
+  return object;
+}
+
+/* A ball at rest, with the numbers that are given. */
+static json_t *ball_of_options(const shot_line *line, int k) {
+  enum { LABEL, X, Y, Z, NUMBERS = 10 };
+  const double *r = line->ball[k].state.r;
+  const double state[NUMBERS] = {[X] = r[0], [Y] = r[1], [Z] = r[2]};
+  const given_keys *given = &line->given;
+  const uint64_t set = k == line->cue.ball ? given->of_cue_ball : given->of_balls;
+  const carom_number *n;
+  json_t *params = json_pack("{s: s}", "game", carom_word(CAROM_WORDS_GAME, (int)given->game)),
+         *numbers = json_array();
+  for (int number = 0; (n = carom_number_of(CAROM_PART_BALL, number)) != NULL; number++) {
+    double x;
+    memcpy(&x, (const char *)&line->ball[k].kind + n->offset, sizeof x);
+    if ((set >> number & 1) != 0)
+      json_object_set_new(params, n->key, json_short(x));
+  }
+  for (int number = LABEL; number < NUMBERS; number++)
+    json_array_append_new(numbers, json_short(state[number]));
+  return json_pack("{s: s, s: o, s: o}", "id", line->name[k], "params", params, "state", numbers);
+}
+
+static json_t *balls_of_options(const shot_line *line) {
+  json_t *balls = json_array();
+  for (int k = 0; k < line->count; k++)
+    json_array_append_new(balls, ball_of_options(line, k));
+  return balls;
+}
+
+json_t *shot_line_value(const shot_line *line, const char *key) {
+  if (line->json != NULL || !line->given.by_options)
+    return json_incref(json_object_get(line->json, key));
+  if (strcmp(key, "id") == 0)
+    return json_string(line->title);
+  if (strcmp(key, "cue") == 0)
+    return cue_of_options(line);
+  if (strcmp(key, "balls") == 0)
+    return balls_of_options(line);
+  return NULL;
+}
+
+json_t *shot_line_of_options(const shot_line *line) {
+  return shot_json(shot_line_value(line, "id"), NULL, line->table->id, shot_line_value(line, "cue"),
+                   shot_line_value(line, "balls"));
 }
 
 json_t *shot_line_json(const shot_line *line, json_t *id, const carom_cue *cue) {
   /* the numbers of the stroke, of which a < 0 is right in the file */
-  json_t *stroke = json_object();
-  const json_t *line_cue = json_object_get(line->json, "cue");
+  json_t *stroke = json_object(), *line_cue = shot_line_value(line, "cue");
   if (line_cue != NULL)
-    json_object_update(stroke, (json_t *)line_cue);
+    json_object_update(stroke, line_cue);
+  json_decref(line_cue);
   const carom_number *n;
   for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
     double x = 0.0;
@@ -134,7 +192,8 @@ json_t *shot_line_json(const shot_line *line, json_t *id, const carom_cue *cue) 
   }
 
   /* the balls in the order of the file, which a subcommand may have changed in its copy */
-  json_t *balls = json_deep_copy(json_object_get(line->json, "balls")), *ball;
+  json_t *line_balls = shot_line_value(line, "balls"), *balls = json_deep_copy(line_balls), *ball;
+  json_decref(line_balls);
   size_t place;
   json_array_foreach(balls, place, ball) {
     char *ball_id;
@@ -156,8 +215,9 @@ void shot_json_write(FILE *out, json_t *line) {
 
 void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status,
                 int events, json_t *spread) {
-  json_t *object = shot_json(line_value(line, "id"), line_value(line, "family"), line->table->id,
-                             line_value(line, "cue"), line_value(line, "balls"));
+  json_t *object =
+      shot_json(shot_line_value(line, "id"), shot_line_value(line, "family"), line->table->id,
+                shot_line_value(line, "cue"), shot_line_value(line, "balls"));
   /* What happened. */
   json_object_set_new(object, "n_events", json_integer(shot->count + 2));
   if (events != EVENTS_NONE) {
@@ -183,7 +243,7 @@ void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_
 }
 
 void shot_write_error(FILE *out, const shot_line *line, const char *status, const char *error) {
-  json_t *object = shot_json(line_value(line, "id"), NULL, NULL, NULL, NULL);
+  json_t *object = shot_json(shot_line_value(line, "id"), NULL, NULL, NULL, NULL);
   json_object_set_new(object, "status", json_string(status));
   json_object_set_new(object, "error", json_string(error));
   shot_json_write(out, object);

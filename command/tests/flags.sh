@@ -43,6 +43,11 @@ print("tips:", [round(speed * 1.73 / speeds[0], 2) for speed in speeds])
 [(given, _)] = shots("--cue", "0.6,0.8")
 assert {key: given["cue"][key] for key in ("V0", "phi", "theta", "a", "b")} == {"V0": 2, "phi": 90, "theta": 0, "a": 0, "b": 0.25}
 print("cuts are what was asked for:", worst < 1e-6)
+# Options and the line that they make are one shot, with the constants of every model of the cushion.
+for model in ("han", "mathavan", "smooth"):
+    asked = ("--cue", "0.5,0.5", "--aim", "60", "--speed", "3", "--with", "mass=170g", "--cue-ball", "radius=29mm")
+    by_options = run(*asked, "--cushion", model, "--events", "full")
+    assert by_options == run("--cushion", model, "-", input=run(*asked, "--json")), model
 same = lambda a, b: run(*a, "--json") == run(*b, "--json")
 print("units:", same(["--cue", "1,2ft"], ["--cue", "0.3048,0.6096"]), same(["--speed", "3.6km/h"], ["--speed", 1]), same(["--tip", "1,0tip"], ["--tip", f"{0.013 / R!r},0"]), same(["--speed", "15ft/s"], ["--speed", 15 * 0.3048]), same(["--tip", "12mm,1.5tips"], ["--tip", f"{0.012 / R!r},{1.5 * 0.013 / R!r}"]),
       same(["--with", "mass=6oz,radius=34mm,end_mass=4g,tip_time=2ms"], ["--with", f"mass={6 * 0.028349523125!r},radius=0.034,end_mass=0.004,tip_time=0.002"]), same(["--table", "12ft"], ["--table", "snooker"]), same(["--table", "10ft,width=4ft"], ["--table", "threecushion,width=4ft"]))

@@ -48,6 +48,13 @@ typedef enum carom_record_kind {
   CAROM_RECORD_SET = 14    /* "set", of a match: the set that it belongs to */
 } carom_record_kind;
 
+/* What the last shot of a recording waits for. */
+typedef enum carom_record_pending {
+  CAROM_PENDING_NONE = 0, /* nothing: it was played and written, or there was no shot */
+  CAROM_PENDING_SHOT = 1, /* its line was read: carom_record_play() plays it before the next line */
+  CAROM_PENDING_LINE = 2  /* it was played: carom_record_write() may write its line */
+} carom_record_pending;
+
 /* The bytes that any line fits into, even that of 32 balls that have nothing in common. */
 enum { CAROM_RECORD_TEXT = 65536 };
 
@@ -197,7 +204,7 @@ typedef struct carom_record {
   carom_record_end played;   /* how the shot that was played ended. */
   carom_event event;         /* the event of the last line that had one. */
   int64_t before, after;     /* for how many balls `event` has states: 0, 1 or 2. */
-  int64_t pending;           /* 1: the shot of the last line has not been played yet. */
+  int64_t pending;           /* a carom_record_pending. */
   int64_t moved;             /* 1: final[] has not been put into balls[] yet. */
   carom_facts facts;         /* facts of the last shot. */
   carom_shot_state state;    /* where the last shot was stopped. */

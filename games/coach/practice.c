@@ -10,6 +10,7 @@
  * have the mean 0 for a player with these errors. */
 #include "carom_coach.h"
 #include "coach.h"
+#include "player.h"
 #include "rules.h"
 
 #include <math.h>

@@ -14,6 +14,7 @@
  * which each stroke is planned anew. */
 #include "carom_coach.h"
 #include "coach.h"
+#include "draws.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
 #include "rules.h"

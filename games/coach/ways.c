@@ -5,8 +5,10 @@
  * degrees. */
 #include "carom_coach.h"
 #include "coach.h"
+#include "draws.h"
 #include "eye.h"
 #include "platform/ranges.h"
+#include "player.h"
 #include "pot_kind.h"
 #include "view.h"
 

@@ -7,6 +7,7 @@
  * so the costs add up to that of all. */
 #include "carom_coach.h"
 #include "coach.h"
+#include "draws.h"
 #include "goals.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
@@ -60,62 +61,62 @@ static carom_status place_choice(const carom_plan_job *job, const carom_plan_str
 static carom_status prepare_choice(const carom_plan_job *job, const carom_plan_stroke *choice,
                                    carom_search **prepared) {
   carom_plan_job placed;
-  carom_search *plan = job->memory;
-  carom_status status = place_choice(job, choice, plan->hand, &placed);
+  carom_search *search = job->memory;
+  carom_status status = place_choice(job, choice, search->hand, &placed);
   if (status != CAROM_OK)
     return status;
-  status = carom_search_prepare(&placed, false, 1, &plan);
+  status = carom_search_prepare(&placed, false, 1, &search);
   if (status != CAROM_OK)
     return status;
 
   /* it is played to its end, however the plan would be stopped */
-  plan->options.stop = NULL;
-  plan->seconds = 0.0;
-  plan->count = 1;
-  plan->found[0] = (carom_candidate){.r = {choice->place[0], choice->place[1]},
-                                     .speed = choice->cue.speed,
-                                     .phi = choice->cue.phi,
-                                     .theta = choice->cue.theta,
-                                     .a = choice->cue.a,
-                                     .b = choice->cue.b,
-                                     .kind = CAROM_PLAN_GIVEN,
-                                     .ball = (int16_t)choice->ball,
-                                     .pocket = (int16_t)choice->pocket};
+  search->options.stop = NULL;
+  search->seconds = 0.0;
+  search->count = 1;
+  search->found[0] = (carom_candidate){.r = {choice->place[0], choice->place[1]},
+                                       .speed = choice->cue.speed,
+                                       .phi = choice->cue.phi,
+                                       .theta = choice->cue.theta,
+                                       .a = choice->cue.a,
+                                       .b = choice->cue.b,
+                                       .kind = CAROM_PLAN_GIVEN,
+                                       .ball = (int16_t)choice->ball,
+                                       .pocket = (int16_t)choice->pocket};
   if (choice->kind == CAROM_PLAN_PUSH)
-    plan->found[0].kind = CAROM_PLAN_PUSH;
-  plan->found[0].leave[0] = (float)choice->leave[0];
-  plan->found[0].leave_worth = (float)choice->value;
-  *prepared = plan;
+    search->found[0].kind = CAROM_PLAN_PUSH;
+  search->found[0].leave[0] = (float)choice->leave[0];
+  search->found[0].leave_worth = (float)choice->value;
+  *prepared = search;
   return CAROM_OK;
 }
 
 static void play_choice(void *context, carom_crew *crew) {
-  carom_search *plan = context;
-  plan->crew = crew;
-  carom_search_play(plan);
+  carom_search *search = context;
+  search->crew = crew;
+  carom_search_play(search);
 }
 
 /* Plays the choice with some errors of the player, a set of carom_why_error. All sets have the same
  * luck. Without errors one stroke tells all where the table is known. */
-static carom_tally repeat(carom_search *plan, uint32_t errors) {
-  const carom_player player = plan->player;
+static carom_tally repeat(carom_search *search, uint32_t errors) {
+  const carom_player player = search->player;
   int64_t strokes = CAROM_WHY_STROKES;
   if (!(errors >> CAROM_WHY_AIM & 1))
-    plan->player.phi = plan->player.theta = 0.0;
+    search->player.phi = search->player.theta = 0.0;
   if (!(errors >> CAROM_WHY_SPEED & 1))
-    plan->player.speed = plan->player.speed_share = 0.0;
+    search->player.speed = search->player.speed_share = 0.0;
   if (!(errors >> CAROM_WHY_TIP & 1))
-    plan->player.a = plan->player.b = 0.0;
+    search->player.a = search->player.b = 0.0;
   if (!(errors >> CAROM_WHY_EYE & 1))
-    plan->player.eye = 0.0;
-  if (errors == 0 && plan->drawn == NULL)
+    search->player.eye = 0.0;
+  if (errors == 0 && search->drawn == NULL)
     strokes = 1;
-  carom_search_stage(plan, 0, 1, strokes, DRAW_REASONS);
-  plan->found[0].fresh = (carom_tally){0};
-  carom_search_with_crew(plan, play_choice);
-  carom_search_replayed(plan);
-  plan->player = player;
-  return plan->found[0].fresh;
+  carom_search_stage(search, 0, 1, strokes, DRAW_REASONS);
+  search->found[0].fresh = (carom_tally){0};
+  carom_search_with_crew(search, play_choice);
+  carom_search_replayed(search);
+  search->player = player;
+  return search->found[0].fresh;
 }
 
 static double mean_of(const carom_tally *tally) {
@@ -169,8 +170,8 @@ static void find_aim(const carom_plan_job *job, const carom_cue *cue, const caro
 
 /* What strokes with errors come to. Returns the row of the one that passes the turn and leaves what
  * those that do leave on average; -1: none does. */
-static int64_t find_chances(carom_search *plan, carom_why *why) {
-  const carom_tally all = repeat(plan, ALL_ERRORS);
+static int64_t find_chances(carom_search *search, carom_why *why) {
+  const carom_tally all = repeat(search, ALL_ERRORS);
   const double n = (double)all.seen;
   why->strokes = all.seen;
   why->value = mean_of(&all);
@@ -178,29 +179,29 @@ static int64_t find_chances(carom_search *plan, carom_why *why) {
   int64_t passes = 0, typical = -1;
   double sum = 0.0;
   for (int64_t k = 0; k < all.seen; k++) {
-    if (plan->outcome[k].turn != CAROM_TURN_PASS)
+    if (search->outcome[k].turn != CAROM_TURN_PASS)
       continue;
-    sum += plan->outcome[k].worth;
+    sum += search->outcome[k].worth;
     passes++;
   }
   why->misses = (double)passes / n;
   why->opponent = (double)NAN;
-  if (passes > 0 && plan->job.rules->race != CAROM_RACE_ALONE && !carom_has_goal(&plan->job))
+  if (passes > 0 && search->job.rules->race != CAROM_RACE_ALONE && !carom_has_goal(&search->job))
     why->opponent = 1.0 - sum / (double)passes;
 
   const double mean = sum / (double)carom_max(passes, 1);
   for (int64_t k = 0; k < all.seen; k++) {
-    const double off = fabs(plan->outcome[k].worth - mean);
-    const bool passed = plan->outcome[k].turn == CAROM_TURN_PASS;
-    if (passed && (typical < 0 || off < fabs(plan->outcome[typical].worth - mean)))
+    const double off = fabs(search->outcome[k].worth - mean);
+    const bool passed = search->outcome[k].turn == CAROM_TURN_PASS;
+    if (passed && (typical < 0 || off < fabs(search->outcome[typical].worth - mean)))
       typical = k;
   }
   return typical;
 }
 
 /* What the errors cost, added in one order and in the reverse one. */
-static void find_costs(carom_search *plan, carom_why *why) {
-  const carom_tally none = repeat(plan, 0);
+static void find_costs(carom_search *search, carom_why *why) {
+  const carom_tally none = repeat(search, 0);
   why->flawless_value = mean_of(&none);
   memset(why->cost, 0, sizeof why->cost);
   for (int order = 0; order < 2; order++) {
@@ -211,7 +212,7 @@ static void find_costs(carom_search *plan, carom_why *why) {
       errors |= UINT32_C(1) << added;
       double worth = why->value;
       if (errors != ALL_ERRORS) {
-        const carom_tally some = repeat(plan, errors);
+        const carom_tally some = repeat(search, errors);
         worth = mean_of(&some);
       }
       why->cost[added] += 0.5 * (before - worth);
@@ -235,20 +236,20 @@ carom_status carom_why_of(const carom_plan_job *job, const carom_plan_stroke *ch
     return CAROM_ERROR_BALLS;
   if (choice->kind == CAROM_PLAN_PASS)
     return CAROM_ERROR_OPTIONS;
-  carom_search *plan;
-  carom_status status = prepare_choice(job, choice, &plan);
+  carom_search *search;
+  carom_status status = prepare_choice(job, choice, &search);
   if (status != CAROM_OK)
     return status;
 
   /* a stroke that is not meant to pot leaves what it mostly does, even if it pots without errors */
-  const int64_t typical = find_chances(plan, why);
+  const int64_t typical = find_chances(search, why);
   carom_cue stroke = choice->cue;
   why->leave = (double)NAN;
   if (typical >= 0 && !carom_names_ball(choice)) {
-    stroke = carom_search_stroke(plan, &plan->found[0], DRAW_REASONS, typical);
-    why->leave = plan->outcome[typical].worth;
+    stroke = carom_search_stroke(search, &search->found[0], DRAW_REASONS, typical);
+    why->leave = search->outcome[typical].worth;
   }
-  find_costs(plan, why);
+  find_costs(search, why);
   if (isnan(why->leave))
     why->leave = why->flawless_value;
   if (carom_has_goal(job))
@@ -275,11 +276,11 @@ carom_status carom_why_of(const carom_plan_job *job, const carom_plan_stroke *ch
 
 /* Gives a choice the chances of strokes that are played anew. */
 static carom_status replay(const carom_plan_job *job, carom_plan_stroke *choice) {
-  carom_search *plan;
-  const carom_status status = prepare_choice(job, choice, &plan);
+  carom_search *search;
+  const carom_status status = prepare_choice(job, choice, &search);
   if (status != CAROM_OK)
     return status;
-  const carom_tally all = repeat(plan, ALL_ERRORS);
+  const carom_tally all = repeat(search, ALL_ERRORS);
   const double n = (double)all.seen, mean = mean_of(&all);
   choice->value = mean;
   choice->error = sqrt(fmax(all.squares / n - mean * mean, 0.0) / (n - 1.0));

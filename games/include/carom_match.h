@@ -246,11 +246,11 @@ CAROM_API carom_status carom_match_place(carom_match *match, int player, double 
  * the ball is the one that is met first. */
 CAROM_API carom_status carom_match_call(carom_match *match, int player, carom_call call);
 
-/* The acts that a choice of a plan asks for before its stroke: places a cue ball in hand, pushes
- * out and calls. The choice PASS passes, and no stroke follows. match->text has the lines of all
- * these acts; if one is refused, those of the acts before it, which stand. */
+/* The acts that a stroke of a plan requires before it is played: places a cue ball in hand, pushes
+ * out and calls. A stroke of the kind CAROM_PLAN_PASS passes, and no stroke follows. match->text
+ * has the lines of all these acts; if one is refused, those of the acts before it, which remain. */
 CAROM_API carom_status carom_match_prepare(carom_match *match, int player,
-                                           const carom_plan_stroke *choice);
+                                           const carom_plan_stroke *stroke);
 
 /* Plays a stroke of match->cue_ball, and rules. `stop` says when to stop the shot, by time_most,
  * stop_at, first_of and events_most, and may be NULL: at its end. `shot` may be NULL; else events,

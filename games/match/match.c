@@ -596,9 +596,9 @@ static carom_status play(carom_match *match, carom_record_kind kind, const carom
   const int64_t pending = record->pending;
   record->cue = *cue;
   set_stops(&record->options, stop);
-  record->pending = 0;
+  record->pending = CAROM_PENDING_NONE;
   const carom_status status = carom_record_play(record, kind, shot);
-  if (record->pending != 2) {
+  if (record->pending != CAROM_PENDING_LINE) {
     record->facts = facts;
     record->options = options;
     record->cue = last;
@@ -818,25 +818,25 @@ carom_status carom_match_choose(carom_match *match, int player, carom_choice cho
 }
 
 /* The acts before the stroke, up to one that is refused. */
-static carom_status prepare(carom_match *match, int player, const carom_plan_stroke *choice) {
-  if (choice->kind == CAROM_PLAN_PASS)
+static carom_status prepare(carom_match *match, int player, const carom_plan_stroke *stroke) {
+  if (stroke->kind == CAROM_PLAN_PASS)
     return take_choice(match, player, CAROM_CHOICE_PASS);
   carom_status status = check_turn(match, player, "prepare");
   if (status == CAROM_OK && match->phase == CAROM_MATCH_PLACE)
-    status = place_cue_ball(match, player, choice->place[0], choice->place[1]);
-  if (status == CAROM_OK && choice->kind == CAROM_PLAN_PUSH)
+    status = place_cue_ball(match, player, stroke->place[0], stroke->place[1]);
+  if (status == CAROM_OK && stroke->kind == CAROM_PLAN_PUSH)
     status = take_choice(match, player, CAROM_CHOICE_PUSH);
-  const bool calls = match->rules.calls != 0 && choice->ball >= 0 && choice->pocket >= 0;
+  const bool calls = match->rules.calls != 0 && stroke->ball >= 0 && stroke->pocket >= 0;
   if (status != CAROM_OK || !calls)
     return status;
-  return call_pocket(match, player, (carom_call){choice->ball, choice->pocket});
+  return call_pocket(match, player, (carom_call){stroke->ball, stroke->pocket});
 }
 
-carom_status carom_match_prepare(carom_match *match, int player, const carom_plan_stroke *choice) {
-  if (match == NULL || choice == NULL)
+carom_status carom_match_prepare(carom_match *match, int player, const carom_plan_stroke *stroke) {
+  if (match == NULL || stroke == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
-  return prepare(match, player, choice);
+  return prepare(match, player, stroke);
 }
 
 /* ---- Concessions, clocks, the end */

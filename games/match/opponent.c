@@ -7,8 +7,10 @@
  * opponent has the mean of ln e behind the strokes. It is a sum over errors in steps of sqrt(2). */
 #include "match.h"
 #include "platform/elementary.h"
+#include "player.h"
 #include "rules.h"
 #include "seats.h"
+#include "view.h"
 
 #include <math.h>
 

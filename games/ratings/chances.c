@@ -1,10 +1,9 @@
-/* Chances that a player keeps his turn, by the numbers of games.h, which were fitted to
+/* Chances that a player keeps his turn, by the numbers of learned.h, which were fitted to
  * racks that were played: p that he does so now, by a pot of any kind, a_n that he pots a later
  * ball of this visit where n are left, and e_n that he keeps the turn that the other has left him.
  * All are 1 / (1 + exp(-w x)), with x as carom_plan_features() has it. */
-#include "games.h"
+#include "learned.h"
 #include "platform/elementary.h"
-#include "view.h"
 
 #include <math.h>
 #include <string.h>

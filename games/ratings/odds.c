@@ -11,7 +11,7 @@
 #include "carom_coach.h"
 #include "carom_match.h"
 #include "platform/elementary.h"
-#include "view.h"
+#include "small_math.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,9 @@
 /* Players: how their strokes differ from those that they mean. */
+#include "player.h"
+#include "draws.h"
 #include "platform/elementary.h"
 #include "shot/shot.h"
-#include "view.h"
+#include "small_math.h"
 
 #include <math.h>
 
@@ -27,8 +29,10 @@ carom_player carom_player_of(double scale) {
 
 /* The numbers of players by rating, in steps of 100 from 200. Between them shots and the share are
  * linear, and the error of aim is exponential, which also goes on beyond the ends where a game has
- * greater steps. docs/understanding/plan.md has the games of which they come. */
-carom_player carom_player_stepped(double rating, const double steps[2]) {
+ * greater steps: a difference of 100 points in the game is one of steps[0] points of
+ * carom_player_fargo() below a rating of 500, and of steps[1] above it. docs/understanding/plan.md
+ * has the games of which they come. */
+static carom_player player_stepped(double rating, const double steps[2]) {
   /* the error of aim of a stroke of 2 m/s, degrees; shots; the share of strokes that only pot */
   static const double at_rating[][3] = {
       {0.978, 146.0, 1.0},  {0.621, 163.0, 0.97}, {0.394, 183.0, 0.92}, {0.25, 205.0, 0.79},
@@ -53,7 +57,31 @@ carom_player carom_player_stepped(double rating, const double steps[2]) {
 
 carom_player carom_player_fargo(double rating) {
   static const double steps[2] = {100.0, 100.0};
-  return carom_player_stepped(rating, steps);
+  return player_stepped(rating, steps);
+}
+
+/* By how many points of carom_player_fargo() players differ who differ by 100 points in a game:
+ * below a rating of 500, and above it. With these, 100 points are odds of 2 to 1 in the unit of
+ * the comment, as `carom-lab plan --rules GAME --players A,B` shows; with twice as many points
+ * they would be odds of about 4 to 1. Games without a row have those of eight-ball. */
+static const double rating_steps[][2] = {
+    [CAROM_RULES_EIGHTBALL] = {70.0, 95.0},    /* a rack */
+    [CAROM_RULES_NINEBALL] = {118.0, 110.0},   /* a rack */
+    [CAROM_RULES_TENBALL] = {108.0, 88.0},     /* a rack */
+    [CAROM_RULES_ROTATION] = {68.0, 78.0},     /* a rack */
+    [CAROM_RULES_ONEPOCKET] = {60.0, 53.0},    /* a rack */
+    [CAROM_RULES_BANK] = {48.0, 34.0},         /* a rack */
+    [CAROM_RULES_STRAIGHT] = {52.0, 52.0},     /* 15 points, about a rack */
+    [CAROM_RULES_SNOOKER] = {47.0, 47.0},      /* a frame */
+    [CAROM_RULES_THREECUSHION] = {36.0, 36.0}, /* 15 points */
+};
+
+carom_player carom_player_rated(double rating, carom_rules_kind kind) {
+  const size_t rows = sizeof rating_steps / sizeof *rating_steps;
+  const double *steps = rating_steps[CAROM_RULES_EIGHTBALL];
+  if ((size_t)kind < rows && rating_steps[kind][0] > 0.0)
+    steps = rating_steps[kind];
+  return player_stepped(rating, steps);
 }
 
 double carom_player_growth(const carom_player *player, double speed) {

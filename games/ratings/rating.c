@@ -6,10 +6,11 @@
  * l' falls, so l has one maximum m. The density is integrated by Simpson's rule in cells between
  * the points where l = l(m) - 40, or the ends of the scale: any number of games has as many cells
  * where its density is. */
+#include "carom_plan.h"
 #include "platform/elementary.h"
-#include "view.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 enum { CELLS = 1024 };
 static const double LEAST = 200.0, MOST = 850.0, LN2 = 0x1.62e42fefa39efp-1;

@@ -16,6 +16,7 @@
  * log-odds of these values were to be stretched by a number for each game. */
 #include "platform/elementary.h"
 #include "platform/promise.h"
+#include "player.h"
 #include "view.h"
 
 #include <math.h>

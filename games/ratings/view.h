@@ -1,54 +1,14 @@
-/* What the parts of this room share: the table as a player sees it, values of layouts, and
- * draws. */
+/* The table as a player sees it, the chances of pots, and the values of layouts. */
 #ifndef CAROM_PLAN_VIEW_H
 #define CAROM_PLAN_VIEW_H
 
 #include "carom_plan.h"
-#include "platform/arithmetic.h"
+#include "small_math.h"
 
 #include <stdbool.h>
 
-static const double pi = 3.14159265358979323846, degree = 3.14159265358979323846 / 180.0;
-
 /* s: contacts with one rail that follow so soon are one, as a hop along it. */
 static const double carom_same_contact = 0.1;
-
-static inline double carom_within(double x, double least, double most) {
-  if (x < least)
-    return least;
-  if (x > most)
-    return most;
-  return x;
-}
-
-/* An angle of less than three half turns, as one of at most half a turn. */
-static inline double carom_wrapped(double angle) {
-  if (angle > pi)
-    return angle - 2.0 * pi;
-  if (angle < -pi)
-    return angle + 2.0 * pi;
-  return angle;
-}
-
-/* A direction, degrees, of -360 to below 720 as one of 0 to below 360. */
-static inline double carom_turned(double phi) {
-  if (phi < 0.0)
-    return phi + 360.0;
-  if (phi >= 360.0)
-    return phi - 360.0;
-  return phi;
-}
-
-static inline int64_t carom_min(int64_t a, int64_t b) {
-  if (a < b)
-    return a;
-  return b;
-}
-static inline int64_t carom_max(int64_t a, int64_t b) {
-  if (a > b)
-    return a;
-  return b;
-}
 
 /* The pockets in which balls count for the player at the table, as a set. */
 static inline uint32_t carom_pockets_of(const carom_plan_rules *rules,
@@ -75,15 +35,6 @@ static inline double carom_points_of(const carom_plan_rules *rules, const carom_
   if (rules->points == NULL)
     return 1.0;
   return rules->points(game, in_play, ball);
-}
-
-/* Whether a point, `offset` from where a way begins, is nearer than `least` to the way: so long, in
- * the direction u. */
-static inline bool carom_is_near_way(const double offset[2], const double u[2], double length,
-                                     double least) {
-  const double along = carom_within(offset[0] * u[0] + offset[1] * u[1], 0.0, length);
-  const double off[2] = {offset[0] - along * u[0], offset[1] - along * u[1]};
-  return off[0] * off[0] + off[1] * off[1] < least * least;
 }
 
 enum { MOST_LEFT = 15 }; /* balls of a player that a chain counts */
@@ -160,7 +111,7 @@ bool carom_way_into(const carom_view *view, const double o[2], double radius, co
 bool carom_is_free_way(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                        const double p[2], const double q[2], int i, int j, double R);
 /* chances.c */
-/* What a chance to pot is made of, the numbers of games.h: 1; view->log_error; the mean
+/* What a chance to pot is made of, the numbers of learned.h: 1; view->log_error; the mean
  * of the best pots of the balls of `targets`; the best pot; that of the next best ball; whether one
  * ball is left; whether the cue ball is in hand. For later pots of a visit they are 1,
  * view->log_miss, 1 / the balls that are left then, and the mean; for the first after a turn of
@@ -208,66 +159,5 @@ uint32_t carom_in_play(const carom_ball_state *balls, int count);
 /* points.c: the chance that player `seat` wins a race for points. */
 double carom_points_value(const carom_view *view, const carom_rules_state *game,
                           const carom_ball_state *balls, uint32_t in_play, int seat, bool in_hand);
-
-/* games.c: whether a game begins with a break. */
-bool carom_has_opening(carom_rules_kind kind);
-/* The largest handicap that a seat may have, and what the word of a seat counts. */
-int64_t carom_handicap_most(carom_rules_kind kind);
-int carom_usual_seats(carom_rules_kind kind);
-int64_t carom_seat_points(carom_rules_kind kind, uint64_t word);
-/* Whether `lost` of a state counts what a player owes, which the points of a standing lack. */
-bool carom_owes_points(carom_rules_kind kind);
-/* The balls without which a game of this kind cannot be played, as a set. */
-uint32_t carom_needed_balls(carom_rules_kind kind);
-
-/* draws.c: elementary functions beyond platform/elementary.h, and random numbers that are a
- * function of where they stand. */
-/* of a vector, -pi to pi, rad */
-double carom_angle_of(double x, double y);
-double carom_asin(double x); /* |x| <= 1 */
-/* x >= 0; to 1.5e-7 */
-double carom_erf(double x);
-/* The stages of draws. Two that shared a number would have the same draws. */
-enum {
-  DRAW_STROKES = 1, /* the order of the strokes of pots, */
-  DRAW_SCAN,        /* those of the scan, */
-  DRAW_PLACES,      /* the places of a cue ball in hand, */
-  DRAW_PLAYED,      /* the errors of a stroke that is played, outside plans, */
-  DRAW_BREAKS,      /* the order of the strokes of a break, */
-  DRAW_TABLES,      /* tables that are not known, */
-  DRAW_REPLAY,      /* the errors of the shots that choose nothing, */
-  DRAW_MIRRORS,     /* the strokes of banks, kicks and combinations, */
-  DRAW_MIND,        /* whether a player thinks of nothing but potting, */
-  DRAW_REASONS,     /* the errors of strokes that explain a choice, */
-  DRAW_RUN_OUTS,    /* the seeds of the strokes of a run-out, */
-  DRAW_LEAVES,      /* the errors of push-outs whose leaves are searched, */
-  DRAW_ROUND = 16   /* and the errors of the rounds, a stage each. */
-};
-/* between 0 and 1, without the ends */
-double carom_uniform(uint64_t seed, uint32_t stage, uint64_t row, uint32_t number);
-/* two normal numbers, of the uniform ones `number` and the next; and the first six */
-void carom_normal_pair(uint64_t seed, uint32_t stage, uint64_t row, uint32_t number, double z[2]);
-void carom_normals(uint64_t seed, uint32_t stage, uint64_t row, double z[6]);
-
-/* stick.c: the least elevation, degrees, with which the stick of a cue is over the cushions and the
- * balls behind the ball that it strikes. Above STICK_MOST nobody plays. */
-static const double STICK_MOST = 60.0; /* degrees */
-double carom_least_elevation(const carom_table *table, const carom_shot_ball *balls, int count,
-                             const carom_cue *cue);
-
-/* player.c */
-/* The least and the greatest number of shots of a player's plans. */
-enum { PLAYER_SHOTS_LEAST = 100, PLAYER_SHOTS_MOST = 2000 };
-/* Whether the numbers of a player are within their ranges. */
-bool carom_player_is_good(const carom_player *p);
-/* The player of a rating in a game where a difference of 100 points is one of steps[0] points of
- * carom_player_fargo() below a rating of 500, and of steps[1] above it. */
-carom_player carom_player_stepped(double rating, const double steps[2]);
-/* The player with his bounds: 0 becomes the value it stands for. */
-carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue);
-/* A stroke by a player with bounds; z are his errors in standard deviations. */
-void carom_player_errs(const carom_player *player, const double z[6], carom_cue *cue);
-/* How much larger the errors of a stroke of this speed are than those of the slowest. */
-double carom_player_growth(const carom_player *player, double speed);
 
 #endif

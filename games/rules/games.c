@@ -115,14 +115,6 @@ bool carom_has_opening(carom_rules_kind kind) {
   return is_game(kind) && (games[kind].members & OPENING) != 0;
 }
 
-carom_player carom_player_rated(double rating, carom_rules_kind kind) {
-  const size_t rows = sizeof rating_steps / sizeof *rating_steps;
-  const double *steps = rating_steps[CAROM_RULES_EIGHTBALL];
-  if (is_game(kind) && (size_t)kind < rows && rating_steps[kind][0] > 0.0)
-    steps = rating_steps[kind];
-  return carom_player_stepped(rating, steps);
-}
-
 carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
   if (!is_game(kind))
     kind = CAROM_RULES_EIGHTBALL;

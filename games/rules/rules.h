@@ -4,7 +4,7 @@
 #define CAROM_PLAN_RULES_H
 
 #include "pot_kind.h"
-#include "view.h"
+#include "small_math.h"
 
 static const carom_turn carom_keep = {CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0, 0, 0.0};
 static const carom_turn carom_pass = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, 0, 0, 0.0};

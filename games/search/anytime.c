@@ -7,51 +7,50 @@
 #include "search.h"
 
 typedef carom_candidate candidate;
-typedef carom_search search;
 
-bool carom_search_doubles(const search *plan) {
-  return !plan->options.once && (plan->options.stop != NULL || plan->options.seconds > 0.0);
+bool carom_search_doubles(const carom_search *search) {
+  return !search->options.once && (search->options.stop != NULL || search->options.seconds > 0.0);
 }
 
-static void next_plan(search *plan) {
-  const int64_t n = plan->first;
+static void next_plan(carom_search *search) {
+  const int64_t n = search->first;
   int64_t shots = n;
   /* what does not suffice for the plan after this one belongs to it */
-  if (!carom_search_doubles(plan) || plan->rest < 3 * n)
-    shots = plan->rest;
-  plan->rest -= shots;
-  plan->first = 2 * n;
-  carom_search_begin(plan, shots);
+  if (!carom_search_doubles(search) || search->rest < 3 * n)
+    shots = search->rest;
+  search->rest -= shots;
+  search->first = 2 * n;
+  carom_search_begin(search, shots);
 }
 
-void carom_search_begin_doubling(search *plan, int64_t first, int64_t shots) {
-  plan->first = first;
-  plan->rest = shots;
-  next_plan(plan);
+void carom_search_begin_doubling(carom_search *search, int64_t first, int64_t shots) {
+  search->first = first;
+  search->rest = shots;
+  next_plan(search);
 }
 
-bool carom_search_double(search *plan) {
-  const candidate *c = &plan->found[0];
-  const bool stopped = carom_is_stopped(plan);
-  const bool better = !plan->joins || !stopped ||
-                      (plan->count > 0 && c->round > 0 && c->round >= plan->best.round &&
-                       c->chose.seen >= plan->best.chose.seen);
+bool carom_search_double(carom_search *search) {
+  const candidate *c = &search->found[0];
+  const bool stopped = carom_is_stopped(search);
+  const bool better = !search->joins || !stopped ||
+                      (search->count > 0 && c->round > 0 && c->round >= search->best.round &&
+                       c->chose.seen >= search->best.chose.seen);
   if (better)
-    plan->best = *c;
+    search->best = *c;
 
   /* the plan of the next round, whose errors are others, so that luck does not last */
-  if (!stopped && plan->rest > 0) {
-    plan->joins = true;
-    plan->options.seed += UINT64_C(0x9e3779b97f4a7c15);
-    plan->count = 0;
-    next_plan(plan);
+  if (!stopped && search->rest > 0) {
+    search->joins = true;
+    search->options.seed += UINT64_C(0x9e3779b97f4a7c15);
+    search->count = 0;
+    next_plan(search);
     return true;
   }
 
   /* one that was stopped tells the best so far */
   if (!better) {
-    plan->found[0] = plan->best;
-    plan->count = carom_max(plan->count, 1);
+    search->found[0] = search->best;
+    search->count = carom_max(search->count, 1);
   }
   return false;
 }

@@ -5,11 +5,11 @@
 #include "search_state.h"
 
 /* Whether a plan doubles, as it may be stopped. */
-bool carom_search_doubles(const carom_search *plan);
+bool carom_search_doubles(const carom_search *search);
 /* Begins a plan of so many shots: at once, or by rounds, of which the first has `first`. */
-void carom_search_begin_doubling(carom_search *plan, int64_t first, int64_t shots);
+void carom_search_begin_doubling(carom_search *search, int64_t first, int64_t shots);
 /* Ends a round: true if the next one has begun; else the best so far is the first, and
- * plan->best. */
-bool carom_search_double(carom_search *plan);
+ * search->best. */
+bool carom_search_double(carom_search *search);
 
 #endif

@@ -3,19 +3,20 @@
  * first that is on. */
 #include "candidates.h"
 
+#include "draws.h"
 #include "miss.h"
 #include "places.h"
 #include "platform/elementary.h"
 #include "platform/promise.h"
 #include "ranking.h"
 #include "rows.h"
+#include "stick.h"
 #include "table/marks.h"
 
 #include <math.h>
 
 typedef carom_candidate candidate;
 typedef carom_outcome outcome;
-typedef carom_search search;
 
 enum { TIPS = 5, POT_SPEEDS = 6, SCAN_SPEEDS = 5, STROKES = TIPS * POT_SPEEDS };
 /* m/s of a cue whose tip loses nothing, and radii, from the prototype */
@@ -27,10 +28,10 @@ static const double scan_tip[TIPS][2] = {
     {0.0, 0.0}, {0.0, 0.3}, {0.0, -0.3}, {0.25, 0.0}, {-0.25, 0.0}};
 
 /* Keeps a stroke within what the player can do. */
-static void bound(const search *plan, candidate *c) {
-  const carom_player *player = &plan->player;
+static void bound(const carom_search *search, candidate *c) {
+  const carom_player *player = &search->player;
   double most = player->speed_most;
-  if (player->growth > 0.0 && !plan->breaks) /* who errs more by speed strikes calmly */
+  if (player->growth > 0.0 && !search->breaks) /* who errs more by speed strikes calmly */
     most *= 0.5;
   c->speed = carom_within(c->speed, player->speed_least, fmax(most, player->speed_least));
   c->a = carom_within(c->a, -player->tip_most, player->tip_most);
@@ -38,11 +39,11 @@ static void bound(const search *plan, candidate *c) {
 }
 
 /* The least elevation of a candidate's stick, or none by a level cue, degrees. */
-static double raised(const search *plan, const candidate *c) {
-  const carom_cue cue = {.phi = c->phi, .a = c->a, .b = c->b, .ball = plan->cue_ball};
-  if (plan->options.level)
+static double raised(const carom_search *search, const candidate *c) {
+  const carom_cue cue = {.phi = c->phi, .a = c->a, .b = c->b, .ball = search->cue_ball};
+  if (search->options.level)
     return 0.0;
-  return carom_least_elevation(plan->job.table, plan->played, (int)plan->plays, &cue);
+  return carom_least_elevation(search->job.table, search->played, (int)search->plays, &cue);
 }
 
 /* To raise a stick and to aim take as long as so many events of a shot. */
@@ -50,21 +51,21 @@ enum { RAISE_COST = 4, AIM_COST = 4 };
 
 /* The elevation is the least of the stick, but where the caller gave it, or an aim did. A gentle
  * stroke is added whatever that is. */
-void carom_search_add(search *plan, candidate c) {
-  const double *r = plan->played[plan->cue_ball].state.r;
+void carom_search_add(carom_search *search, candidate c) {
+  const double *r = search->played[search->cue_ball].state.r;
   c.r[0] = r[0];
   c.r[1] = r[1];
   const bool is_fixed = c.kind == CAROM_PLAN_GIVEN || c.kind == CAROM_PLAN_PASS;
   if (!is_fixed)
-    bound(plan, &c);
+    bound(search, &c);
   if (!is_fixed && c.kind != CAROM_PLAN_POT) {
-    c.theta = raised(plan, &c);
-    carom_search_spend(plan, RAISE_COST);
+    c.theta = raised(search, &c);
+    carom_search_spend(search, RAISE_COST);
   }
   const bool played = is_fixed || c.kind == CAROM_PLAN_FOUL || c.theta <= STICK_MOST;
-  if (plan->count < plan->most && played) {
-    c.order = (int32_t)plan->count;
-    plan->found[plan->count++] = c;
+  if (search->count < search->most && played) {
+    c.order = (int32_t)search->count;
+    search->found[search->count++] = c;
   }
 }
 
@@ -80,15 +81,15 @@ static double squirt_of(const carom_cue *cue, const carom_ball_kind *kind) {
 
 /* Turns a candidate until the ball that it aims at, hit by the cue ball, goes in its direction phi,
  * degrees, with the cue raised as it has to be. False where it cannot be hit. */
-static bool aim(const search *plan, candidate *c) {
+static bool aim(const carom_search *search, candidate *c) {
   enum { STEPS = 3 };
-  const carom_shot_ball *balls = plan->job.balls;
-  carom_shot_ball pair[2] = {plan->played[plan->cue_ball], balls[c->aimed_ball]};
+  const carom_shot_ball *balls = search->job.balls;
+  carom_shot_ball pair[2] = {search->played[search->cue_ball], balls[c->aimed_ball]};
   carom_ball_state final[2];
-  carom_shot_options options = plan->shot;
+  carom_shot_options options = search->shot;
   options.stop_at = CAROM_STOP_AT_CONTACT;
   options.first_of = 0;
-  carom_cue alone = *plan->job.cue;
+  carom_cue alone = *search->job.cue;
   alone.ball = 0;
   alone.theta = 0.0;
   alone.speed = c->speed;
@@ -104,13 +105,14 @@ static bool aim(const search *plan, candidate *c) {
     alone.phi =
         carom_angle_of(o[0] - both * cosine - r[0], o[1] - both * sine - r[1]) / degree - squirt;
     c->phi = alone.phi;
-    c->theta = alone.theta = raised(plan, c);
+    c->theta = alone.theta = raised(search, c);
     if (c->theta > STICK_MOST)
       return false;
 
     /* throw turns the ball away from the line of centres */
     carom_shot played = {.final = final};
-    if (carom_shoot(plan->job.table, pair, 2, &alone, &options, &played) != CAROM_STOPPED_AT_EVENT)
+    if (carom_shoot(search->job.table, pair, 2, &alone, &options, &played) !=
+        CAROM_STOPPED_AT_EVENT)
       return false;
     const double *v = final[1].v;
     if (!(v[0] * v[0] + v[1] * v[1] > 4e-4))
@@ -130,13 +132,13 @@ static bool aim(const search *plan, candidate *c) {
 
 /* Aims the candidates; whether that can be done is their outcome. */
 static size_t aim_rows(const void *context, size_t first, size_t end) {
-  const search *plan = context;
+  const carom_search *search = context;
   for (size_t k = first; k < end; k++) {
-    const int64_t row = plan->stage.done + (int64_t)k;
-    if (row > 0 && carom_is_stopped(plan))
+    const int64_t row = search->stage.done + (int64_t)k;
+    if (row > 0 && carom_is_stopped(search))
       return k;
-    const int turn = aim(plan, &plan->found[plan->stage.first + row]);
-    plan->outcome[row] = (outcome){.turn = (int8_t)turn, .events = AIM_COST};
+    const int turn = aim(search, &search->found[search->stage.first + row]);
+    search->outcome[row] = (outcome){.turn = (int8_t)turn, .events = AIM_COST};
   }
   return end;
 }
@@ -170,10 +172,10 @@ static void move_aside(candidate *c, int side) {
 }
 
 /* Whether a stroke that is steered is beside one that was. */
-static bool is_known(const search *plan, const candidate *c) {
+static bool is_known(const carom_search *search, const candidate *c) {
   static const double apart = 0.3; /* degrees */
-  for (int64_t k = 0; k < plan->count; k++) {
-    const candidate *other = &plan->found[k];
+  for (int64_t k = 0; k < search->count; k++) {
+    const candidate *other = &search->found[k];
     if (other->miss.slope != 0.0f && other->speed == c->speed && other->a == c->a &&
         other->b == c->b && fabs(other->phi - c->phi) < apart)
       return true;
@@ -185,69 +187,69 @@ static bool is_known(const search *plan, const candidate *c) {
  * tip and, where nothing is aimed, the direction changed at a time, and pots aimed anew. carom-lab
  * plan --racks 1000 --shots 1000 runs out 761 racks with them, 740 without; half of these steps,
  * and half as much again, could not be told from them. */
-void carom_search_near(search *plan, int64_t parents) {
+void carom_search_near(carom_search *search, int64_t parents) {
   enum { POT_WAYS = 6, WAYS = 10, PLACE_WAYS = 4 };
-  const int64_t first = plan->count;
+  const int64_t first = search->count;
   int places = 0;
-  if (plan->places > 0 && !plan->breaks)
+  if (search->places > 0 && !search->breaks)
     places = PLACE_WAYS;
   for (int64_t k = 0; k < parents; k++) {
-    const bool pot = plan->found[k].kind == CAROM_PLAN_POT;
-    if (!pot && plan->found[k].kind != CAROM_PLAN_SCAN)
+    const bool pot = search->found[k].kind == CAROM_PLAN_POT;
+    if (!pot && search->found[k].kind != CAROM_PLAN_SCAN)
       continue;
-    const float slope = plan->found[k].miss.slope;
-    const bool steered = plan->found[k].pots != 0 && slope != 0.0f && isfinite(slope);
+    const float slope = search->found[k].miss.slope;
+    const bool steered = search->found[k].pots != 0 && slope != 0.0f && isfinite(slope);
     int strokes = WAYS;
     if (pot || steered)
       strokes = POT_WAYS;
     for (int way = 0; way < strokes + places; way++) {
-      candidate c = plan->found[k];
+      candidate c = search->found[k];
       c.round = 0;
       c.fresh = (carom_tally){0};
       if (way < strokes)
         step_aside(&c, way / 2, way % 2 == 1);
       else
         move_aside(&c, way - strokes);
-      bound(plan, &c);
-      if (!carom_search_put(plan, c.r))
+      bound(search, &c);
+      if (!carom_search_put(search, c.r))
         continue;
       if (pot) {
-        c.phi = plan->view.window[c.aimed_ball][c.aimed_pocket].psi / degree;
-        if (!aim(plan, &c))
+        c.phi = search->view.window[c.aimed_ball][c.aimed_pocket].psi / degree;
+        if (!aim(search, &c))
           continue;
       }
       c.miss.miss = (float)NAN;
-      c.turns = steered && !is_known(plan, &c);
-      if (steered && (!c.turns || plan->count - first >= PATH_ROWS))
+      c.turns = steered && !is_known(search, &c);
+      if (steered && (!c.turns || search->count - first >= PATH_ROWS))
         continue;
-      carom_search_add(plan, c);
+      carom_search_add(search, c);
     }
   }
 }
 
 /* The numbers below `count` in an order that is drawn. */
-static void draw_order(const search *plan, uint32_t stage, int *order, int count) {
+static void draw_order(const carom_search *search, uint32_t stage, int *order, int count) {
   for (int n = 0; n < count; n++) {
-    const int partner = (int)(carom_uniform(plan->options.seed, stage, (uint64_t)n, 0) * (n + 1));
+    const int partner = (int)(carom_uniform(search->options.seed, stage, (uint64_t)n, 0) * (n + 1));
     order[n] = order[partner];
     order[partner] = n;
   }
 }
 
 /* Direct pots, the likeliest first, each with all strokes, or as many as there is room for. */
-void carom_search_pots(search *plan, int64_t most) {
-  carom_pot_found *way = plan->pot;
+void carom_search_pots(carom_search *search, int64_t most) {
+  carom_pot_found *way = search->pot;
   int ways = 0;
-  int balls = plan->view.count;
-  if (plan->only_safeties)
+  int balls = search->view.count;
+  if (search->only_safeties)
     balls = 0;
   for (int k = 0; k < balls; k++)
-    for (int p = 0; p < plan->view.pockets && (plan->targets >> k & 1); p++) {
+    for (int p = 0; p < search->view.pockets && (search->targets >> k & 1); p++) {
       /* ball k into pocket p, if that is likely at all */
-      if (!(plan->pockets >> p & 1))
+      if (!(search->pockets >> p & 1))
         continue;
       const carom_way w =
-          carom_way_of(&plan->view, plan->state, plan->in_play, k, p, 0, false, 0.03);
+          carom_way_of(&search->view, search->state, search->in_play, k, p, 0, false, 0.03);
       if (w.chance == 0.0)
         continue;
       int index = ways++; /* sorted in */
@@ -258,8 +260,8 @@ void carom_search_pots(search *plan, int64_t most) {
 
   /* The strokes in an order that is drawn, so that few of them are of all kinds. */
   int order[STROKES];
-  draw_order(plan, DRAW_STROKES, order, STROKES);
-  const int64_t first = plan->count;
+  draw_order(search, DRAW_STROKES, order, STROKES);
+  const int64_t first = search->count;
   CAROM_PROMISE(ways <= CAROM_BALLS_MOST * CAROM_POCKETS_MOST);
   ways = (int)carom_min(ways, carom_max(most / STROKES, 4));
   const int64_t share = most / carom_max(ways, 1);
@@ -269,40 +271,40 @@ void carom_search_pots(search *plan, int64_t most) {
     for (int n = 0; n < strokes; n++) {
       const double *tip = pot_tip[order[n] % TIPS];
       carom_search_add(
-          plan, (candidate){.speed = carom_tip_gain(plan->job.cue) * pot_speed[order[n] / TIPS],
-                            .phi = way[w].way.psi / degree,
-                            .a = tip[0],
-                            .b = tip[1],
-                            .kind = CAROM_PLAN_POT,
-                            .chance = way[w].way.chance,
-                            .aimed_ball = (int16_t)way[w].ball,
-                            .aimed_pocket = (int16_t)way[w].pocket});
+          search, (candidate){.speed = carom_tip_gain(search->job.cue) * pot_speed[order[n] / TIPS],
+                              .phi = way[w].way.psi / degree,
+                              .a = tip[0],
+                              .b = tip[1],
+                              .kind = CAROM_PLAN_POT,
+                              .chance = way[w].way.chance,
+                              .aimed_ball = (int16_t)way[w].ball,
+                              .aimed_pocket = (int16_t)way[w].pocket});
     }
-  plan->stage = (carom_stage){.work = aim_rows, .first = first, .rows = plan->count - first};
+  search->stage = (carom_stage){.work = aim_rows, .first = first, .rows = search->count - first};
 }
 
 /* Those that cannot be aimed are dropped. */
-void carom_search_aimed(search *plan) {
-  const int64_t first = plan->stage.first;
-  plan->count = first;
-  for (int64_t k = 0; k < plan->stage.done; k++)
-    if (plan->outcome[k].turn)
-      carom_search_add(plan, plan->found[first + k]);
+void carom_search_aimed(carom_search *search) {
+  const int64_t first = search->stage.first;
+  search->count = first;
+  for (int64_t k = 0; k < search->stage.done; k++)
+    if (search->outcome[k].turn)
+      carom_search_add(search, search->found[first + k]);
 }
 
 /* Breaks: the nearest balls that are on, full and a little beside their middle, hard, with the tip
  * at three heights. Or thin ones, which leave the other little: the balls that lie farthest to the
  * sides of the rack, on their outer side, softly, with side. Up to `most` of these strokes, in an
  * order that is drawn. */
-void carom_search_breaks(carom_search *plan, int64_t most) {
+void carom_search_breaks(carom_search *search, int64_t most) {
   enum { TARGETS = 3, SIDES = 5, SPEEDS = 3, PLACES = 3 };
   static const double side[2][SIDES] = {{0.0, 0.05, -0.05, 0.15, -0.15}, /* radii of both balls */
                                         {0.6, 0.75, 0.85, 0.92, 0.97}};
   static const double share[2][SPEEDS] = {{1.0, 0.85, 0.7}, {0.25, 0.34, 0.46}},
                       tip[2][PLACES] = {{0.0, 0.2, -0.2}, {0.0, 0.25, 0.5}};
-  const bool thin = plan->job.rules->breaks == 2;
-  const double *c = plan->played[plan->cue_ball].state.r;
-  const carom_marks marks = carom_marks_of(plan->view.width, plan->view.length);
+  const bool thin = search->job.rules->breaks == 2;
+  const double *c = search->played[search->cue_ball].state.r;
+  const carom_marks marks = carom_marks_of(search->view.width, search->view.length);
   const double foot = carom_angle_of(marks.foot_spot[0] - c[0], marks.foot_spot[1] - c[1]);
 
   /* the nearest balls, or the outermost as seen from the cue ball, sorted in */
@@ -310,9 +312,9 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
     double key, direction, far, outer; /* direction, distance in both radii, side: 1 or -1 */
   } ball[TARGETS + 1];
   int balls = 0;
-  for (int k = 0; k < plan->view.count; k++) {
-    const double *r = plan->job.balls[k].state.r, x = r[0] - c[0], y = r[1] - c[1];
-    if (!(plan->targets >> k & 1))
+  for (int k = 0; k < search->view.count; k++) {
+    const double *r = search->job.balls[k].state.r, x = r[0] - c[0], y = r[1] - c[1];
+    if (!(search->targets >> k & 1))
       continue;
     const double direction = carom_angle_of(x, y), far = sqrt(x * x + y * y);
     double key = far;
@@ -325,7 +327,7 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
       ball[index] = ball[index - 1];
     ball[index].key = key;
     ball[index].direction = direction;
-    ball[index].far = far / (plan->view.radius[plan->view.cue_ball] + plan->view.radius[k]);
+    ball[index].far = far / (search->view.radius[search->view.cue_ball] + search->view.radius[k]);
     ball[index].outer = 1.0;
     if (thin && direction < foot)
       ball[index].outer = -1.0;
@@ -334,14 +336,14 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
   /* strokes in an order that is drawn: a number stands for ball, side, speed and tip */
   int order[TARGETS * SIDES * SPEEDS * PLACES];
   const int strokes = balls * SIDES * SPEEDS * PLACES;
-  draw_order(plan, DRAW_BREAKS, order, strokes);
+  draw_order(search, DRAW_BREAKS, order, strokes);
   for (int n = 0; n < strokes && n < most; n++) {
     const int target = order[n] % balls, stroke = order[n] / balls;
     const double sine = ball[target].outer * side[thin][stroke % SIDES] / ball[target].far;
     const double phi =
         (ball[target].direction + carom_asin(carom_within(sine, -1.0, 1.0))) / degree;
     const double off = tip[thin][stroke / SIDES / SPEEDS];
-    candidate strike = {.speed = share[thin][stroke / SIDES % SPEEDS] * plan->player.speed_most,
+    candidate strike = {.speed = share[thin][stroke / SIDES % SPEEDS] * search->player.speed_most,
                         .phi = carom_turned(phi)};
     if (thin) {
       strike.a = -ball[target].outer * off;
@@ -350,23 +352,23 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
       strike.b = off;
       strike.kind = CAROM_PLAN_BREAK;
     }
-    carom_search_add(plan, strike);
+    carom_search_add(search, strike);
   }
 }
 
 /* A direction in which the cue ball meets a ball that is on, if nothing is between them; both are
  * drawn. */
-static double towards(const search *plan, uint64_t row) {
+static double towards(const carom_search *search, uint64_t row) {
   int target[CAROM_BALLS_MOST], count = 0;
-  for (int n = 0; n < plan->view.count; n++)
-    if (plan->targets >> n & 1)
+  for (int n = 0; n < search->view.count; n++)
+    if (search->targets >> n & 1)
       target[count++] = n;
-  const int k = target[(int)(count * carom_uniform(plan->options.seed, DRAW_SCAN, row, 2))];
-  const double *c = plan->played[plan->cue_ball].state.r, *r = plan->job.balls[k].state.r;
+  const int k = target[(int)(count * carom_uniform(search->options.seed, DRAW_SCAN, row, 2))];
+  const double *c = search->played[search->cue_ball].state.r, *r = search->job.balls[k].state.r;
   const double x = r[0] - c[0], y = r[1] - c[1];
-  const double both = plan->view.radius[plan->view.cue_ball] + plan->view.radius[k];
+  const double both = search->view.radius[search->view.cue_ball] + search->view.radius[k];
   const double half = carom_asin(carom_within(both / sqrt(x * x + y * y), 0.0, 1.0));
-  const double off = 2.0 * carom_uniform(plan->options.seed, DRAW_SCAN, row, 3) - 1.0;
+  const double off = 2.0 * carom_uniform(search->options.seed, DRAW_SCAN, row, 3) - 1.0;
   return carom_turned((carom_angle_of(x, y) + off * half) / degree);
 }
 
@@ -375,74 +377,77 @@ static double towards(const search *plan, uint64_t row) {
  * hand, where each place has few, every second one goes to a ball that is on: of 40 layouts of
  * nine-ball, plans of 2,000 shots and a player with errors of 2, the chosen strokes were worth
  * 0.595 with it, 0.572 without. */
-bool carom_search_scan(search *plan) {
+bool carom_search_scan(carom_search *search) {
   /* in blocks that are sooner made than a plan has to stop */
   enum { LEAST = 16, MOST = PATH_ROWS, MEASURED = 1000 };
-  const double parts = (double)carom_max(plan->places, 2);
-  const int64_t block = (int64_t)carom_within((double)plan->scan / parts, LEAST, MOST);
-  if (plan->tried >= 4 * plan->scan || plan->count >= plan->scan_end || carom_is_stopped(plan))
+  const double parts = (double)carom_max(search->places, 2);
+  const int64_t block = (int64_t)carom_within((double)search->scan / parts, LEAST, MOST);
+  if (search->tried >= 4 * search->scan || search->count >= search->scan_end ||
+      carom_is_stopped(search))
     return false;
-  carom_search_next_place(plan);
-  const bool is_caroms = carom_has_cannons(plan->job.rules); /* and in-offs */
-  const bool to_balls = plan->places > 0 || is_caroms || (plan->blind && plan->view.pockets > 0);
-  const int slowest = plan->cushions == 3; /* the least speed seldom meets three cushions */
-  const double begin = carom_uniform(plan->options.seed, DRAW_SCAN, 0, 0);
-  const int64_t first = plan->count;
-  const int64_t end = carom_min(plan->tried + block, 4 * plan->scan);
-  for (; plan->tried < end && plan->count < plan->most; plan->tried++) {
+  carom_search_next_place(search);
+  const bool is_caroms = carom_has_cannons(search->job.rules); /* and in-offs */
+  const bool to_balls =
+      search->places > 0 || is_caroms || (search->blind && search->view.pockets > 0);
+  const int slowest = search->cushions == 3; /* the least speed seldom meets three cushions */
+  const double begin = carom_uniform(search->options.seed, DRAW_SCAN, 0, 0);
+  const int64_t first = search->count;
+  const int64_t end = carom_min(search->tried + block, 4 * search->scan);
+  for (; search->tried < end && search->count < search->most; search->tried++) {
     /* a direction, and a speed and a tip that are drawn */
-    const uint64_t row = (uint64_t)plan->tried + 1;
-    double turn = begin + 0.61803398874989485 * (double)plan->tried;
+    const uint64_t row = (uint64_t)search->tried + 1;
+    double turn = begin + 0.61803398874989485 * (double)search->tried;
     turn -= floor(turn);
     const int speed = slowest + (int)((double)(SCAN_SPEEDS - slowest) *
-                                      carom_uniform(plan->options.seed, DRAW_SCAN, row, 0));
+                                      carom_uniform(search->options.seed, DRAW_SCAN, row, 0));
     const double *tip =
-        scan_tip[(int)((double)TIPS * carom_uniform(plan->options.seed, DRAW_SCAN, row, 1))];
+        scan_tip[(int)((double)TIPS * carom_uniform(search->options.seed, DRAW_SCAN, row, 1))];
     double drawn[2];
-    if (plan->view.pockets == 0) { /* any place, since its side decides where cushions send it */
-      const double turned = 2.0 * pi * carom_uniform(plan->options.seed, DRAW_SCAN, row, 2);
+    if (search->view.pockets == 0) { /* any place, since its side decides where cushions send it */
+      const double turned = 2.0 * pi * carom_uniform(search->options.seed, DRAW_SCAN, row, 2);
       const double far =
-          plan->player.tip_most * sqrt(carom_uniform(plan->options.seed, DRAW_SCAN, row, 1));
+          search->player.tip_most * sqrt(carom_uniform(search->options.seed, DRAW_SCAN, row, 1));
       carom_sincos(turned, &drawn[0], &drawn[1]);
       drawn[0] *= far;
       drawn[1] *= far;
       tip = drawn;
     }
     double phi = 360.0 * turn;
-    if (to_balls && plan->tried % 2 == 1)
-      phi = towards(plan, row);
+    if (to_balls && search->tried % 2 == 1)
+      phi = towards(search, row);
     int16_t kind = CAROM_PLAN_SCAN;
-    if ((plan->permissions & CAROM_CHOICE_PUSH) && plan->tried % 2 == 1)
+    if ((search->permissions & CAROM_CHOICE_PUSH) && search->tried % 2 == 1)
       kind = CAROM_PLAN_PUSH;
-    carom_search_add(plan, (candidate){.speed = carom_tip_gain(plan->job.cue) * scan_speed[speed],
-                                       .phi = phi,
-                                       .a = tip[0],
-                                       .b = tip[1],
-                                       .kind = kind});
+    carom_search_add(search,
+                     (candidate){.speed = carom_tip_gain(search->job.cue) * scan_speed[speed],
+                                 .phi = phi,
+                                 .a = tip[0],
+                                 .b = tip[1],
+                                 .kind = kind});
   }
-  plan->tried = end;
-  carom_search_stage(plan, first, plan->count - first, 1, 0);
-  if (carom_search_is_steered(plan) && first < MEASURED)
-    plan->stage.measure = carom_search_measure;
+  search->tried = end;
+  carom_search_stage(search, first, search->count - first, 1, 0);
+  if (carom_search_is_steered(search) && first < MEASURED)
+    search->stage.measure = carom_search_measure;
   return true;
 }
 
 /* Those that begin with a foul are dropped, and those that are more than the scan has. */
-void carom_search_scanned(search *plan) {
-  const int64_t first = plan->stage.first, added = plan->stage.done;
-  CAROM_PROMISE(added <= plan->count - first);
-  plan->count = first;
-  for (int64_t k = 0; k < added && plan->count < plan->scan_end; k++)
-    if (plan->found[first + k].kind == CAROM_PLAN_PUSH ||
-        carom_search_may_join(plan, &plan->outcome[k])) {
-      plan->found[plan->count] = plan->found[first + k];
-      candidate *c = &plan->found[plan->count];
-      outcome o = plan->outcome[k];
-      c->order = (int32_t)plan->count;
+void carom_search_scanned(carom_search *search) {
+  const int64_t first = search->stage.first, added = search->stage.done;
+  CAROM_PROMISE(added <= search->count - first);
+  search->count = first;
+  for (int64_t k = 0; k < added && search->count < search->scan_end; k++)
+    if (search->found[first + k].kind == CAROM_PLAN_PUSH ||
+        carom_search_may_join(search, &search->outcome[k])) {
+      search->found[search->count] = search->found[first + k];
+      candidate *c = &search->found[search->count];
+      outcome o = search->outcome[k];
+      c->order = (int32_t)search->count;
       c->miss = o.miss;
       if (o.ball >= 0 && c->miss.slope != 0.0f)
-        o.worth = carom_search_worth(plan, c, o.worth);
-      plan->count++;
-      carom_search_take(plan, plan->count - 1, &o);
+        o.worth = carom_search_worth(search, c, o.worth);
+      search->count++;
+      carom_search_take(search, search->count - 1, &o);
     }
 }

@@ -2,10 +2,9 @@
  * which the ball that is named falls. */
 #include "choice_kind.h"
 
+#include "draws.h"
 #include "pot_kind.h"
 #include "rows.h"
-
-typedef carom_search search;
 
 /* On a table without pockets: the kind of a stroke that meets the ball first and scores, or -1. */
 static int32_t point_kind(const carom_facts *facts, int ball) {
@@ -18,26 +17,27 @@ static int32_t point_kind(const carom_facts *facts, int ball) {
 }
 
 /* The kind by which a stroke of the scan pots the ball that a choice names. */
-static int32_t seen_kind(search *plan, const carom_candidate *c, const carom_plan_stroke *choice) {
-  enum { TRIES = 8, EVENTS = sizeof plan->event / sizeof plan->event[0] };
+static int32_t seen_kind(carom_search *search, const carom_candidate *c,
+                         const carom_plan_stroke *choice) {
+  enum { TRIES = 8, EVENTS = sizeof search->event / sizeof search->event[0] };
   int ball = 0;
-  while (plan->layout_ball[ball] != choice->ball)
+  while (search->layout_ball[ball] != choice->ball)
     ball++;
   for (int64_t n = 0; n < TRIES; n++) {
     carom_facts facts;
-    carom_shot shot = {.brief = plan->event, .room = EVENTS, .facts = &facts};
+    carom_shot shot = {.brief = search->event, .room = EVENTS, .facts = &facts};
     uint32_t draws = DRAW_ROUND;
     if (n == 0) /* without errors */
       draws = 0;
-    carom_cue cue = carom_search_stroke(plan, c, draws, n);
+    carom_cue cue = carom_search_stroke(search, c, draws, n);
     carom_ball_state drawn[CAROM_BALLS_MOST];
-    const carom_prepared layout = carom_search_layout(plan, c, draws, n, drawn);
-    cue.ball = plan->cue_ball;
+    const carom_prepared layout = carom_search_layout(search, c, draws, n, drawn);
+    cue.ball = search->cue_ball;
     carom_shoot_prepared(&layout, &cue, &shot);
-    carom_search_spend(plan, shot.count);
+    carom_search_spend(search, shot.count);
     int32_t kind;
-    if (plan->view.pockets > 0 && choice->pocket >= 0)
-      kind = carom_pot_kind(&shot, plan->cue_ball, ball, choice->pocket);
+    if (search->view.pockets > 0 && choice->pocket >= 0)
+      kind = carom_pot_kind(&shot, search->cue_ball, ball, choice->pocket);
     else
       kind = point_kind(&facts, ball);
     if (kind >= 0)
@@ -46,7 +46,8 @@ static int32_t seen_kind(search *plan, const carom_candidate *c, const carom_pla
   return CAROM_PLAN_SCAN;
 }
 
-int32_t carom_search_kind(search *plan, carom_candidate *c, const carom_plan_stroke *choice) {
+int32_t carom_search_kind(carom_search *search, carom_candidate *c,
+                          const carom_plan_stroke *choice) {
   if (choice->kind != CAROM_PLAN_SCAN)
     return choice->kind;
   if (choice->ball < 0 && choice->keep < carom_luck)
@@ -55,7 +56,7 @@ int32_t carom_search_kind(search *plan, carom_candidate *c, const carom_plan_str
     return CAROM_PLAN_SCAN;
   const bool is_seen = c->seen_kind > 0 && c->seen_ball == choice->ball;
   if (!is_seen || c->seen_pocket != choice->pocket) {
-    c->seen_kind = (int16_t)(1 + seen_kind(plan, c, choice));
+    c->seen_kind = (int16_t)(1 + seen_kind(search, c, choice));
     c->seen_ball = (int16_t)choice->ball;
     c->seen_pocket = (int16_t)choice->pocket;
   }

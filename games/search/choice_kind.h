@@ -5,6 +5,7 @@
 #include "search_state.h"
 
 /* The carom_plan_kind of a choice, by what happens. */
-int32_t carom_search_kind(carom_search *plan, carom_candidate *c, const carom_plan_stroke *choice);
+int32_t carom_search_kind(carom_search *search, carom_candidate *c,
+                          const carom_plan_stroke *choice);
 
 #endif

@@ -1,6 +1,8 @@
 /* Cuts, and strokes that are ruled. */
 #include "coach.h"
+#include "draws.h"
 #include "rules.h"
+#include "view.h"
 
 double carom_cut_at(const carom_event *contact, int cue_ball) {
   const int side = contact->a != cue_ball;

@@ -14,6 +14,7 @@
  * of this table but that it is one. */
 #include "drawn_tables.h"
 
+#include "draws.h"
 #include "platform/elementary.h"
 
 #include <math.h>
@@ -26,27 +27,27 @@ static double times(double number, double factor) {
   return carom_within(number * factor, 0.0, fmax(number, 1.0));
 }
 
-void carom_search_tables(carom_search *plan, carom_drawn_table *room) {
-  plan->drawn = room;
+void carom_search_tables(carom_search *search, carom_drawn_table *room) {
+  search->drawn = room;
   for (int k = 0; k < TABLES; k++) {
     double z[6], factor[NUMBERS];
-    carom_normals(plan->options.seed, DRAW_TABLES, (uint64_t)k / 2, z);
+    carom_normals(search->options.seed, DRAW_TABLES, (uint64_t)k / 2, z);
     const double sign = 1.0 - 2.0 * (k % 2);
     for (int n = 0; n < NUMBERS; n++)
-      factor[n] = carom_exp(plan->options.unsure * spread[n] * sign * z[n]);
+      factor[n] = carom_exp(search->options.unsure * spread[n] * sign * z[n]);
 
     /* the numbers of the balls; and those that a rail or a jaw has of its own, which are 0 where it
      * has none */
     carom_drawn_table *drawn = &room[k];
-    for (int ball = 0; ball < plan->plays; ball++) {
+    for (int ball = 0; ball < search->plays; ball++) {
       carom_ball_kind *kind = &drawn->kind[ball];
-      *kind = plan->played[ball].kind;
+      *kind = search->played[ball].kind;
       kind->restitution_cushion = times(kind->restitution_cushion, factor[RESTITUTION]);
       kind->mu_cushion = times(kind->mu_cushion, factor[FRICTION]);
       kind->mu_roll = times(kind->mu_roll, factor[ROLLING]);
       kind->mu_slide = times(kind->mu_slide, factor[SLIDING]);
     }
-    drawn->table = *plan->job.table;
+    drawn->table = *search->job.table;
     for (int r = 0; r < drawn->table.rails; r++) {
       carom_rail *rail = &drawn->table.rail[r];
       rail->restitution = times(rail->restitution, factor[RESTITUTION]);
@@ -60,12 +61,12 @@ void carom_search_tables(carom_search *plan, carom_drawn_table *room) {
   }
 }
 
-carom_prepared carom_search_drawn(const carom_search *plan, uint32_t draws, int64_t row) {
-  carom_prepared p = plan->layout;
-  carom_take_balls(&p, plan->played, plan->plays);
-  if (draws == 0 || plan->drawn == NULL)
+carom_prepared carom_search_drawn(const carom_search *search, uint32_t draws, int64_t row) {
+  carom_prepared p = search->layout;
+  carom_take_balls(&p, search->played, search->plays);
+  if (draws == 0 || search->drawn == NULL)
     return p;
-  const carom_drawn_table *drawn = &plan->drawn[(row + 8 * (int64_t)draws) % TABLES];
+  const carom_drawn_table *drawn = &search->drawn[(row + 8 * (int64_t)draws) % TABLES];
   p.table = &drawn->table;
   for (int k = 0; k < p.count; k++)
     p.kind[k] = &drawn->kind[k];

@@ -5,8 +5,8 @@
 #include "search_state.h"
 
 /* Draws the tables, into the caller's memory. */
-void carom_search_tables(carom_search *plan, carom_drawn_table *room);
+void carom_search_tables(carom_search *search, carom_drawn_table *room);
 /* The balls in play on the table of a row. */
-carom_prepared carom_search_drawn(const carom_search *plan, uint32_t draws, int64_t row);
+carom_prepared carom_search_drawn(const carom_search *search, uint32_t draws, int64_t row);
 
 #endif

@@ -4,6 +4,7 @@
 #include "goals.h"
 
 #include "rules.h"
+#include "view.h"
 
 #include <math.h>
 
@@ -54,16 +55,16 @@ bool carom_goal_has_safeties(const carom_plan_job *job, const carom_plan_options
 
 /* Whether no ball of `targets` can be hit, or `ball` alone is behind others. Apart, as its balls
  * would take 10 KiB of the stack below a shot. */
-__attribute__((noinline)) static bool is_barred(const carom_search *plan, uint32_t in_play,
+__attribute__((noinline)) static bool is_barred(const carom_search *search, uint32_t in_play,
                                                 uint32_t targets, const carom_ball_state *layout) {
   carom_shot_ball balls[CAROM_BALLS_MOST];
   const double *r = layout[0].r;
-  for (int k = 0; k < plan->view.count; k++) {
-    balls[k] = plan->job.balls[k];
+  for (int k = 0; k < search->view.count; k++) {
+    balls[k] = search->job.balls[k];
     balls[k].state = layout[k];
   }
-  if (plan->job.goal->kind == CAROM_GOAL_SNOOKER)
-    return carom_is_hidden(balls, in_play, r, plan->job.goal->ball);
+  if (search->job.goal->kind == CAROM_GOAL_SNOOKER)
+    return carom_is_hidden(balls, in_play, r, search->job.goal->ball);
   for (int k = 1; targets >> k != 0; k++)
     if ((targets >> k & 1) && carom_is_seen(balls, in_play & ~carom_only(k), r, k))
       return false;
@@ -71,10 +72,11 @@ __attribute__((noinline)) static bool is_barred(const carom_search *plan, uint32
 }
 
 /* Whether a ball is so far from all object balls, between surfaces. */
-static bool is_apart(const carom_search *plan, uint32_t in_play, int ball,
+static bool is_apart(const carom_search *search, uint32_t in_play, int ball,
                      const carom_ball_state *layout) {
-  for (int k = 0; k < plan->view.count; k++) {
-    const double least = plan->view.radius[k] + plan->view.radius[ball] + plan->job.goal->distance;
+  for (int k = 0; k < search->view.count; k++) {
+    const double least =
+        search->view.radius[k] + search->view.radius[ball] + search->job.goal->distance;
     if ((in_play >> k & 1) && k != ball &&
         carom_square(layout[k].r, layout[ball].r) < least * least)
       return false;
@@ -82,16 +84,16 @@ static bool is_apart(const carom_search *plan, uint32_t in_play, int ball,
   return true;
 }
 
-bool carom_search_reaches(const carom_search *plan, const carom_rules_state *game,
+bool carom_search_reaches(const carom_search *search, const carom_rules_state *game,
                           const carom_ball_state *layout, const carom_turn *turn, float *near) {
-  const carom_plan_goal *goal = plan->job.goal;
+  const carom_plan_goal *goal = search->job.goal;
   const bool passes = turn->outcome == CAROM_TURN_PASS, loses = turn->outcome == CAROM_TURN_LOSE;
-  if (turn->foul != CAROM_FOUL_NONE || loses || passes != plan->only_safeties)
+  if (turn->foul != CAROM_FOUL_NONE || loses || passes != search->only_safeties)
     return false;
 
   /* the object balls, and where the cue ball rests */
-  const int cue_ball = plan->view.cue_ball;
-  const uint32_t in_play = carom_in_play(layout, plan->view.count) & ~carom_only(cue_ball);
+  const int cue_ball = search->view.cue_ball;
+  const uint32_t in_play = carom_in_play(layout, search->view.count) & ~carom_only(cue_ball);
   const carom_ball_state *cue = &layout[cue_ball];
   if (goal->kind == CAROM_GOAL_NEAR) {
     const double away = sqrt(carom_square(cue->r, goal->place));
@@ -101,12 +103,13 @@ bool carom_search_reaches(const carom_search *plan, const carom_rules_state *gam
     return away <= goal->distance;
   }
   if (goal->kind != CAROM_GOAL_APART) {
-    const uint32_t targets = plan->job.rules->on(game, in_play) & in_play;
+    const uint32_t targets = search->job.rules->on(game, in_play) & in_play;
     const bool alive = goal->kind != CAROM_GOAL_SNOOKER || (in_play & carom_only(goal->ball)) != 0;
-    return turn->leave < CAROM_LEAVE_ANYWHERE && alive && is_barred(plan, in_play, targets, layout);
+    return turn->leave < CAROM_LEAVE_ANYWHERE && alive &&
+           is_barred(search, in_play, targets, layout);
   }
   for (int k = 0; goal->balls >> k != 0; k++)
-    if ((goal->balls & in_play & carom_only(k)) != 0 && !is_apart(plan, in_play, k, layout))
+    if ((goal->balls & in_play & carom_only(k)) != 0 && !is_apart(search, in_play, k, layout))
       return false;
   return true;
 }

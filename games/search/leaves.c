@@ -16,6 +16,7 @@
  * than random ones. Chosen by value.c they were worth 0.034 +- 0.014 more. Of 750 against 600 it is
  * 0.051 +- 0.017, and 0.003 +- 0.020 by value.c. */
 #include "leaves.h"
+#include "draws.h"
 
 #include "coach.h"
 #include "listing.h"
@@ -28,7 +29,6 @@
 #include <string.h>
 
 typedef carom_candidate candidate;
-typedef carom_search search;
 
 /* Shots of the best stroke of a plan from a leave that choose nothing, of which the value comes:
  * where a leave is searched again, they are more. */
@@ -40,8 +40,9 @@ enum { SHOTS_A_PLACE = 40, SPREAD_LEAST = 8, SPREAD_MOST = 24, BEST = 2, DRAWS =
 static const double worse_most = 0.1;
 static const carom_call pass_call = {CAROM_CALL_PASS, -1};
 
-static bool may_hand_over(const search *plan) {
-  return (plan->permissions & (CAROM_CHOICE_PASS | CAROM_CHOICE_PUSH)) != 0 && plan->places == 0;
+static bool may_hand_over(const carom_search *search) {
+  return (search->permissions & (CAROM_CHOICE_PASS | CAROM_CHOICE_PUSH)) != 0 &&
+         search->places == 0;
 }
 
 /* Keeps the softest push-outs, whose places err least. */
@@ -56,20 +57,20 @@ static void keep_soft(carom_leaves *leaves, const candidate *c) {
     leaves->item[index].c = *c;
 }
 
-void carom_leaves_collect(search *plan) {
-  carom_leaves *leaves = plan->leaves;
-  if (!may_hand_over(plan))
+void carom_leaves_collect(carom_search *search) {
+  carom_leaves *leaves = search->leaves;
+  if (!may_hand_over(search))
     return;
   memset(leaves, 0, sizeof *leaves);
   int64_t count = 0;
-  for (int64_t k = 0; k < plan->count; k++) {
-    const candidate *c = &plan->found[k];
+  for (int64_t k = 0; k < search->count; k++) {
+    const candidate *c = &search->found[k];
     if (c->kind != CAROM_PLAN_PUSH)
-      plan->found[count++] = *c;
+      search->found[count++] = *c;
     else if (!c->chose.foul)
       keep_soft(leaves, c);
   }
-  plan->count = count;
+  search->count = count;
 }
 
 static double mean_of(const candidate *c) {
@@ -84,12 +85,12 @@ static double worth_of(const carom_handed_over *h) {
 }
 
 /* The pass by the value that carom_search_leave() has for it. */
-static candidate pass_of(const search *plan) {
-  const carom_plan_rules *rules = plan->job.rules;
+static candidate pass_of(const carom_search *search) {
+  const carom_plan_rules *rules = search->job.rules;
   carom_rules_state game = rules->state; /* rules change it as they judge */
   const carom_turn turn =
-      rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts, pass_call);
-  const double value = carom_search_leave(plan, &game, plan->state, &turn);
+      rules->judge(&game, search->in_play, search->view.cue_ball, &carom_no_facts, pass_call);
+  const double value = carom_search_leave(search, &game, search->state, &turn);
   return (candidate){.chose = {.sum = value, .squares = value * value, .seen = 1},
                      .kind = CAROM_PLAN_PASS,
                      .ball = CAROM_CALL_PASS,
@@ -97,16 +98,16 @@ static candidate pass_of(const search *plan) {
                      .order = -1}; /* of shots that are worth as much, none is played */
 }
 
-bool carom_leaves_begin(search *plan) {
-  if (!may_hand_over(plan))
+bool carom_leaves_begin(carom_search *search) {
+  if (!may_hand_over(search))
     return false;
-  carom_leaves *leaves = plan->leaves;
-  if (plan->permissions & CAROM_CHOICE_PASS)
-    leaves->pass = pass_of(plan);
+  carom_leaves *leaves = search->leaves;
+  if (search->permissions & CAROM_CHOICE_PASS)
+    leaves->pass = pass_of(search);
 
   /* chances that the caller gives are no player's, and search nothing */
-  leaves->best = mean_of(&plan->found[0]);
-  if (plan->view.set_chance[0] > 0.0 || plan->view.set_chance[1] > 0.0)
+  leaves->best = mean_of(&search->found[0]);
+  if (search->view.set_chance[0] > 0.0 || search->view.set_chance[1] > 0.0)
     leaves->best = INFINITY;
   return true;
 }
@@ -115,16 +116,16 @@ bool carom_leaves_begin(search *plan) {
 
 /* Plays a push-out, with errors for draw 1, 2 and so on, or passes. Returns whether that leaves the
  * opponent a choice: no foul, and no cue ball in hand. */
-static bool hand_over(const search *plan, const candidate *c, int draw) {
-  carom_leaves *leaves = plan->leaves;
-  const carom_plan_job *job = &plan->job;
+static bool hand_over(const carom_search *search, const candidate *c, int draw) {
+  carom_leaves *leaves = search->leaves;
+  const carom_plan_job *job = &search->job;
   carom_ruling *ruling = &leaves->ruling;
   if (c->kind == CAROM_PLAN_PASS) {
-    carom_referee(job->rules, job->table, job->balls, (int)job->count, plan->view.cue_ball, NULL,
+    carom_referee(job->rules, job->table, job->balls, (int)job->count, search->view.cue_ball, NULL,
                   pass_call, ruling);
   } else {
-    carom_cue cue = carom_search_stroke(plan, c, draw > 0 ? DRAW_LEAVES : 0, draw);
-    cue.ball = plan->view.cue_ball;
+    carom_cue cue = carom_search_stroke(search, c, draw > 0 ? DRAW_LEAVES : 0, draw);
+    cue.ball = search->view.cue_ball;
     carom_play_stroke(job, &cue, (carom_call){CAROM_CALL_PUSH, -1}, &leaves->room,
                       &(carom_shot){.events = NULL}, ruling);
   }
@@ -136,11 +137,11 @@ static bool is_worth_search(const carom_leaves *leaves, const candidate *c) {
 }
 
 /* Finds the place of the next push-out; one that is not worth a search is dropped. */
-static void find_place(search *plan) {
-  carom_leaves *leaves = plan->leaves;
+static void find_place(carom_search *search) {
+  carom_leaves *leaves = search->leaves;
   carom_handed_over *h = &leaves->item[leaves->placed];
-  if (is_worth_search(leaves, &h->c) && hand_over(plan, &h->c, 0)) {
-    memcpy(h->place, leaves->ruling.balls[plan->view.cue_ball].state.r, sizeof h->place);
+  if (is_worth_search(leaves, &h->c) && hand_over(search, &h->c, 0)) {
+    memcpy(h->place, leaves->ruling.balls[search->view.cue_ball].state.r, sizeof h->place);
     leaves->placed++;
   } else {
     *h = leaves->item[--leaves->count];
@@ -207,59 +208,59 @@ static void next_draw(carom_leaves *leaves) {
 }
 
 /* Makes the plan of a side from the leave of a ruling. */
-static carom_status make_search(const search *plan) {
-  carom_leaves *leaves = plan->leaves;
+static carom_status make_search(const carom_search *search) {
+  carom_leaves *leaves = search->leaves;
   carom_plan_rules *rules = &leaves->rules;
-  carom_plan_job next = carom_job_after(&plan->job, &leaves->ruling, rules);
+  carom_plan_job next = carom_job_after(&search->job, &leaves->ruling, rules);
   if (leaves->side == 1) {
-    rules->judge(&rules->state, plan->in_play, plan->view.cue_ball, &carom_no_facts, pass_call);
-    next.player = plan->job.player;
-    next.opponent = plan->job.opponent;
+    rules->judge(&rules->state, search->in_play, search->view.cue_ball, &carom_no_facts, pass_call);
+    next.player = search->job.player;
+    next.opponent = search->job.opponent;
   }
   rules->state.may = 0;
-  leaves->options = plan->options;
+  leaves->options = search->options;
   leaves->options.shots = LEAVE_SHOTS;
   leaves->options.seconds = leaves->options.unsure = 0.0;
   leaves->options.seed += UINT64_C(0x9e3779b97f4a7c15) * (uint64_t)(1 + leaves->draw);
   next.options = &leaves->options;
-  search *leave = (search *)(leaves + 1);
+  carom_search *leave = (carom_search *)(leaves + 1);
   const carom_status status = carom_search_make(leave, &next, false, 1);
-  leave->crew = plan->crew;
-  leave->end = plan->end;
+  leave->crew = search->crew;
+  leave->end = search->end;
   leave->fresh_least = leaves->is_again ? FRESH_AGAIN : FRESH;
   return status;
 }
 
-search *carom_leaves_next(search *plan) {
+carom_search *carom_leaves_next(carom_search *search) {
   enum { COST = 100 }; /* events of a shot that take as long as a plan that begins */
-  carom_leaves *leaves = plan->leaves;
-  carom_search_spend(plan, COST);
+  carom_leaves *leaves = search->leaves;
+  carom_search_spend(search, COST);
   if (!leaves->is_spread) {
     if (leaves->placed < leaves->count)
-      find_place(plan);
+      find_place(search);
     else
-      choose_spread(leaves, plan->shots);
+      choose_spread(leaves, search->shots);
     return NULL;
   }
   if (leaves->index == leaves->count) {
     choose_best(leaves);
     return NULL;
   }
-  if (hand_over(plan, &leaves->item[leaves->index].c, leaves->draw) &&
-      make_search(plan) == CAROM_OK)
-    return (search *)(leaves + 1);
+  if (hand_over(search, &leaves->item[leaves->index].c, leaves->draw) &&
+      make_search(search) == CAROM_OK)
+    return (carom_search *)(leaves + 1);
   next_draw(leaves);
   return NULL;
 }
 
-bool carom_leaves_ended(const search *plan) {
-  const carom_leaves *leaves = plan->leaves;
+bool carom_leaves_ended(const carom_search *search) {
+  const carom_leaves *leaves = search->leaves;
   return leaves->is_again && leaves->index == leaves->count;
 }
 
-void carom_leaves_take(search *plan) {
-  carom_leaves *leaves = plan->leaves;
-  const search *leave = (search *)(leaves + 1);
+void carom_leaves_take(carom_search *search) {
+  carom_leaves *leaves = search->leaves;
+  const carom_search *leave = (carom_search *)(leaves + 1);
   const double value = carom_search_choice(leave, &leave->found[0]).value;
   carom_handed_over *h = &leaves->item[leaves->index];
   leaves->chance[leaves->side] = value;
@@ -270,7 +271,7 @@ void carom_leaves_take(search *plan) {
     for (int k = 0; k < leaves->index && !leaves->is_again; k++)
       best = fmax(best, worth_of(&leaves->item[k]));
     const bool is_equal =
-        memcmp(leave->job.player, plan->job.player, sizeof *plan->job.player) == 0;
+        memcmp(leave->job.player, search->job.player, sizeof *search->job.player) == 0;
     leaves->chance[1] = is_equal ? value : 1.0 - value;
     leaves->side = h->c.kind != CAROM_PLAN_PASS && 1.0 - value > best && !is_equal;
     if (leaves->side == 1)
@@ -288,7 +289,7 @@ void carom_leaves_take(search *plan) {
 }
 
 /* Adds an item as a candidate with what its searches have told. */
-static void add(search *plan, const carom_handed_over *h) {
+static void add(carom_search *search, const carom_handed_over *h) {
   candidate c = h->c;
   if (h->count > 0) {
     const double n = h->count, worth = worth_of(h), seen = (double)c.chose.seen;
@@ -300,19 +301,19 @@ static void add(search *plan, const carom_handed_over *h) {
 
     /* strokes that foul leave about what there is */
     const double fouls = (double)c.chose.foul / seen;
-    const double mixed = (1.0 - fouls) * worth + fouls * plan->foul_value;
+    const double mixed = (1.0 - fouls) * worth + fouls * search->foul_value;
     c.chose.sum = seen * mixed;
     c.chose.squares = seen * mixed * mixed;
   }
-  c.round = plan->found[0].round;
-  if (plan->count == plan->most)
-    plan->count--;
-  plan->found[plan->count++] = c;
-  carom_search_lead(plan, plan->count - 1);
+  c.round = search->found[0].round;
+  if (search->count == search->most)
+    search->count--;
+  search->found[search->count++] = c;
+  carom_search_lead(search, search->count - 1);
 }
 
-void carom_leaves_end(search *plan) {
-  const carom_leaves *leaves = plan->leaves;
+void carom_leaves_end(carom_search *search) {
+  const carom_leaves *leaves = search->leaves;
   const carom_handed_over *best = NULL, *pass = &(carom_handed_over){.c = leaves->pass};
   for (int k = 0; k < leaves->count; k++) {
     const carom_handed_over *h = &leaves->item[k];
@@ -322,7 +323,7 @@ void carom_leaves_end(search *plan) {
       best = h;
   }
   if (best != NULL)
-    add(plan, best);
+    add(search, best);
   if (pass->c.kind == CAROM_PLAN_PASS)
-    add(plan, pass);
+    add(search, pass);
 }

@@ -5,15 +5,15 @@
 #include "search_state.h"
 
 /* Takes push-outs out of the candidates: rounds do not tell what they are worth. */
-void carom_leaves_collect(carom_search *plan);
+void carom_leaves_collect(carom_search *search);
 /* Begins with the leaves of a plan whose rounds are over. False: it may not push out or pass. */
-bool carom_leaves_begin(carom_search *plan);
-bool carom_leaves_ended(const carom_search *plan);
+bool carom_leaves_begin(carom_search *search);
+bool carom_leaves_ended(const carom_search *search);
 /* The plan from the next leave, which has not begun; NULL: it comes later, or none does. */
-carom_search *carom_leaves_next(carom_search *plan);
+carom_search *carom_leaves_next(carom_search *search);
 /* Takes the value of that plan, which has ended. */
-void carom_leaves_take(carom_search *plan);
+void carom_leaves_take(carom_search *search);
 /* Adds the best push-out and the pass as candidates. */
-void carom_leaves_end(carom_search *plan);
+void carom_leaves_end(carom_search *search);
 
 #endif

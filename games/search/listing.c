@@ -8,7 +8,6 @@
 #include <math.h>
 
 typedef carom_candidate candidate;
-typedef carom_search search;
 
 /* A coach names no stroke that is much worse than the first one. */
 static const double points_most = 0.1;
@@ -88,7 +87,7 @@ static int kind_of(const candidate *c, const named_pot *pot) {
   return c->kind;
 }
 
-carom_plan_stroke carom_search_choice(const search *plan, const candidate *c) {
+carom_plan_stroke carom_search_choice(const carom_search *search, const candidate *c) {
   const named_pot pot = pot_of(c);
   const shot_chances chances = told_of(c);
 
@@ -101,7 +100,7 @@ carom_plan_stroke carom_search_choice(const search *plan, const candidate *c) {
   if (value < 0.0)
     value = 0.0;
   const double unsure = (double)c->leave_error;
-  carom_plan_stroke choice = {.cue = *plan->job.cue,
+  carom_plan_stroke choice = {.cue = *search->job.cue,
                               .place = {c->r[0], c->r[1]},
                               .kind = kind_of(c, &pot),
                               .ball = pot.ball,
@@ -129,40 +128,41 @@ carom_plan_stroke carom_search_choice(const search *plan, const candidate *c) {
 
 /* Whether two choices have the same ball, pocket and kind; of safeties alone, also about the same
  * direction. */
-static bool is_same(const search *plan, const carom_plan_stroke *a, const carom_plan_stroke *b) {
+static bool is_same(const carom_search *search, const carom_plan_stroke *a,
+                    const carom_plan_stroke *b) {
   static const double apart = 5.0; /* degrees */
   const double turn = fabs(a->cue.phi - b->cue.phi);
-  const bool is_near = !plan->only_safeties || fmin(turn, 360.0 - turn) <= apart;
+  const bool is_near = !search->only_safeties || fmin(turn, 360.0 - turn) <= apart;
   return a->ball == b->ball && a->pocket == b->pocket && a->kind == b->kind && is_near;
 }
 
 /* Whether n choices hold the same one. */
-static bool has_same(const search *plan, const carom_plan_stroke *choices, int n,
+static bool has_same(const carom_search *search, const carom_plan_stroke *choices, int n,
                      const carom_plan_stroke *choice) {
   for (int k = 0; k < n; k++)
-    if (is_same(plan, &choices[k], choice))
+    if (is_same(search, &choices[k], choice))
       return true;
   return false;
 }
 
 /* What a candidate tells, with its kind. */
-static carom_plan_stroke with_kind(search *plan, candidate *c) {
-  carom_plan_stroke choice = carom_search_choice(plan, c);
-  choice.kind = carom_search_kind(plan, c, &choice);
+static carom_plan_stroke with_kind(carom_search *search, candidate *c) {
+  carom_plan_stroke choice = carom_search_choice(search, c);
+  choice.kind = carom_search_kind(search, c, &choice);
   return choice;
 }
 
 /* Whether a candidate is worth a place in the list. One that was not played tells nothing; one
  * without a ball is none to a player who is alone; and one that looks better than the best was
  * played too seldom. */
-static bool is_listed(const search *plan, const candidate *c) {
-  const candidate *best = &plan->found[0];
-  const bool alone = plan->job.rules->race == CAROM_RACE_ALONE && !plan->breaks;
+static bool is_listed(const carom_search *search, const candidate *c) {
+  const candidate *best = &search->found[0];
+  const bool alone = search->job.rules->race == CAROM_RACE_ALONE && !search->breaks;
   if (c->kind == CAROM_PLAN_PASS)
     return true;
   if (c->round == 0 || (alone && pot_of(c).ball < 0))
     return false;
-  if (plan->only_safeties && carom_luck * c->chose.seen < c->chose.keep)
+  if (search->only_safeties && carom_luck * c->chose.seen < c->chose.keep)
     return false;
   const double mean = mean_of(&c->chose), best_mean = mean_of(&best->chose);
   return mean >= best_mean - points_most && !(mean > best_mean && c->round < best->round);
@@ -180,42 +180,43 @@ static bool is_safety(const candidate *c) {
 }
 
 /* Puts the safeties that look best, of those that are not listed, behind the list. */
-static void list_safeties(search *plan) {
+static void list_safeties(carom_search *search) {
   for (int n = 0; n < SAFETIES; n++) {
     int64_t best = -1;
-    for (int64_t k = plan->listed; k < plan->count; k++) {
-      const candidate *c = &plan->found[k];
+    for (int64_t k = search->listed; k < search->count; k++) {
+      const candidate *c = &search->found[k];
       const bool safe = is_safety(c) && 2 * c->chose.foul < c->chose.seen;
-      if (safe && (best < 0 || mean_of(&c->chose) > mean_of(&plan->found[best].chose)))
+      if (safe && (best < 0 || mean_of(&c->chose) > mean_of(&search->found[best].chose)))
         best = k;
     }
     if (best < 0)
       return;
-    swap(&plan->found[plan->listed++], &plan->found[best]);
+    swap(&search->found[search->listed++], &search->found[best]);
   }
 }
 
-bool carom_search_list(search *plan) {
-  carom_plan_stroke *listed = plan->listing; /* the stack is for shots */
-  for (int k = 0; k < plan->listed; k++)
-    listed[k] = with_kind(plan, &plan->found[k]);
-  for (; plan->examined < plan->count && plan->listed < plan->choices_most; plan->examined++) {
-    if (plan->slice == 0)
+bool carom_search_list(carom_search *search) {
+  carom_plan_stroke *listed = search->listing; /* the stack is for shots */
+  for (int k = 0; k < search->listed; k++)
+    listed[k] = with_kind(search, &search->found[k]);
+  for (; search->examined < search->count && search->listed < search->choices_most;
+       search->examined++) {
+    if (search->slice == 0)
       return false;
-    candidate *c = &plan->found[plan->examined];
-    if (!is_listed(plan, c))
+    candidate *c = &search->found[search->examined];
+    if (!is_listed(search, c))
       continue;
-    listed[plan->listed] = with_kind(plan, c);
-    if (!has_same(plan, listed, plan->listed, &listed[plan->listed]))
-      swap(&plan->found[plan->listed++], c);
+    listed[search->listed] = with_kind(search, c);
+    if (!has_same(search, listed, search->listed, &listed[search->listed]))
+      swap(&search->found[search->listed++], c);
   }
 
   bool safe = false;
-  for (int k = 0; k < plan->listed; k++)
+  for (int k = 0; k < search->listed; k++)
     safe |= listed[k].kind == CAROM_PLAN_SAFETY;
-  const bool alone = plan->job.rules->race == CAROM_RACE_ALONE;
-  if (plan->choices_most > 1 && !safe && !alone && !plan->breaks && plan->view.pockets > 0)
-    list_safeties(plan);
+  const bool alone = search->job.rules->race == CAROM_RACE_ALONE;
+  if (search->choices_most > 1 && !safe && !alone && !search->breaks && search->view.pockets > 0)
+    list_safeties(search);
   return true;
 }
 
@@ -244,14 +245,14 @@ static void promote(carom_plan_stroke *first, carom_plan_stroke *second) {
   *second = demoted;
 }
 
-int carom_search_give(search *plan, carom_plan_stroke *choices, int room) {
+int carom_search_give(carom_search *search, carom_plan_stroke *choices, int room) {
   carom_plan_stroke choice_list[LISTED_MOST + SAFETIES];
   int n = 0, written = 0;
-  for (int k = 0; k < carom_max(plan->listed, 1) && !(n > 0 && carom_is_stopped(plan)); k++) {
-    carom_plan_stroke choice = with_kind(plan, &plan->found[k]);
+  for (int k = 0; k < carom_max(search->listed, 1) && !(n > 0 && carom_is_stopped(search)); k++) {
+    carom_plan_stroke choice = with_kind(search, &search->found[k]);
     if (n > 0) {
       bool risky = choice.kind == CAROM_PLAN_SAFETY && choice.foul > foul_most;
-      if (plan->breaks && choice.kind != CAROM_PLAN_BREAK)
+      if (search->breaks && choice.kind != CAROM_PLAN_BREAK)
         risky = choice.foul > opening_foul_most;
       if ((choice.seen < TOLD_LEAST && choice.kind != CAROM_PLAN_PASS) || risky)
         continue;
@@ -267,7 +268,7 @@ int carom_search_give(search *plan, carom_plan_stroke *choices, int room) {
     const bool safety = choice_list[k].kind == CAROM_PLAN_SAFETY;
     const bool is_close = choice_list[k].value >= choice_list[0].value - points_most ||
                           choice_list[k].kind == CAROM_PLAN_PASS;
-    if (has_same(plan, choices, written, &choice_list[k]) || !(is_close || safety))
+    if (has_same(search, choices, written, &choice_list[k]) || !(is_close || safety))
       continue;
     if (written < room)
       choices[written++] = choice_list[k];

@@ -5,12 +5,12 @@
 #include "search_state.h"
 
 /* What a candidate tells. */
-carom_plan_stroke carom_search_choice(const carom_search *plan, const carom_candidate *c);
-/* Puts the candidates behind the best, plan->listed with it, that may be listed: one for each ball,
+carom_plan_stroke carom_search_choice(const carom_search *search, const carom_candidate *c);
+/* Puts the candidates behind the best, search->listed with it, that may be listed: one for each
  * pocket and kind, and some safeties. Goes on where the last slice ended, from candidate
- * plan->examined on. Returns whether it is done. */
-bool carom_search_list(carom_search *plan);
+ * search->examined on. Returns whether it is done. */
+bool carom_search_list(carom_search *search);
 /* Writes up to `room` choices of those that are listed, the best first. Returns their number. */
-int carom_search_give(carom_search *plan, carom_plan_stroke *choices, int room);
+int carom_search_give(carom_search *search, carom_plan_stroke *choices, int room);
 
 #endif

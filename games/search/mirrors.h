@@ -6,6 +6,6 @@
 
 /* Adds up to `most` strokes of the likeliest banks, kicks and combinations. They still have to be
  * steered. */
-void carom_search_mirrors(carom_search *plan, int64_t most);
+void carom_search_mirrors(carom_search *search, int64_t most);
 
 #endif

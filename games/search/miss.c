@@ -12,15 +12,16 @@
  *
  * which a hundred shots with errors would show less well. */
 #include "miss.h"
+#include "draws.h"
 
 #include "platform/elementary.h"
+#include "player.h"
 #include "rows.h"
 
 #include <math.h>
 #include <string.h>
 
 typedef carom_candidate candidate;
-typedef carom_search search;
 
 static const carom_miss no_miss = {.miss = INFINITY, .ball = -1, .target = -1, .piece = -1};
 
@@ -28,43 +29,43 @@ static const carom_miss no_miss = {.miss = INFINITY, .ball = -1, .target = -1, .
 
 /* The number of cushions that the cue ball has to meet before the second ball, as the rules judge a
  * stroke that meets two balls; -1: that is no point. */
-static int cushions_of_point(const search *plan) {
+static int cushions_of_point(const carom_search *search) {
   enum { MOST = 3 };
-  const int cue_ball = plan->view.cue_ball;
+  const int cue_ball = search->view.cue_ball;
   carom_facts facts = carom_no_facts;
   int met = 0;
-  for (int k = plan->view.count - 1; k >= 0 && met < 2; k--)
-    if (k != cue_ball && (plan->in_play >> k & 1))
+  for (int k = search->view.count - 1; k >= 0 && met < 2; k--)
+    if (k != cue_ball && (search->in_play >> k & 1))
       facts.first[met++] = k;
-  if (plan->view.pockets > 0 || met < 2)
+  if (search->view.pockets > 0 || met < 2)
     return -1;
   facts.first_set = UINT32_C(1) << facts.first[0];
   facts.touches = 1;
   for (int n = 0; n <= MOST; n++) {
     facts.cushions_before[1] = n;
-    carom_rules_state game = plan->job.rules->state; /* rules change it as they judge */
+    carom_rules_state game = search->job.rules->state; /* rules change it as they judge */
     const carom_call call = {facts.first[0], -1};
-    if (plan->job.rules->judge(&game, plan->in_play, cue_ball, &facts, call).points > 0.0)
+    if (search->job.rules->judge(&game, search->in_play, cue_ball, &facts, call).points > 0.0)
       return n;
   }
   return -1;
 }
 
-void carom_search_find_goals(search *plan) {
-  plan->cushions = cushions_of_point(plan);
-  plan->deciding = 0;
-  for (int k = 0; k < plan->plays; k++) {
-    const uint32_t ball = UINT32_C(1) << plan->layout_ball[k];
-    bool decides = plan->job.rules->calls != 1 || (plan->targets & ball) != 0;
-    if (k == plan->cue_ball || plan->cushions >= 0)
-      decides = k == plan->cue_ball && plan->cushions >= 0;
+void carom_search_find_goals(carom_search *search) {
+  search->cushions = cushions_of_point(search);
+  search->deciding = 0;
+  for (int k = 0; k < search->plays; k++) {
+    const uint32_t ball = UINT32_C(1) << search->layout_ball[k];
+    bool decides = search->job.rules->calls != 1 || (search->targets & ball) != 0;
+    if (k == search->cue_ball || search->cushions >= 0)
+      decides = k == search->cue_ball && search->cushions >= 0;
     if (decides)
-      plan->deciding |= UINT32_C(1) << k;
+      search->deciding |= UINT32_C(1) << k;
   }
 }
 
-bool carom_search_is_steered(const search *plan) {
-  return plan->places == 0 && !plan->breaks && !plan->only_safeties;
+bool carom_search_is_steered(const carom_search *search) {
+  return search->places == 0 && !search->breaks && !search->only_safeties;
 }
 
 /* ---- How far a shot misses */
@@ -77,7 +78,7 @@ typedef struct piece {
 
 /* A shot whose misses are compared. */
 typedef struct measure {
-  const search *plan;
+  const carom_search *search;
   const carom_miss *same; /* NULL: each way counts */
   carom_miss best;
   uint32_t met; /* by the cue ball */
@@ -102,14 +103,14 @@ static void compare(measure *s, const piece *w, int target, double miss) {
 static void miss_pockets(measure *s, const piece *w) {
   static const double farthest[2] = {0.3, 1.2},
                       beyond[2] = {0.12, 0.6}; /* m: from the line; behind its end */
-  const search *plan = s->plan;
+  const carom_search *search = s->search;
   const int known = s->same != NULL;
-  const double radius = plan->view.radius[plan->layout_ball[w->ball]];
-  for (int p = 0; p < plan->view.pockets; p++) {
-    const carom_mouth *mouth = &plan->view.mouth[p];
+  const double radius = search->view.radius[search->layout_ball[w->ball]];
+  for (int p = 0; p < search->view.pockets; p++) {
+    const carom_mouth *mouth = &search->view.mouth[p];
     const double x = mouth->centre[0] - w->p[0], y = mouth->centre[1] - w->p[1];
     const double along = x * w->u[0] + y * w->u[1], off = x * w->u[1] - y * w->u[0];
-    if (!(plan->pockets >> p & 1) || along <= 0.0 || along > w->length + beyond[known] ||
+    if (!(search->pockets >> p & 1) || along <= 0.0 || along > w->length + beyond[known] ||
         fabs(off) > farthest[known])
       continue;
     const carom_window window = carom_window_of(mouth, w->p, radius);
@@ -121,13 +122,13 @@ static void miss_pockets(measure *s, const piece *w) {
 
 /* The misses of the balls that the cue ball has not met. */
 static void miss_balls(measure *s, const piece *w) {
-  const carom_shot_ball *played = s->plan->played;
-  for (int k = 0; k < s->plan->plays; k++) {
-    if (k == s->plan->cue_ball || (s->met >> k & 1))
+  const carom_shot_ball *played = s->search->played;
+  for (int k = 0; k < s->search->plays; k++) {
+    if (k == s->search->cue_ball || (s->met >> k & 1))
       continue;
     const double x = played[k].state.r[0] - w->p[0], y = played[k].state.r[1] - w->p[1];
     const double along = x * w->u[0] + y * w->u[1];
-    const double both = played[k].kind.radius + played[s->plan->cue_ball].kind.radius;
+    const double both = played[k].kind.radius + played[s->search->cue_ball].kind.radius;
     if (along > 0.0 && along <= w->length + both)
       compare(s, w, k, (x * w->u[1] - y * w->u[0]) / both);
   }
@@ -136,35 +137,35 @@ static void miss_balls(measure *s, const piece *w) {
 /* Measures the piece that ends in an event of a ball; `partner` is the other one, or -1. */
 static void measure_piece(measure *s, const carom_event *e, int side, int partner) {
   static const double least = 1e-3; /* m */
-  const search *plan = s->plan;
+  const carom_search *search = s->search;
   const int ball = side == 0 ? e->a : e->b;
   double *start = s->start[ball];
   const double x = e->before[side].r[0] - start[0], y = e->before[side].r[1] - start[1];
   const double length = sqrt(x * x + y * y);
   const piece w = {{start[0], start[1]}, {x / length, y / length}, length, ball, s->contacts[ball]};
-  const bool may_score = s->met != 0 && s->cushions >= plan->cushions;
-  if (length > least && ball != plan->cue_ball)
+  const bool may_score = s->met != 0 && s->cushions >= search->cushions;
+  if (length > least && ball != search->cue_ball)
     miss_pockets(s, &w);
-  else if (length > least && (plan->cushions < 0 || may_score))
+  else if (length > least && (search->cushions < 0 || may_score))
     miss_balls(s, &w);
 
   /* the next piece */
   memcpy(start, e->after[side].r, sizeof s->start[ball]);
   s->contacts[ball] += partner >= 0 || e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW;
-  if (ball == plan->cue_ball && e->type == CAROM_EVENT_RAIL)
+  if (ball == search->cue_ball && e->type == CAROM_EVENT_RAIL)
     s->cushions++;
-  if (ball == plan->cue_ball && partner >= 0)
+  if (ball == search->cue_ball && partner >= 0)
     s->met |= UINT32_C(1) << partner;
 }
 
 /* The least miss of a shot of a candidate; or the least on the way of `same`. */
-static carom_miss miss_of(const search *plan, const candidate *c, const carom_event *events,
+static carom_miss miss_of(const carom_search *search, const candidate *c, const carom_event *events,
                           int64_t count, const carom_miss *same) {
-  measure s = {.plan = plan, .same = same, .best = no_miss};
-  const uint32_t balls = same == NULL ? plan->deciding : UINT32_C(1) << same->ball;
-  for (int k = 0; k < plan->plays; k++)
-    memcpy(s.start[k], plan->played[k].state.r, sizeof s.start[k]);
-  memcpy(s.start[plan->cue_ball], c->r, sizeof s.start[0]);
+  measure s = {.search = search, .same = same, .best = no_miss};
+  const uint32_t balls = same == NULL ? search->deciding : UINT32_C(1) << same->ball;
+  for (int k = 0; k < search->plays; k++)
+    memcpy(s.start[k], search->played[k].state.r, sizeof s.start[k]);
+  memcpy(s.start[search->cue_ball], c->r, sizeof s.start[0]);
   for (int64_t n = 0; n < carom_min(count, PATH_EVENTS); n++) {
     const carom_event *e = &events[n];
     const bool pair = e->type == CAROM_EVENT_BALL_BALL;
@@ -184,38 +185,38 @@ static const double good = 0.3, fair = 0.8;         /* misses of strokes that ar
 
 /* The miss of a candidate without errors in another direction, on the way of `same`; NaN where it
  * leaves it. */
-static double miss_at(const search *plan, const candidate *c, const carom_miss *same, double phi,
-                      carom_trail *path) {
+static double miss_at(const carom_search *search, const candidate *c, const carom_miss *same,
+                      double phi, carom_trail *path) {
   carom_shot shot = {.events = path->event, .room = PATH_EVENTS, .facts = &path->facts};
-  carom_cue cue = carom_search_stroke(plan, c, 0, 0);
+  carom_cue cue = carom_search_stroke(search, c, 0, 0);
   cue.phi = carom_turned(phi);
-  cue.ball = plan->cue_ball;
-  const carom_prepared layout = carom_search_layout(plan, c, 0, 0, path->drawn);
+  cue.ball = search->cue_ball;
+  const carom_prepared layout = carom_search_layout(search, c, 0, 0, path->drawn);
   const carom_status status = carom_shoot_prepared(&layout, &cue, &shot);
   path->work += carom_search_work(&shot);
   if (status < 0)
     return (double)NAN;
-  const carom_miss m = miss_of(plan, c, path->event, shot.count, same);
+  const carom_miss m = miss_of(search, c, path->event, shot.count, same);
   if (m.ball < 0)
     return (double)NAN;
   return (double)m.miss;
 }
 
 /* The slope of a miss, by the stroke beside it; infinite where that leaves the way. */
-static float slope_of(const search *plan, const candidate *c, const carom_miss *m,
+static float slope_of(const carom_search *search, const candidate *c, const carom_miss *m,
                       carom_trail *path) {
-  const double slope = (miss_at(plan, c, m, c->phi + step, path) - (double)m->miss) / step;
+  const double slope = (miss_at(search, c, m, c->phi + step, path) - (double)m->miss) / step;
   if (isnan(slope))
     return INFINITY;
   return (float)slope;
 }
 
-carom_miss carom_search_measure(const search *plan, const candidate *c, carom_trail *path,
+carom_miss carom_search_measure(const carom_search *search, const candidate *c, carom_trail *path,
                                 int64_t count) {
   static const float most = 12.0f;
-  carom_miss m = miss_of(plan, c, path->event, count, NULL);
+  carom_miss m = miss_of(search, c, path->event, count, NULL);
   if (fabsf(m.miss) < most)
-    m.slope = slope_of(plan, c, &m, path);
+    m.slope = slope_of(search, c, &m, path);
   return m;
 }
 
@@ -229,13 +230,13 @@ bool carom_search_is_in_reach(const carom_miss *m) {
 }
 
 /* Turns a kick until the cue ball meets the first ball about as it has to: a secant each step. */
-static void turn_to_ball(const search *plan, candidate *c, carom_trail *path) {
+static void turn_to_ball(const carom_search *search, candidate *c, carom_trail *path) {
   enum { STEPS = 3 };
   static const double first = 0.5, enough = 0.1; /* degrees; misses */
   double change = first, off = 0.0;
   for (int n = 0; n <= STEPS; n++) {
     const double phi = n == 0 ? c->phi : c->phi + change;
-    const double next = miss_at(plan, c, &c->lead, phi, path) - (double)c->lead.miss;
+    const double next = miss_at(search, c, &c->lead, phi, path) - (double)c->lead.miss;
     if (isnan(next))
       return;
     if (n > 0)
@@ -247,14 +248,14 @@ static void turn_to_ball(const search *plan, candidate *c, carom_trail *path) {
   }
 }
 
-bool carom_search_turn(const search *plan, candidate *c, carom_trail *path) {
+bool carom_search_turn(const carom_search *search, candidate *c, carom_trail *path) {
   enum { STEPS = 4 };
   if (c->lead.piece > 0 && isnan(c->miss.miss))
-    turn_to_ball(plan, c, path);
+    turn_to_ball(search, c, path);
   if (isnan(c->miss.miss))
-    c->miss.miss = (float)miss_at(plan, c, &c->miss, c->phi, path);
+    c->miss.miss = (float)miss_at(search, c, &c->miss, c->phi, path);
   if (c->miss.slope == 0.0f)
-    c->miss.slope = slope_of(plan, c, &c->miss, path);
+    c->miss.slope = slope_of(search, c, &c->miss, path);
   if (!carom_search_is_in_reach(&c->miss))
     return false;
 
@@ -266,7 +267,7 @@ bool carom_search_turn(const search *plan, candidate *c, carom_trail *path) {
       change = step;
     if (!(fabs(turned + change) <= turned_most))
       break;
-    const double next = miss_at(plan, c, &c->miss, c->phi + turned + change, path);
+    const double next = miss_at(search, c, &c->miss, c->phi + turned + change, path);
     if (isnan(next)) {
       change *= 0.5;
       continue;
@@ -284,20 +285,20 @@ bool carom_search_turn(const search *plan, candidate *c, carom_trail *path) {
   return fabs(miss) < fair;
 }
 
-double carom_search_expected(const search *plan, double chance, double worth) {
-  double missed = fmin(plan->foul_value, worth);
-  if (plan->cushions >= 0)
+double carom_search_expected(const carom_search *search, double chance, double worth) {
+  double missed = fmin(search->foul_value, worth);
+  if (search->cushions >= 0)
     missed = 0.0;
   return missed + chance * (worth - missed);
 }
 
-double carom_search_worth(const search *plan, const candidate *c, double worth) {
-  const double phi = plan->player.phi * carom_player_growth(&plan->player, c->speed);
+double carom_search_worth(const carom_search *search, const candidate *c, double worth) {
+  const double phi = search->player.phi * carom_player_growth(&search->player, c->speed);
   const double spread = 1.4142135623730951 * fmax(phi, 1e-3) * fabs((double)c->miss.slope);
   double chance = 0.0;
   for (int side = -1; side <= 1; side += 2) {
     const double room = (1.0 + side * (double)c->miss.miss) / spread;
     chance += 0.5 * copysign(carom_erf(fabs(room)), room);
   }
-  return carom_search_expected(plan, chance, worth);
+  return carom_search_expected(search, chance, worth);
 }

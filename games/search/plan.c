@@ -23,6 +23,7 @@
 #include "carom_coach.h"
 #include "coach.h"
 #include "drawn_tables.h"
+#include "draws.h"
 #include "goals.h"
 #include "listing.h"
 #include "places.h"
@@ -38,7 +39,6 @@
 #include <string.h>
 
 typedef carom_candidate candidate;
-typedef carom_search search;
 
 /* FIRST: of the first round of doubling; IN_HAND_LEAST: of a plan whose places race */
 enum { IN_HAND_LEAST = 600, FIRST = 100 };
@@ -53,24 +53,24 @@ size_t carom_plan_memory(const carom_plan_options *options) {
   return bytes;
 }
 
-/* Where a plan is in the caller's memory; NULL where there is too little of it, or nothing to
+/* Where a search is in the caller's memory; NULL where there is too little of it, or nothing to
  * plan. */
-static search *place(const carom_plan_job *job) {
+static carom_search *place(const carom_plan_job *job) {
   if (job == NULL || job->memory_size < carom_plan_memory(job->options))
     return NULL;
   return job->memory;
 }
 
 carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int choices,
-                                  search **prepared) {
-  search *plan = place(job);
-  if (plan == NULL)
+                                  carom_search **prepared) {
+  carom_search *search = place(job);
+  if (search == NULL)
     return CAROM_ERROR_NULL;
-  const carom_status status = carom_search_make(plan, job, in_hand, choices);
-  if (status == CAROM_OK && plan->options.unsure > 0.0)
-    carom_search_tables(plan,
-                        (carom_drawn_table *)((char *)plan->leaves + carom_leaves_memory(true)));
-  *prepared = plan;
+  const carom_status status = carom_search_make(search, job, in_hand, choices);
+  if (status == CAROM_OK && search->options.unsure > 0.0)
+    carom_search_tables(search,
+                        (carom_drawn_table *)((char *)search->leaves + carom_leaves_memory(true)));
+  *prepared = search;
   return status;
 }
 
@@ -92,95 +92,97 @@ uint64_t carom_fingerprint_of_job(const carom_plan_job *job) {
 
 /* A player who thinks of nothing but potting believes in later pots, and that a turn which ends
  * before is lost. There is nothing to pot in a break, and another goal comes first. */
-static void think(search *plan) {
+static void think(carom_search *search) {
   /* the layout takes part in the draw, so that plans of one seed have the share in their mean */
   uint64_t layout = 1;
-  for (int k = 0; k < plan->view.count; k++)
-    layout = carom_fingerprint(layout, plan->state[k].r, sizeof plan->state[k].r);
-  const double mind = carom_uniform(plan->options.seed, DRAW_MIND, layout, 0);
-  const bool has_other_goal = plan->breaks || plan->only_safeties || carom_has_goal(&plan->job);
-  if (has_other_goal || mind >= plan->player.only_pots)
+  for (int k = 0; k < search->view.count; k++)
+    layout = carom_fingerprint(layout, search->state[k].r, sizeof search->state[k].r);
+  const double mind = carom_uniform(search->options.seed, DRAW_MIND, layout, 0);
+  const bool has_other_goal =
+      search->breaks || search->only_safeties || carom_has_goal(&search->job);
+  if (has_other_goal || mind >= search->player.only_pots)
     return;
-  plan->options.chance_me = 0.9;
-  plan->options.chance_opponent = 1.0;
-  carom_view_make(&plan->view, &plan->job, &plan->options);
-  plan->foul_value = carom_search_foul_value(plan);
+  search->options.chance_me = 0.9;
+  search->options.chance_opponent = 1.0;
+  carom_view_make(&search->view, &search->job, &search->options);
+  search->foul_value = carom_search_foul_value(search);
 }
 
 /* ---- What callers have */
 
-void carom_search_with_crew(search *plan, carom_crew_caller *work) {
-  const bool timed = plan->seconds > 0.0;
-  plan->end = 0.0;
+void carom_search_with_crew(carom_search *search, carom_crew_caller *work) {
+  const bool timed = search->seconds > 0.0;
+  search->end = 0.0;
   if (timed)
-    plan->end = carom_seconds() + plan->seconds;
-  carom_with_crew(work, plan, plan->options.threads, (size_t)plan->room / ROWS_LEAST);
+    search->end = carom_seconds() + search->seconds;
+  carom_with_crew(work, search, search->options.threads, (size_t)search->room / ROWS_LEAST);
   if (timed)
-    plan->seconds = fmax(plan->end - carom_seconds(), 1e-9);
+    search->seconds = fmax(search->end - carom_seconds(), 1e-9);
 }
 
 static void plan_here(void *context, carom_crew *crew) {
-  search *plan = context;
-  plan->crew = crew;
+  carom_search *search = context;
+  search->crew = crew;
   do {
-    if (!carom_search_run(plan))
+    if (!carom_search_run(search))
       return;
-  } while (carom_search_double(plan));
-  plan->ended = true;
+  } while (carom_search_double(search));
+  search->ended = true;
 }
 
 /* First of all finds the places of a cue ball in hand. */
 static void find_places(void *context, carom_crew *crew) {
-  search *plan = context;
-  plan->crew = crew;
-  if (!carom_search_find_places(plan))
+  carom_search *search = context;
+  search->crew = crew;
+  if (!carom_search_find_places(search))
     return;
-  plan->go = plan_here;
-  carom_search_begin_doubling(plan, FIRST,
-                              carom_max(carom_search_shots(&plan->options), IN_HAND_LEAST));
+  search->go = plan_here;
+  carom_search_begin_doubling(search, FIRST,
+                              carom_max(carom_search_shots(&search->options), IN_HAND_LEAST));
   plan_here(context, crew);
 }
 
 /* Strokes that the caller gave, each with its share of the shots. */
 static void try_all(void *context, carom_crew *crew) {
-  search *plan = context;
-  plan->crew = crew;
-  const int64_t each = carom_search_shots(&plan->options) / carom_max(plan->tries, 1);
-  for (int k = 0; k < plan->tries; k++) {
-    const carom_cue *cue = &plan->cues[k];
-    plan->count = 0;
-    carom_search_add(plan, (candidate){.speed = cue->speed,
-                                       .phi = cue->phi,
-                                       .theta = cue->theta,
-                                       .a = cue->a,
-                                       .b = cue->b,
-                                       .kind = CAROM_PLAN_GIVEN,
-                                       .ball = -1,
-                                       .pocket = -1});
+  carom_search *search = context;
+  search->crew = crew;
+  const int64_t each = carom_search_shots(&search->options) / carom_max(search->tries, 1);
+  for (int k = 0; k < search->tries; k++) {
+    const carom_cue *cue = &search->cues[k];
+    search->count = 0;
+    carom_search_add(search, (candidate){.speed = cue->speed,
+                                         .phi = cue->phi,
+                                         .theta = cue->theta,
+                                         .a = cue->a,
+                                         .b = cue->b,
+                                         .kind = CAROM_PLAN_GIVEN,
+                                         .ball = -1,
+                                         .pocket = -1});
 
     /* once without errors, which names the pot; then with errors, as the last round of a plan */
-    if (!carom_is_stopped(plan)) {
-      carom_search_stage(plan, 0, 1, 1, 0);
-      carom_search_play(plan);
-      carom_search_take(plan, 0, &plan->outcome[0]);
-      carom_search_stage(plan, 0, 1, carom_max(each, 10), DRAW_ROUND);
-      carom_search_play(plan);
-      carom_search_add_up(plan);
+    if (!carom_is_stopped(search)) {
+      carom_search_stage(search, 0, 1, 1, 0);
+      carom_search_play(search);
+      carom_search_take(search, 0, &search->outcome[0]);
+      carom_search_stage(search, 0, 1, carom_max(each, 10), DRAW_ROUND);
+      carom_search_play(search);
+      carom_search_add_up(search);
     }
-    plan->choices[k] = carom_search_choice(plan, &plan->found[0]);
+    search->choices[k] = carom_search_choice(search, &search->found[0]);
   }
 }
 
-/* Plays a slice of a plan, or what is left of it; and gives what it found if that is the end. */
-static carom_status play_slice(search *plan, carom_plan_stroke *choices, int room, int *found) {
-  plan->slice = INT64_MAX;
-  if (plan->options.slice > 0)
-    plan->slice = plan->options.slice;
-  if (!plan->ended)
-    carom_search_with_crew(plan, plan->go);
+/* Plays a slice of a search, or what is left of it; and gives what it found if that is the end. */
+static carom_status play_slice(carom_search *search, carom_plan_stroke *choices, int room,
+                               int *found) {
+  search->slice = INT64_MAX;
+  if (search->options.slice > 0)
+    search->slice = search->options.slice;
+  if (!search->ended)
+    carom_search_with_crew(search, search->go);
   *found = 0;
-  if (plan->ended)
-    *found = carom_search_give(plan, choices, room);
+  if (search->ended)
+    *found = carom_search_give(search, choices, room);
   return CAROM_OK;
 }
 
@@ -188,52 +190,52 @@ carom_status carom_plan(const carom_plan_job *job, carom_plan_stroke *choices, i
                         int *found) {
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
-  search *plan;
-  const carom_status status = carom_search_prepare(job, false, room, &plan);
+  carom_search *search;
+  const carom_status status = carom_search_prepare(job, false, room, &search);
   if (status != CAROM_OK)
     return status;
-  plan->fingerprint = carom_fingerprint_of_job(job);
-  think(plan);
-  plan->go = plan_here;
-  carom_search_begin_doubling(plan, FIRST, carom_search_shots(&plan->options));
-  return play_slice(plan, choices, room, found);
+  search->fingerprint = carom_fingerprint_of_job(job);
+  think(search);
+  search->go = plan_here;
+  carom_search_begin_doubling(search, FIRST, carom_search_shots(&search->options));
+  return play_slice(search, choices, room, found);
 }
 
 carom_status carom_plan_continue(const carom_plan_job *job, carom_plan_stroke *choices, int room,
                                  int *found) {
   if (choices == NULL || found == NULL || room < 1 || !carom_search_is_whole(job))
     return CAROM_ERROR_NULL;
-  search *plan = place(job);
-  if (plan == NULL)
+  carom_search *search = place(job);
+  if (search == NULL)
     return CAROM_ERROR_NULL;
   if (job->count < 2 || job->count > CAROM_BALLS_MOST ||
-      plan->fingerprint != carom_fingerprint_of_job(job))
+      search->fingerprint != carom_fingerprint_of_job(job))
     return CAROM_ERROR_STATE;
-  return play_slice(plan, choices, room, found);
+  return play_slice(search, choices, room, found);
 }
 
 carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], const double high[2],
                              carom_plan_stroke *choices, int room, int *found) {
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
-  search *plan;
-  carom_status status = carom_search_prepare(job, true, room, &plan);
+  carom_search *search;
+  carom_status status = carom_search_prepare(job, true, room, &search);
   if (status != CAROM_OK)
     return status;
-  think(plan);
-  memcpy(plan->hand, job->balls, (size_t)job->count * sizeof *plan->hand);
-  if (!carom_search_find_place(plan, low, high))
+  think(search);
+  memcpy(search->hand, job->balls, (size_t)job->count * sizeof *search->hand);
+  if (!carom_search_find_place(search, low, high))
     return CAROM_ERROR_OFF_TABLE;
 
   /* with the cue ball on a place the layout can be checked */
-  plan->job.balls = plan->hand;
-  carom_search_put(plan, plan->best_place[0].r);
-  status = carom_search_check(plan, plan->hand, true);
+  search->job.balls = search->hand;
+  carom_search_put(search, search->best_place[0].r);
+  status = carom_search_check(search, search->hand, true);
   if (status != CAROM_OK)
     return status;
-  plan->fingerprint = carom_fingerprint_of_job(job);
-  plan->go = find_places;
-  return play_slice(plan, choices, room, found);
+  search->fingerprint = carom_fingerprint_of_job(job);
+  search->go = find_places;
+  return play_slice(search, choices, room, found);
 }
 
 carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, int n,
@@ -245,35 +247,35 @@ carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, in
     return CAROM_ERROR_NULL;
   if (n < 0 || n > MOST)
     return CAROM_ERROR_OPTIONS;
-  search *plan;
-  carom_status status = carom_search_prepare(job, false, 1, &plan);
+  carom_search *search;
+  carom_status status = carom_search_prepare(job, false, 1, &search);
   for (int k = 0; k < n && status == CAROM_OK; k++)
-    status = carom_search_check_stroke(plan, &cues[k]);
+    status = carom_search_check_stroke(search, &cues[k]);
   if (status != CAROM_OK)
     return status;
-  plan->cues = cues;
-  plan->choices = choices;
-  plan->tries = n;
-  carom_search_with_crew(plan, try_all);
+  search->cues = cues;
+  search->choices = choices;
+  search->tries = n;
+  carom_search_with_crew(search, try_all);
   return CAROM_OK;
 }
 
 carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *value) {
-  search plan;
+  carom_search search;
   if (value == NULL)
     return CAROM_ERROR_NULL;
-  const carom_status status = carom_search_make(&plan, job, in_hand != 0, 1);
+  const carom_status status = carom_search_make(&search, job, in_hand != 0, 1);
   if (status != CAROM_OK)
     return status;
-  *value = carom_value_of(&plan.view, &job->rules->state, plan.state, 0, in_hand != 0);
+  *value = carom_value_of(&search.view, &job->rules->state, search.state, 0, in_hand != 0);
   if (job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL)
-    *value = carom_search_share(&plan, *value);
+    *value = carom_search_share(&search, *value);
   return CAROM_OK;
 }
 
 double carom_worth_left(const carom_plan_job *job, const carom_ruling *ruling) {
-  carom_search plan; /* which plays no shot */
-  if (carom_search_make(&plan, job, false, 1) != CAROM_OK)
+  carom_search search; /* which plays no shot */
+  if (carom_search_make(&search, job, false, 1) != CAROM_OK)
     return 0.0;
-  return carom_search_ruled(&plan, ruling);
+  return carom_search_ruled(&search, ruling);
 }

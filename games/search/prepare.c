@@ -1,5 +1,6 @@
 /* Plans before their searches: arguments are checked, and the layout is read by the rules. */
 #include "prepare.h"
+#include "player.h"
 
 #include "carom_coach.h"
 #include "goals.h"
@@ -14,7 +15,6 @@
 
 typedef carom_candidate candidate;
 typedef carom_outcome outcome;
-typedef carom_search search;
 
 static const carom_plan_options no_options = {0};
 static const carom_shot_options no_shot = {0};
@@ -71,14 +71,14 @@ size_t carom_leaves_memory(bool searches) {
 size_t carom_search_memory(const carom_plan_options *options, bool searches_leaves) {
   const int64_t shots = carom_search_shots(options);
   const double scan = carom_scan_of(options);
-  return sizeof(search) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
+  return sizeof(carom_search) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
          (size_t)most_rows(shots, scan) * sizeof(outcome) + carom_leaves_memory(searches_leaves);
 }
 
 /* Checks the cue of a plan with the stroke of another one. A speed of 0 is raised later by the
  * bounds of the player, so the rest of the cue counts. */
-carom_status carom_search_check_stroke(const search *plan, const carom_cue *stroke) {
-  carom_cue cue = *plan->job.cue;
+carom_status carom_search_check_stroke(const carom_search *search, const carom_cue *stroke) {
+  carom_cue cue = *search->job.cue;
   cue.speed = stroke->speed;
   if (stroke->speed == 0.0)
     cue.speed = 1.0;
@@ -86,17 +86,18 @@ carom_status carom_search_check_stroke(const search *plan, const carom_cue *stro
   cue.theta = stroke->theta;
   cue.a = stroke->a;
   cue.b = stroke->b;
-  return carom_check_strike(&plan->layout, &cue);
+  return carom_check_strike(&search->layout, &cue);
 }
 
 /* Once for all shots of a plan; with_cue: and its cue, whose stroke is not looked at. */
-carom_status carom_search_check(search *plan, const carom_shot_ball *balls, bool with_cue) {
+carom_status carom_search_check(carom_search *search, const carom_shot_ball *balls, bool with_cue) {
   int where;
-  const carom_status status = carom_prepare(plan->job.table, balls, plan->job.count, &plan->shot,
-                                            &plan->features, &plan->layout, &where);
+  const carom_status status =
+      carom_prepare(search->job.table, balls, search->job.count, &search->shot, &search->features,
+                    &search->layout, &where);
   if (status != CAROM_OK || !with_cue)
     return status;
-  return carom_search_check_stroke(plan, &(carom_cue){0});
+  return carom_search_check_stroke(search, &(carom_cue){0});
 }
 
 bool carom_search_is_whole(const carom_plan_job *job) {
@@ -130,26 +131,26 @@ static carom_status check_job(const carom_plan_job *job) {
 
 /* Takes a job, its options and its player. Shots have the caller's options but for when to stop,
  * which the plan says itself. */
-static void take_job(search *plan, const carom_plan_job *job) {
-  plan->job = *job;
-  plan->options = *carom_search_options(job->options);
-  plan->player = carom_player_bounded(job->player, job->cue);
-  if (plan->options.shots == 0 && plan->options.seconds == 0.0)
-    plan->options.shots = (int64_t)job->player->shots;
-  plan->shot = no_shot;
+static void take_job(carom_search *search, const carom_plan_job *job) {
+  search->job = *job;
+  search->options = *carom_search_options(job->options);
+  search->player = carom_player_bounded(job->player, job->cue);
+  if (search->options.shots == 0 && search->options.seconds == 0.0)
+    search->options.shots = (int64_t)job->player->shots;
+  search->shot = no_shot;
   if (job->shot != NULL)
-    plan->shot = *job->shot;
-  plan->shot.threads = 0;
-  plan->shot.stop_at = 0;
-  plan->shot.first_of = 0;
-  plan->shot.time_most = 0.0;
+    search->shot = *job->shot;
+  search->shot.threads = 0;
+  search->shot.stop_at = 0;
+  search->shot.first_of = 0;
+  search->shot.time_most = 0.0;
 }
 
 /* Checks the layout once for all shots of a plan. In hand the cue's ball may be down, and its
  * stroke is checked when it is placed. */
-static carom_status check_layout(search *plan, bool in_hand) {
-  const carom_plan_job *job = &plan->job;
-  const carom_status status = carom_search_check(plan, job->balls, !in_hand);
+static carom_status check_layout(carom_search *search, bool in_hand) {
+  const carom_plan_job *job = &search->job;
+  const carom_status status = carom_search_check(search, job->balls, !in_hand);
   if (status != CAROM_OK)
     return status;
   if (job->cue->ball < 0 || job->cue->ball >= job->count)
@@ -157,124 +158,126 @@ static carom_status check_layout(search *plan, bool in_hand) {
   int moves = -1;
   if (in_hand)
     moves = (int)job->cue->ball;
-  if (!carom_is_at_rest(&plan->layout, moves))
+  if (!carom_is_at_rest(&search->layout, moves))
     return CAROM_ERROR_IN_MOTION;
   return CAROM_OK;
 }
 
 /* Candidates, outcomes and tables stand behind the plan in the caller's memory. */
-static void share_memory(search *plan) {
-  const int64_t shots = carom_search_shots(&plan->options);
-  const double scan = carom_scan_of(&plan->options);
-  plan->count = 0;
-  plan->most = most_candidates(shots, scan);
-  plan->room = most_rows(shots, scan);
-  plan->found = (candidate *)(plan + 1);
-  plan->outcome = (outcome *)(plan->found + plan->most);
-  plan->leaves = (carom_leaves *)(plan->outcome + plan->room);
-  plan->path = (carom_trail *)(plan->leaves + 1);
-  plan->drawn = NULL;
+static void share_memory(carom_search *search) {
+  const int64_t shots = carom_search_shots(&search->options);
+  const double scan = carom_scan_of(&search->options);
+  search->count = 0;
+  search->most = most_candidates(shots, scan);
+  search->room = most_rows(shots, scan);
+  search->found = (candidate *)(search + 1);
+  search->outcome = (outcome *)(search->found + search->most);
+  search->leaves = (carom_leaves *)(search->outcome + search->room);
+  search->path = (carom_trail *)(search->leaves + 1);
+  search->drawn = NULL;
 }
 
 /* Whether the rack of a soft break is whole: each ball that is on touches two others. */
-static bool is_packed(const search *plan) {
+static bool is_packed(const carom_search *search) {
   enum { BALLS_LEAST = 10, NEIGHBOURS = 2 };
   static const double apart = 1e-3; /* m */
-  for (int k = 0; k < plan->view.count; k++) {
+  for (int k = 0; k < search->view.count; k++) {
     int neighbours = 0;
-    for (int n = 0; n < plan->view.count && (plan->targets >> k & 1); n++) {
-      const double reach = plan->view.radius[k] + plan->view.radius[n] + apart;
-      const bool touches = carom_square(plan->state[k].r, plan->state[n].r) < reach * reach;
-      neighbours += n != k && (plan->targets >> n & 1) && touches;
+    for (int n = 0; n < search->view.count && (search->targets >> k & 1); n++) {
+      const double reach = search->view.radius[k] + search->view.radius[n] + apart;
+      const bool touches = carom_square(search->state[k].r, search->state[n].r) < reach * reach;
+      neighbours += n != k && (search->targets >> n & 1) && touches;
     }
-    if ((plan->targets >> k & 1) && neighbours < NEIGHBOURS)
+    if ((search->targets >> k & 1) && neighbours < NEIGHBOURS)
       return false;
   }
-  return carom_count_of(plan->targets) >= BALLS_LEAST;
+  return carom_count_of(search->targets) >= BALLS_LEAST;
 }
 
 /* Reads the layout by the rules: which balls are in play, which of them may be met first, and what
  * the stroke may do. */
-static carom_status ask_rules(search *plan, bool in_hand) {
-  const carom_plan_rules *rules = plan->job.rules;
-  const uint32_t cue_ball = UINT32_C(1) << plan->view.cue_ball;
-  for (int k = 0; k < plan->job.count; k++)
-    plan->state[k] = plan->job.balls[k].state;
+static carom_status ask_rules(carom_search *search, bool in_hand) {
+  const carom_plan_rules *rules = search->job.rules;
+  const uint32_t cue_ball = UINT32_C(1) << search->view.cue_ball;
+  for (int k = 0; k < search->job.count; k++)
+    search->state[k] = search->job.balls[k].state;
 
   /* the balls */
-  plan->in_play = carom_in_play(plan->state, plan->view.count);
+  search->in_play = carom_in_play(search->state, search->view.count);
   if (in_hand)
-    plan->in_play |= cue_ball;
-  plan->targets = rules->on(&rules->state, plan->in_play) & plan->in_play & ~cue_ball;
-  if (plan->targets == 0)
+    search->in_play |= cue_ball;
+  search->targets = rules->on(&rules->state, search->in_play) & search->in_play & ~cue_ball;
+  if (search->targets == 0)
     return CAROM_ERROR_GAME_OVER;
 
   /* the stroke */
-  plan->breaks = rules->breaks && rules->state.opening == 1;
+  search->breaks = rules->breaks && rules->state.opening == 1;
   if (rules->breaks == 2 && in_hand)
-    plan->breaks |= is_packed(plan);
-  plan->only_safeties = carom_goal_has_safeties(&plan->job, &plan->options) && !plan->breaks;
-  plan->permissions = (uint32_t)rules->state.may;
-  if (plan->only_safeties || carom_has_goal(&plan->job))
-    plan->permissions &= ~(uint32_t)(CAROM_CHOICE_PASS | CAROM_CHOICE_PUSH);
-  plan->pockets = carom_pockets_of(rules, &rules->state);
-  plan->first_decides = rules->first_decides && !(plan->permissions & CAROM_CHOICE_PUSH);
-  carom_search_lay_out(plan, plan->job.balls);
+    search->breaks |= is_packed(search);
+  search->only_safeties =
+      carom_goal_has_safeties(&search->job, &search->options) && !search->breaks;
+  search->permissions = (uint32_t)rules->state.may;
+  if (search->only_safeties || carom_has_goal(&search->job))
+    search->permissions &= ~(uint32_t)(CAROM_CHOICE_PASS | CAROM_CHOICE_PUSH);
+  search->pockets = carom_pockets_of(rules, &rules->state);
+  search->first_decides = rules->first_decides && !(search->permissions & CAROM_CHOICE_PUSH);
+  carom_search_lay_out(search, search->job.balls);
 
   /* the balls that are left to the player, at least one */
   int32_t left[2];
-  rules->left(&rules->state, plan->in_play, left);
-  plan->left = (int32_t)carom_max(left[0], 1);
+  rules->left(&rules->state, search->in_play, left);
+  search->left = (int32_t)carom_max(left[0], 1);
   return CAROM_OK;
 }
 
 /* The value of a foul at the first contact, which leaves about the layout that there is. */
-double carom_search_foul_value(const search *plan) {
-  const carom_plan_rules *rules = plan->job.rules;
+double carom_search_foul_value(const carom_search *search) {
+  const carom_plan_rules *rules = search->job.rules;
   carom_rules_state game = rules->state; /* rules change it as they judge */
-  carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts,
+  carom_turn turn = rules->judge(&game, search->in_play, search->view.cue_ball, &carom_no_facts,
                                  (carom_call){-1, -1});
   turn = carom_turn_seen(rules, &game, turn);
   if (turn.outcome == CAROM_TURN_LOSE || rules->race == CAROM_RACE_ALONE)
     return 0.0;
-  return carom_search_leave(plan, &game, plan->state, &turn);
+  return carom_search_leave(search, &game, search->state, &turn);
 }
 
 /* Checks the arguments, and makes all of a plan but its candidates. */
-static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand) {
+static carom_status begin(carom_search *search, const carom_plan_job *job, bool in_hand) {
   carom_status status = check_job(job);
   if (status != CAROM_OK)
     return status;
 
   /* The memory is as long as good options ask; no plan is in it from here on. */
-  plan->fingerprint = 0;
+  search->fingerprint = 0;
   if (job->count < 2 || job->count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
-  take_job(plan, job);
-  status = check_layout(plan, in_hand);
+  take_job(search, job);
+  status = check_layout(search, in_hand);
   if (status != CAROM_OK)
     return status;
-  share_memory(plan);
+  share_memory(search);
 
   /* the layout as the player and the rules see it */
-  carom_view_make(&plan->view, &plan->job, &plan->options);
-  status = ask_rules(plan, in_hand);
+  carom_view_make(&search->view, &search->job, &search->options);
+  status = ask_rules(search, in_hand);
   if (status != CAROM_OK)
     return status;
-  plan->foul_value = carom_search_foul_value(plan);
-  plan->ended = false;
-  plan->slice = INT64_MAX;
+  search->foul_value = carom_search_foul_value(search);
+  search->ended = false;
+  search->slice = INT64_MAX;
   return CAROM_OK;
 }
 
-carom_status carom_search_make(search *plan, const carom_plan_job *job, bool in_hand, int choices) {
-  const carom_status status = begin(plan, job, in_hand);
+carom_status carom_search_make(carom_search *search, const carom_plan_job *job, bool in_hand,
+                               int choices) {
+  const carom_status status = begin(search, job, in_hand);
   if (status != CAROM_OK)
     return status;
-  plan->late = plan->joins = false;
-  plan->places = plan->place = 0;
-  plan->choices_most = (int)carom_min(choices, LISTED_MOST);
-  plan->fresh_least = 30;
-  plan->seconds = plan->options.seconds;
+  search->late = search->joins = false;
+  search->places = search->place = 0;
+  search->choices_most = (int)carom_min(choices, LISTED_MOST);
+  search->fresh_least = 30;
+  search->seconds = search->options.seconds;
   return CAROM_OK;
 }

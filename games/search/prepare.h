@@ -1,4 +1,4 @@
-/* What a plan is before its search. */
+/* A search before its first candidate. */
 #ifndef CAROM_PLAN_PREPARE_H
 #define CAROM_PLAN_PREPARE_H
 
@@ -17,12 +17,12 @@ size_t carom_leaves_memory(bool searches);
 /* Whether a job has all that it must point to. */
 bool carom_search_is_whole(const carom_plan_job *job);
 /* Checks a layout, with the cue; and the cue with the stroke of another one. */
-carom_status carom_search_check(carom_search *plan, const carom_shot_ball *balls, bool with_cue);
-carom_status carom_search_check_stroke(const carom_search *plan, const carom_cue *stroke);
-/* Makes a plan, in memory that suffices. */
-carom_status carom_search_make(carom_search *plan, const carom_plan_job *job, bool in_hand,
+carom_status carom_search_check(carom_search *search, const carom_shot_ball *balls, bool with_cue);
+carom_status carom_search_check_stroke(const carom_search *search, const carom_cue *stroke);
+/* Makes a search, in memory that suffices. */
+carom_status carom_search_make(carom_search *search, const carom_plan_job *job, bool in_hand,
                                int choices);
 /* The value of a foul at the first contact, which leaves about the layout that there is. */
-double carom_search_foul_value(const carom_search *plan);
+double carom_search_foul_value(const carom_search *search);
 
 #endif

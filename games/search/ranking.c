@@ -6,7 +6,6 @@
 
 typedef carom_candidate candidate;
 typedef carom_outcome outcome;
-typedef carom_search search;
 
 /* for each m/s, so that of strokes that are as good the softer one is chosen: of 120 layouts of
  * eight-ball and nine-ball, plans of 1,000 shots had 36 % of strokes above 3 m/s without it, 27 %
@@ -18,31 +17,31 @@ static const double softer = 0.001;
 /* With a goal: for a foul, and for coming near a place, where strokes reach the goal as often. */
 static const double legal = 0.01, nearer = 0.1;
 
-static double merit_of(const search *plan, const candidate *c) {
+static double merit_of(const carom_search *search, const candidate *c) {
   const double seen = (double)c->chose.seen;
   double mean = c->chose.sum / seen;
-  if (carom_has_goal(&plan->job))
+  if (carom_has_goal(&search->job))
     mean += (nearer * c->chose.near - legal * c->chose.foul) / seen;
-  if (plan->only_safeties) /* a pot that mostly misses is no safety */
+  if (search->only_safeties) /* a pot that mostly misses is no safety */
     mean -= c->chose.keep / seen;
   if (c->kind == CAROM_PLAN_BREAK)
     return mean;
   return mean - softer * c->speed;
 }
 
-static bool is_better(const search *plan, const candidate *a, const candidate *b) {
+static bool is_better(const carom_search *search, const candidate *a, const candidate *b) {
   if (a->round != b->round)
     return a->round > b->round;
-  const double of_a = merit_of(plan, a), of_b = merit_of(plan, b);
+  const double of_a = merit_of(search, a), of_b = merit_of(search, b);
   return of_a > of_b || (of_a == of_b && a->order < b->order);
 }
 
 /* Puts candidate k first if it is better than the first. */
-void carom_search_lead(search *plan, int64_t k) {
-  if (is_better(plan, &plan->found[k], &plan->found[0])) {
-    const candidate first = plan->found[0];
-    plan->found[0] = plan->found[k];
-    plan->found[k] = first;
+void carom_search_lead(carom_search *search, int64_t k) {
+  if (is_better(search, &search->found[k], &search->found[0])) {
+    const candidate first = search->found[0];
+    search->found[0] = search->found[k];
+    search->found[k] = first;
   }
 }
 
@@ -65,16 +64,16 @@ static void vote(candidate *c, const outcome *o) {
     c->votes--;
 }
 
-void carom_search_take(search *plan, int64_t k, const outcome *o) {
-  CAROM_PROMISE(k >= 0 && k < plan->count);
-  candidate *c = &plan->found[k];
+void carom_search_take(carom_search *search, int64_t k, const outcome *o) {
+  CAROM_PROMISE(k >= 0 && k < search->count);
+  candidate *c = &search->found[k];
   c->chose = (carom_tally){.sum = o->worth, .near = (double)o->near, .seen = 1, .foul = o->foul};
   name(c, o);
   c->votes = c->pots = o->ball >= 0;
   c->own_ball = c->ball;
   c->own_pocket = c->pocket;
   c->own_cushions = c->cushions;
-  carom_search_lead(plan, k);
+  carom_search_lead(search, k);
 }
 
 /* The gap that follows a gap of Shell's method; the last one is 1. */
@@ -87,13 +86,13 @@ static int64_t next_gap(int64_t gap) {
 /* Sorts the first n candidates, by Shell's method, without memory. The order is total, so that it
  * does not matter how it is found. To sort half a million takes longer than a plan has to stop; a
  * sort that is stopped leaves the first in its place if that is the best. */
-void carom_search_sort(const search *plan, int64_t n) {
-  candidate *c = plan->found;
+void carom_search_sort(const carom_search *search, int64_t n) {
+  candidate *c = search->found;
   for (int64_t gap = n / 2; gap > 0; gap = next_gap(gap))
-    for (int64_t k = gap; k < n && !carom_is_stopped(plan); k++) {
+    for (int64_t k = gap; k < n && !carom_is_stopped(search); k++) {
       const candidate moved = c[k];
       int64_t index = k;
-      for (; index >= gap && is_better(plan, &moved, &c[index - gap]); index -= gap)
+      for (; index >= gap && is_better(search, &moved, &c[index - gap]); index -= gap)
         c[index] = c[index - gap];
       c[index] = moved;
     }
@@ -110,39 +109,39 @@ static void add(carom_tally *t, const outcome *o) {
 }
 
 /* How many candidates of the stage have been played `each` times. */
-static int64_t played(const search *plan, int64_t *each) {
-  const carom_stage *s = &plan->stage;
+static int64_t played(const carom_search *search, int64_t *each) {
+  const carom_stage *s = &search->stage;
   const int64_t n = s->rows / s->each;
   *each = s->each;
   if (n == 1)
     *each = s->done;
-  CAROM_PROMISE(n >= 1 && s->first + n <= plan->count && *each >= 1 && s->rows <= plan->room);
+  CAROM_PROMISE(n >= 1 && s->first + n <= search->count && *each >= 1 && s->rows <= search->room);
   return s->done / *each;
 }
 
-void carom_search_add_up(search *plan) {
+void carom_search_add_up(carom_search *search) {
   int64_t each;
-  const int64_t n = plan->stage.rows / plan->stage.each, done = played(plan, &each);
+  const int64_t n = search->stage.rows / search->stage.each, done = played(search, &each);
   for (int64_t k = 0; k < done; k++) {
-    candidate *c = &plan->found[k];
+    candidate *c = &search->found[k];
     if (c->round == 0) /* the shot without errors is forgotten */
       c->chose = (carom_tally){0};
     for (int64_t j = 0; j < each; j++) {
-      const outcome *o = &plan->outcome[k * each + j];
-      if (!plan->job.rules->calls && c->kind != CAROM_PLAN_PUSH)
+      const outcome *o = &search->outcome[k * each + j];
+      if (!search->job.rules->calls && c->kind != CAROM_PLAN_PUSH)
         vote(c, o);
       add(&c->chose, o);
     }
     c->round++;
   }
   for (int64_t k = 1; k < n; k++)
-    carom_search_lead(plan, k);
+    carom_search_lead(search, k);
 }
 
-void carom_search_replayed(search *plan) {
+void carom_search_replayed(carom_search *search) {
   int64_t each;
-  const int64_t done = played(plan, &each);
+  const int64_t done = played(search, &each);
   for (int64_t k = 0; k < done; k++)
     for (int64_t j = 0; j < each; j++)
-      add(&plan->found[plan->stage.first + k].fresh, &plan->outcome[k * each + j]);
+      add(&search->found[search->stage.first + k].fresh, &search->outcome[k * each + j]);
 }

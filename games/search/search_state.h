@@ -84,7 +84,7 @@ typedef struct carom_trail {
 /* The miss of a shot of a candidate without errors, which had so many events. */
 typedef struct carom_search carom_search;
 typedef struct carom_leaves carom_leaves;
-typedef carom_miss carom_measurer(const carom_search *plan, const carom_candidate *c,
+typedef carom_miss carom_measurer(const carom_search *search, const carom_candidate *c,
                                   carom_trail *path, int64_t count);
 
 /* A stage plays each of some candidates several times. Row k is the shot of candidate
@@ -166,7 +166,8 @@ struct carom_leaves {
   carom_stroke_room room;
 };
 
-/* All of a plan. It is in the caller's memory, since shots need most of a small stack. */
+/* All of a search for a plan. It is in the caller's memory, because shots need most of a small
+ * stack. */
 struct carom_search {
   carom_crew *crew;   /* the threads that play its shots */
   carom_plan_job job; /* with shot and options of its own */
@@ -221,7 +222,7 @@ struct carom_search {
   double share;                  /* of them that the scan has */
   carom_trail *path;             /* of the rows of a stage that measures misses */
   carom_leaves *leaves;          /* in their place, after the rounds, */
-  carom_search *leave;           /* and the plan from the one that is searched */
+  carom_search *leave;           /* and the search from the one that is looked at */
   uint32_t deciding;             /* balls of the shot whose ways reach a goal */
   int cushions;                  /* of a point; -1: pots are the goals */
   int steered;                   /* stages of strokes that were steered */
@@ -239,20 +240,20 @@ struct carom_search {
   carom_candidate best;  /* of the rounds of doubling before */
 };
 
-/* plan.c: prepares a job once for all that is played of it: its plan, in the job's memory, from
+/* plan.c: prepares a job once for all that is played of it: its search, in the job's memory, from
  * which shots can be played. */
 carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int choices,
                                   carom_search **prepared);
-/* Does a part of a plan, `work`, with the threads that the options ask for. */
-void carom_search_with_crew(carom_search *plan, carom_crew_caller *work);
+/* Does a part of a search, `work`, with the threads that the options ask for. */
+void carom_search_with_crew(carom_search *search, carom_crew_caller *work);
 
-static inline bool carom_is_stopped(const carom_search *plan) {
-  return plan->late || (plan->options.stop != NULL && *plan->options.stop != 0);
+static inline bool carom_is_stopped(const carom_search *search) {
+  return search->late || (search->options.stop != NULL && *search->options.stop != 0);
 }
 
 /* Whether the seconds of a plan are over, whose clock runs in its calls. */
-static inline bool carom_is_late(const carom_search *plan) {
-  return plan->end > 0.0 && carom_seconds() >= plan->end;
+static inline bool carom_is_late(const carom_search *search) {
+  return search->end > 0.0 && carom_seconds() >= search->end;
 }
 
 #endif

@@ -14,9 +14,11 @@
  * Of a rail and of a jaw the place that needs most is found by the golden section. The stick grows,
  * so that is a little behind the place below its axis, or far behind where the stick grows by more
  * than it rises. */
+#include "stick.h"
+#include "draws.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
-#include "view.h"
+#include "small_math.h"
 
 #include <math.h>
 

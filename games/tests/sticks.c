@@ -1,5 +1,5 @@
 /* The stick over cushions and balls: of choices, and of aims that leave the elevation to it. */
-#include "view.h"
+#include "stick.h"
 
 #include "plan_support.h"
 

@@ -495,7 +495,7 @@ namespace Carom {
           Native.carom_record_read(Open, text, (UIntPtr)bytes.Length);
       if (status < 0)
         throw new CaromException(status, Billiards.Text(record->fault));
-      if (record->pending != 1)
+      if ((RecordPending)record->pending != RecordPending.Shot)
         return true;
       status = Play((RecordKind)record->kind);
       if (status == Status.ErrorRecord)

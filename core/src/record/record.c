@@ -4,7 +4,13 @@
  * value and its place in carom_record. A key that is missing has the value 0; in an object of a
  * list, the value of the object before it. So a writer leaves out the fields that have the bytes of
  * that default, and a reader begins with it. Every other key is refused, and every one that comes
- * twice. */
+ * twice.
+ *
+ * The command has a second reader of balls and cues, command/shots/shot_file.c, because its files
+ * are another format: pooltool's keys and defaults, in JSON that people write by hand and that
+ * Jansson parses. This one is in the library, which depends on nothing but C's library, and reads
+ * what it wrote to the same bits and the same hash. Both take the numbers of a ball and of a cue
+ * from the rows of schema/numbers.h, so a new number is one row for both. */
 #include "platform/arithmetic.h"
 #include "platform/fingerprint.h"
 #include "platform/promise.h"
@@ -626,7 +632,7 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
   case CAROM_RECORD_SHOT:
   case CAROM_RECORD_CONTINUE:
     /* the caller is to play it before the next line */
-    record->pending = 1;
+    record->pending = CAROM_PENDING_SHOT;
     record->played.hash = hash; /* for carom_record_play() */
     record->shots++;
     return true;
@@ -655,7 +661,7 @@ static bool may_come(reader *in, int kind) {
   const carom_record *record = in->record;
   const char *why = out_of_place(record, kind);
   const bool waits = kind != CAROM_RECORD_EVENT && kind != CAROM_RECORD_END;
-  if (why == NULL && record->pending == 1 && waits)
+  if (why == NULL && record->pending == CAROM_PENDING_SHOT && waits)
     why = "comes before the shot above was played";
   return why == NULL || wrong(in, why);
 }
@@ -778,7 +784,7 @@ static void note_end(carom_record *record, carom_record_kind kind, carom_status 
                      const carom_shot *played) {
   const carom_record_end recorded = record->recorded;
   uint64_t hash = record->hash;
-  if (record->pending == 1)
+  if (record->pending == CAROM_PENDING_SHOT)
     hash = record->played.hash;
   memset(&record->recorded, 0, sizeof recorded);
   hash = stir_line(hash, (int)kind, record);
@@ -788,7 +794,7 @@ static void note_end(carom_record *record, carom_record_kind kind, carom_status 
   hash = carom_fingerprint(hash, record->final, (size_t)record->count * sizeof *record->final);
   record->played.hash = hash;
   record->moved = 1;
-  record->pending = 2;
+  record->pending = CAROM_PENDING_LINE;
   record->kind = kind;
 }
 
@@ -985,7 +991,7 @@ static bool can_be_written(const carom_record *record, int kind) {
   if (kind == CAROM_RECORD_BALLS)
     return record->count > 0;
   if (is_shot(kind))
-    return record->pending == 2 && (int)record->kind == kind;
+    return record->pending == CAROM_PENDING_LINE && (int)record->kind == kind;
   return true;
 }
 
@@ -1009,7 +1015,7 @@ static uint64_t complete_line(carom_record *record, int kind) {
 /* What a line that was written means for those behind it. */
 static void pass_line(carom_record *record, int kind, uint64_t hash) {
   if (is_shot(kind)) {
-    record->pending = 0;
+    record->pending = CAROM_PENDING_NONE;
     record->shots++;
   }
   if (kind != CAROM_RECORD_END)

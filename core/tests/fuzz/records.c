@@ -163,7 +163,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     wrong |= status != CAROM_OK;
     if (status != CAROM_OK || record.kind == before.kind)
       continue;
-    if (record.pending != 1) {
+    if (record.pending != CAROM_PENDING_SHOT) {
       if (record.kind != CAROM_RECORD_HEAD && record.kind != CAROM_RECORD_END)
         check_written(&record, &before);
       continue;
@@ -180,7 +180,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (memcmp(&record.played, &twice.played, sizeof record.played) != 0 ||
         memcmp(record.final, twice.final, sizeof record.final) != 0)
       fail("a shot that is played twice has other bits");
-    if (record.pending == 1) /* refused, with nothing played */
+    if (record.pending == CAROM_PENDING_SHOT) /* refused, with nothing played */
       return 0;
     if (played != (carom_status)record.played.status)
       fail("the status that was returned is not the one that was recorded");

@@ -164,8 +164,8 @@ static int replay(const char *from, size_t length) {
       continue;
     carom_shot shot = {.events = events, .room = EVENTS};
     carom_record_play(&again, (carom_record_kind)again.kind, &shot);
-    const bool agrees =
-        again.pending == 2 && memcmp(&again.played, &again.recorded, sizeof again.played) == 0;
+    const bool agrees = again.pending == CAROM_PENDING_LINE &&
+                        memcmp(&again.played, &again.recorded, sizeof again.played) == 0;
     same += agrees;
     differing += !agrees;
   }

@@ -89,10 +89,10 @@ def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replay
     for text in lines_of(recording):
         line = text.encode()
         _refuse(game, lib.carom_record_read(game, line, len(line)))
-        if game.pending != 1:
+        if game.pending != lib.CAROM_PENDING_SHOT:
             continue
         code = lib.carom_record_play(game, game.kind, ffi.NULL)
-        if game.pending == 1:
+        if game.pending == lib.CAROM_PENDING_SHOT:
             raise CaromError(code, f"line {game.line}")
         yield Replayed(game.shots, game.line, _end(game.recorded), _end(game.played), _final(game))
     if game.kind != lib.CAROM_RECORD_END:

@@ -1,4 +1,4 @@
-/* `carom-lab learn`: a row of games/rules/games.h, fitted to racks that are played.
+/* `carom-lab learn`: a row of games/ratings/learned.h, fitted to racks that are played.
  *
  * A rack begins after a break, with some balls taken away, and is played until the turn ends and
  * once more by the other, by players whose errors are drawn. Of each layout on the way the sample
@@ -410,7 +410,7 @@ static const command_form form = {
     .name = "learn",
     .usage = "[OPTIONS]",
     .about = "Plays racks of a game with plans, and fits the chances of pots to the results. "
-             "Prints the row of the game in games/rules/games.h.\n",
+             "Prints the row of the game in games/ratings/learned.h.\n",
     .options = (const option_row *const[]){&learn_rules, &learn_racks, &learn_shots, &learn_seed,
                                            &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",

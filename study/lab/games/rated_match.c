@@ -5,14 +5,15 @@
 #include "rated_match.h"
 
 #include "comparison.h"
+#include "draws.h"
 #include "eye.h"
 #include "platform/threads.h"
+#include "player.h"
 #include "pot_kind.h"
 #include "program/memory.h"
 #include "program/message.h"
 #include "program/monotonic.h"
 #include "random.h"
-#include "view.h"
 
 #include <math.h>
 #include <stdio.h>

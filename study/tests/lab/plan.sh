@@ -17,7 +17,7 @@ cmp 1.txt 2.txt && numbers < 1.txt
 lab plan --told --rules nineball --players 500,500 --racks 2 --shots 100 --seed 1 | grep -E "^game|,all,"
 echo "--- games of points"
 lab plan --rules straight --target 8 --racks 1 --shots 100 | numbers | cut -d' ' -f1-33
-for game in $(sed -n 's/.*--rules \([a-z]*\) --racks.*/\1/p' "$DATA/../games/rules/games.h" | sort -u); do
+for game in $(sed -n 's/.*--rules \([a-z]*\) --racks.*/\1/p' "$DATA/../games/ratings/learned.h" | sort -u); do
   case $game in *ball | straight) ;; *) lab plan --rules "$game" --games --racks 1 --shots 100 | grep -c "points in" ;; esac
 done
 echo "--- nor the rows that are fitted, whose form is that of the library's"
@@ -25,8 +25,8 @@ lab learn --racks 40 --shots 100 > one.h
 lab learn --racks 40 --shots 100 --threads 3 > two.h
 cmp one.h two.h
 lab learn --racks 40 --shots 100 --seed 1 | cmp -s - one.h || echo "another seed gives other numbers"
-numbers < "$DATA/../games/rules/games.h" > is.txt
-for game in $(sed -n 's/.*--rules \([a-z]*\) --racks.*/\1/p' "$DATA/../games/rules/games.h" | sort -u); do grep -qF "$(lab learn --rules $game --racks 40 --shots 100 | numbers | sed 's/ $//')" is.txt && echo "$game: same"; done
-grep -o "racks [0-9]*" "$DATA/../games/rules/games.h"
+numbers < "$DATA/../games/ratings/learned.h" > is.txt
+for game in $(sed -n 's/.*--rules \([a-z]*\) --racks.*/\1/p' "$DATA/../games/ratings/learned.h" | sort -u); do grep -qF "$(lab learn --rules $game --racks 40 --shots 100 | numbers | sed 's/ $//')" is.txt && echo "$game: same"; done
+grep -o "racks [0-9]*" "$DATA/../games/ratings/learned.h"
 echo "--- usage"
 try_rows "plan, usage"

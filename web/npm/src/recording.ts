@@ -138,7 +138,7 @@ class Game {
       if (count <= this.#room) {
         const table = readTable(memory, this.pointer + RECORD.table);
         const balls = readBalls(memory, this.pointer + RECORD.balls, this.number(RECORD.count));
-        if (this.number(RECORD.pending) === 2)
+        if (this.number(RECORD.pending) === values.CAROM_PENDING_LINE)
           this.film = this.#host.played(
             table,
             balls,
@@ -174,10 +174,10 @@ class Game {
         ? 0
         : memory.exports.carom_record_read(this.pointer, this.#line, bytes.length),
     );
-    if (this.number(RECORD.pending) !== 1) return undefined;
+    if (this.number(RECORD.pending) !== values.CAROM_PENDING_SHOT) return undefined;
     const kind = this.number(RECORD.kind);
     const code = this.play(kind);
-    if (this.number(RECORD.pending) === 1)
+    if (this.number(RECORD.pending) === values.CAROM_PENDING_SHOT)
       this.#host.refuse(code, `line ${this.number(RECORD.line)}`);
     const recorded = this.end(RECORD.recorded);
     const played = this.end(RECORD.played);

@@ -138,7 +138,7 @@ impl Recording {
                 fault,
             });
         }
-        if record.pending != 1 {
+        if record.pending != i64::from(sys::CAROM_PENDING_SHOT) {
             return Ok(true);
         }
         let kind = record.kind as sys::carom_record_kind;
