@@ -389,7 +389,11 @@ def has_pass(isa, name, definitions):
     """Whether CMakeLists.txt compiles a source for an instruction set with these definitions."""
     if name == "advance.c":
         return isa in ("plain", "avx2")
-    return isa != "plain" or definitions != ""
+    if isa == "plain":
+        return definitions != ""
+    if isa == "sse2":
+        return definitions not in ("", "ONE")
+    return True
 
 
 def names_of_pass(name):
