@@ -389,9 +389,7 @@ KERNEL_MACROS = {
 
 def passes_of(isa):
     """What CMakeLists.txt compiles for an instruction set: rows of PASSES, each behind its number."""
-    return [
-        (number, *one) for number, one in enumerate(PASSES, 1) if has_pass(isa, one[0], one[1])
-    ]
+    return [(number, *one) for number, one in enumerate(PASSES, 1) if has_pass(isa, one[0], one[1])]
 
 
 def has_pass(isa, name, definitions):
