@@ -15,6 +15,7 @@ meanwhile.
 import re
 import sys
 from collections import Counter
+from itertools import groupby
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -282,10 +283,13 @@ def main():
         )
 
     # The passes, and at the end their text.
-    for isa, family in ISAS.items():
-        out.append(
-            f"\n#if {'1' if family == '1' else f'defined(__{family}__) && !defined(CAROM_WITHOUT_{isa.upper()})'}\n"
-        )
+    blocks = [
+        (isa, condition, list(passes))
+        for isa in ISAS
+        for condition, passes in groupby(passes_of(isa), lambda one: condition_of(isa, one[1]))
+    ]
+    for isa, condition, passes in blocks:
+        out.append(f"\n#if {condition}\n")
         if isa in TARGETS:
             each = "".join(
                 f"{part}," for part in TARGETS[isa].split(",") if not part.startswith("prefer")
@@ -297,9 +301,7 @@ def main():
             out.append(
                 f'#else\n#pragma GCC push_options\n#pragma GCC target("{TARGETS[isa]}")\n#endif\n'
             )
-        for number, (name, definitions, tag) in enumerate(PASSES, 1):
-            if not has_pass(isa, name, definitions):
-                continue
+        for number, _, definitions, tag in passes:
             defined = [
                 f"CAROM_LANES_{isa.upper()}",
                 f"CAROM_LANES_SUFFIX {isa}",
@@ -385,11 +387,30 @@ KERNEL_MACROS = {
 }
 
 
+def passes_of(isa):
+    """What CMakeLists.txt compiles for an instruction set: rows of PASSES, each behind its number."""
+    return [(number, *one) for number, one in enumerate(PASSES, 1) if has_pass(isa, one[0], one[1])]
+
+
 def has_pass(isa, name, definitions):
     """Whether CMakeLists.txt compiles a source for an instruction set with these definitions."""
     if name == "advance.c":
         return isa in ("plain", "avx2")
-    return isa != "plain" or definitions != ""
+    if isa == "plain":
+        return definitions != ""
+    if isa == "sse2":
+        return definitions not in ("", "ONE")
+    return True
+
+
+def condition_of(isa, name):
+    """When a pass for an instruction set is compiled, for #if."""
+    if isa == "plain":
+        return "1"
+    left_out = f"defined(CAROM_WITHOUT_{isa.upper()})"
+    if name == "advance.c":  # AVX-512 uses that of AVX2
+        left_out = f"({left_out} && defined(CAROM_WITHOUT_AVX512))"
+    return f"defined(__{ISAS[isa]}__) && !{left_out}"
 
 
 def names_of_pass(name):

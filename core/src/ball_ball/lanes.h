@@ -27,8 +27,12 @@
 #include <stdint.h>
 #include <string.h>
 
-#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_SSE2)
+/* core/CMakeLists.txt precompiles the larger ones of these headers, once for each set. */
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
 #include <immintrin.h>
+#define LANES_X86 1
+#elif defined(CAROM_LANES_SSE2)
+#include <emmintrin.h>
 #define LANES_X86 1
 #else
 #define LANES_X86 0

@@ -54,7 +54,7 @@ void carom_impact_begin(const carom_law *law, double tolerance, int plain, doubl
 carom_status carom_impact_advance(carom_trajectory *path, double target, int most) {
   if (path->status == CAROM_OK) {
     switch (carom_isa_of_call(path->plain)) {
-#if defined(__x86_64__) && !defined(CAROM_WITHOUT_AVX2)
+#if defined(__x86_64__) && !(defined(CAROM_WITHOUT_AVX2) && defined(CAROM_WITHOUT_AVX512))
     case CAROM_ISA_AVX2:
     case CAROM_ISA_AVX512: /* eight numbers in a vector of AVX-512 are not faster: a step is
                               bound by latency */

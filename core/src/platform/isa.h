@@ -7,7 +7,9 @@
 
 #include "carom.h"
 
-/* What CAROM_ISAS of CMakeLists.txt leaves out is defined as CAROM_WITHOUT_NAME. */
+/* What CAROM_ISAS of CMakeLists.txt leaves out is defined as CAROM_WITHOUT_NAME, in the sources
+ * that list the sets: kernels.c, impact.c and isa.c. Other sources see all sets of the processor's
+ * family, of which they only declare functions. */
 #ifdef CAROM_WITHOUT_SSE2
 #define CAROM_IF_SSE2(X)
 #else

@@ -48,10 +48,11 @@ struct row {
     return reinterpret_cast<real *>(q)[k];
   }
 };
-#define CAROM_LANES(expression)   \
-  row r;                          \
-  for (int i = 0; i < LANES; i++) \
-    r.q[i] = expression;          \
+/* Unrolled here, because core/CMakeLists.txt asks gcc for less than -O3, which would unroll it. */
+#define CAROM_LANES(expression)                            \
+  row r;                                                   \
+  _Pragma("GCC unroll 16") for (int i = 0; i < LANES; i++) \
+    r.q[i] = expression;                                   \
   return r
 /* Rules are inlined; their callers are not, so that its numbers leave the stack with it. */
 #define CAROM_RULE static inline __attribute__((always_inline))
