@@ -2,7 +2,7 @@
  * they are put exactly where something begins or ends, and then moved by a relative amount from
  * 0 over rounding errors to 1e-3. Half of all impacts of two balls lie along the y axis, where
  * zeros stay zero; so do all impacts on cushions but one in four. */
-#include "draws.h"
+#include "random_impacts.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* regimes.c - every regime is a choice made in the collision frame (slips, spins, frictions),
  * then turned by a random angle (in half of the draws by none, so that zeros stay exactly zero). */
-#include "draws.h"
+#include "random_impacts.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
  * over any number of threads. Arrays end where memory ends, so that reading or writing past them
  * is seen, and begin at odd places. */
 #include "carom_shot.h"
-#include "draws.h"
+#include "random_impacts.h"
 #include "support.h"
 
 #include "ball_ball/kernels.h"

@@ -1,6 +1,6 @@
 /* The cushion against what is known of it: a reference solution in long double, pooltool's
  * recorded impacts, Euler's steps, and the perpendicular rebounds that the 2010 paper fitted. */
-#include "draws.h"
+#include "random_impacts.h"
 #include "kept.h"
 #include "support.h"
 

@@ -8,7 +8,7 @@
  * $CAROM_TEST_DRAWS says how many of each.
  */
 #include "cases.h"
-#include "draws.h"
+#include "random_impacts.h"
 #include "kept.h"
 #include "support.h"
 

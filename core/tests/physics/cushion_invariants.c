@@ -1,7 +1,7 @@
 /* Invariants of the impact on a cushion: energy, mirror, closed forms, batches, traces. */
 #include "carom_tangent.h"
 #include "cushion/models.h"
-#include "draws.h"
+#include "random_impacts.h"
 #include "support.h"
 
 enum { DRAWN = 2000 };

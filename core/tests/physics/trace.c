@@ -4,7 +4,7 @@
  * a test of both.
  */
 #include "cases.h"
-#include "draws.h"
+#include "random_impacts.h"
 #include "support.h"
 
 enum { POINTS = 41 };

@@ -2,7 +2,7 @@
  * computes the rates at eight nodes: CAROM_IMPACT_ITERATIONS for an impact, and as many for each
  * sample of a trace, besides the rest of the step in which that is reached. The linker puts the
  * counter below between the solver's entry and its loop; no time is measured. */
-#include "draws.h"
+#include "random_impacts.h"
 #include "support.h"
 
 #include "contact_law/impact.h"

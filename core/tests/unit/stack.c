@@ -2,7 +2,7 @@
  * takes its share too. The stack is painted before, with a page that may not be touched below
  * it; what lost its paint was used. */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
-#include "draws.h"
+#include "random_impacts.h"
 #include "functions.h"
 
 #include <pthread.h>

@@ -4,7 +4,7 @@
  * none gains energy. The ratio to Han is that of the same round, so what disturbs the machine for
  * longer than a round meets both; its spread is over the rounds. The clock is the processor's. */
 #include "bench_job.h"
-#include "draws.h"
+#include "random_impacts.h"
 #include "machine.h"
 #include "program/program.h"
 #include "sheet.h"

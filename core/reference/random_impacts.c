@@ -1,7 +1,7 @@
 /* Draws are made in the collision frame, where slips and spins have meaning, and turned by a
  * random angle, in half of the draws by none, so that zeros stay zero. A number of its own seeds
  * every draw: any of them can be made again alone. */
-#include "draws.h"
+#include "random_impacts.h"
 
 #include "platform/enumerations.h"
 

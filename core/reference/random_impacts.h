@@ -1,6 +1,6 @@
 /* Random impacts to test the exact solver on, the same for the same seed. */
-#ifndef CAROM_LAB_DRAWS_H
-#define CAROM_LAB_DRAWS_H
+#ifndef CAROM_REFERENCE_RANDOM_IMPACTS_H
+#define CAROM_REFERENCE_RANDOM_IMPACTS_H
 
 #include "carom_shot.h"
 #include "random.h"
