@@ -56,8 +56,10 @@ OF_GAMES = re.compile(
 
 def searched(file):
     """The folders that a compiler of this file searches."""
-    rooms = [room for room in ALLOWED if part_of(file) == "games" and room.startswith("games/")]
-    return [*rooms, "core/src", "core/include", "games/include", "command", "core/tests"]
+    part = part_of(file)
+    rooms = [room for room in ALLOWED if part in ("games", "study") and room.startswith("games/")]
+    tests = ["core/tests"] if is_test(file) else []
+    return [*rooms, "core/src", "core/include", "games/include", "command", *tests]
 
 
 def part_of(file):
