@@ -45,7 +45,7 @@ void carom_apply_speed(carom_contact *contact, const carom_cushion_options *opt)
 
 /* ln v_y, m/s; below 0.1 m/s as at 0.1. */
 static inline double carom_log_of_speed(double v_y) {
-  return carom_log(v_y > 0.1 ? v_y : (double)0.1);
+  return carom_log(v_y > 0.1 ? v_y : 0.1);
 }
 
 /* Restitution and friction of a contact by the law of the options: Han's fits, or the changes by
