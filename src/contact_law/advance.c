@@ -85,11 +85,11 @@ enum {
 /* The kinds of steps, compiled one by one so that each leaves out the terms of the others. */
 typedef enum outcome step_kind(const carom_terms *, const planned_step *, carom_point *, int *,
                                double *);
-#define KIND(name, driving_slips, loaded, exact)                                                \
-  static __attribute__((noinline)) enum outcome name(const carom_terms *terms,                  \
-                                                     const planned_step *step, carom_point *at, \
-                                                     int *iterations, double *advice) {         \
-    return collocate(terms, step, driving_slips, loaded, exact, at, iterations, advice);        \
+#define KIND(name, driving_slips, loaded, exact)                                                   \
+  static __attribute__((noinline)) enum outcome name(const carom_terms *terms,                     \
+                                                     const planned_step *step, carom_point *point, \
+                                                     int *iterations, double *advice) {            \
+    return collocate(terms, step, driving_slips, loaded, exact, point, iterations, advice);        \
   }
 KIND(sliding, true, true, FOR_NONE)
 KIND(sliding_unloaded, true, false, FOR_NONE)

@@ -174,7 +174,7 @@ always void integrate_slip(double x, double y, const part *zx, const part *zy, p
   }
 }
 
-/* x, y over their length, whose inverse becomes *inverse. near: *inverse has the inverse of a
+/* x, y over their length, whose inverse becomes *inverse. approximate: *inverse has that of a
  * similar length. */
 always void normalise(part *x, part *y, bool approximate, part *inverse) {
   EACH {
@@ -351,8 +351,8 @@ always double to_goal(const carom_terms *terms, const carom_point *start, const 
   return rate > 0 ? -event_of(terms, event_x, event_y) / rate : BLIND_EVENT * length;
 }
 
-/* Takes a step from *at. slips: the driving contact slips; loaded: the cloth bears a load, and
- * slips. A refused step leaves *at as it is; then *advice is, for INACCURATE, the squared error
+/* Takes a step from *point. driving_slips: that contact slips; loaded: the cloth bears a load, and
+ * slips. A refused step leaves *point as it is; then *advice is, for INACCURATE, the squared error
  * estimate over the tolerance, and for EVENT_WITHIN the p from here to the event. */
 always enum outcome collocate(const carom_terms *regime_terms, const planned_step *step,
                               const bool driving_slips, const bool loaded, const enum exact exact,

@@ -8,16 +8,13 @@
  *   tan(alpha) = -(5/2) a sqrt(1 - a^2) / (1 + m/m_e + 5/2 (1 - a^2))
  *   w = 5 V/(2R) (b, a sin(theta), -a cos(theta))     turned about z by phi + 90 degrees
  *
- *   from the side                        along the cue
- *
- *        \\                                    ___
- *         \\  cue                            /   \          a to the right of the centre,
- *          \\  theta                        |   b|-- o tip   b above it, in units of R
- *           \\_____ d                        \_|_/
- *            ___                               a
- *           /   \
- *          |  o  |   V: along the cue; with the angle alpha of squirt to the left
- *    _______\___/________ cloth
+ *      along the cue                     from the side, d to the left
+ *           ___                                ___
+ *         /  a  \                            /   \ ___
+ *        | *---+ |                          |  o  |   ---___
+ *        |     |b|     * the tip             \___/          ---___  cue, raised by theta
+ *        |     o |     o the centre    ______________________________---
+ *         \_____/
  *
  * d is the horizontal direction of phi, l the horizontal to its left. In space this is the strike
  * alone, which drives the ball into the slate; shot/raised.c has what the slate does meanwhile. In
