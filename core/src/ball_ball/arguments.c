@@ -56,8 +56,8 @@ static bool coincident(const carom_impact *in) {
 
 static bool motion_is_finite(const carom_ball *ball) {
   double sum = 0.0; /* stays 0 unless a term is infinite or NaN */
-  for (int k = 0; k < 3; k++)
-    sum += ball->r[k] * 0.0 + ball->v[k] * 0.0 + ball->w[k] * 0.0;
+  for (int axis = 0; axis < 3; axis++)
+    sum += ball->r[axis] * 0.0 + ball->v[axis] * 0.0 + ball->w[axis] * 0.0;
   return sum == 0.0;
 }
 

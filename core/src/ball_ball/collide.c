@@ -25,8 +25,8 @@
  *     P = M_j Δv_jy - P_jy                             P2 = Δw_ix/C_i - P_iy
  */
 static void along(const carom_frame *frame, double x, double y, double z, double vector[3]) {
-  for (int k = 0; k < 3; k++)
-    vector[k] = frame->x[k] * x + frame->y[k] * y + frame->z[k] * z;
+  for (int axis = 0; axis < 3; axis++)
+    vector[axis] = frame->x[axis] * x + frame->y[axis] * y + frame->z[axis] * z;
 }
 
 static carom_detail empty_report(void) {
@@ -35,60 +35,65 @@ static carom_detail empty_report(void) {
 
 /* From the integrals of reduced.h. `compression`: int v_n dp up to v_n = 0; p_stick is NaN for
  * balls that do not stick. */
-static carom_detail report_of_integrals(const carom_frame *frame, const carom_reduced *c,
-                                        const carom_local *approach, const carom_integrals *g,
-                                        double compression, double p_stick, bool in_compression) {
-  const double M = c->j_pressed ? approach->M_j : approach->M_i, sign = c->j_pressed ? -1 : 1;
-  carom_detail d = {.normal = M * g->p,
-                    .work_compression = -M * compression,
-                    .work = -M * (1 + c->e * c->e) * compression,
-                    .stick = CAROM_STICK_NEVER,
-                    .stick_normal = M * p_stick};
+static carom_detail report_of_integrals(const carom_frame *frame, const carom_reduced *reduced,
+                                        const carom_local *approach,
+                                        const carom_integrals *integrals, double compression,
+                                        double p_stick, bool in_compression) {
+  const double mass = reduced->j_pressed ? approach->M_j : approach->M_i,
+               sign = reduced->j_pressed ? -1 : 1;
+  carom_detail detail = {.normal = mass * integrals->p,
+                         .work_compression = -mass * compression,
+                         .work = -mass * (1 + reduced->e * reduced->e) * compression,
+                         .stick = CAROM_STICK_NEVER,
+                         .stick_normal = mass * p_stick};
   if (!isnan(p_stick))
-    d.stick = in_compression ? CAROM_STICK_IN_COMPRESSION : CAROM_STICK_IN_RESTITUTION;
-  along(frame, -M * g->Q_1, 0.0, -sign * M * g->Q_2, d.friction);
-  along(frame, sign * M * g->F_x, sign * M * g->F_y, 0.0, c->j_pressed ? d.cloth_b : d.cloth_a);
-  return d;
+    detail.stick = in_compression ? CAROM_STICK_IN_COMPRESSION : CAROM_STICK_IN_RESTITUTION;
+  along(frame, -mass * integrals->Q_1, 0.0, -sign * mass * integrals->Q_2, detail.friction);
+  along(frame, sign * mass * integrals->F_x, sign * mass * integrals->F_y, 0.0,
+        reduced->j_pressed ? detail.cloth_b : detail.cloth_a);
+  return detail;
 }
 
 static carom_detail report_of_solution(const carom_frame *frame, const carom_local *approach,
                                        const double solution[OUT_COLUMNS], int evaluations) {
-  carom_reduced c = carom_reduce(approach);
-  const double unit = -c.v_n / c.kappa, u = sqrt(c.u_x * c.u_x + c.u_z * c.u_z);
+  carom_reduced reduced = carom_reduce(approach);
+  const double unit = -reduced.v_n / reduced.kappa,
+               slip = sqrt(reduced.u_x * reduced.u_x + reduced.u_z * reduced.u_z);
   /* as in rows.h */
-  c.mu = c.u_z <= LEAST_PRESS * unit ? 0 : c.mu;
-  c.mu_b = fmax(c.mu_b, LEAST_MU_B);
-  const double mu_mu_b = c.mu * c.mu_b * unit;
+  reduced.mu = reduced.u_z <= LEAST_PRESS * unit ? 0 : reduced.mu;
+  reduced.mu_b = fmax(reduced.mu_b, LEAST_MU_B);
+  const double mu_mu_b = reduced.mu * reduced.mu_b * unit;
   const bool stick = solution[OUT_STICK] >= 0;
-  carom_integrals g = {.p = unit * (1 + c.e + solution[OUT_OVERSHOOT]),
-                       .F_x = -mu_mu_b * solution[OUT_I_X],
-                       .F_y = -mu_mu_b * solution[OUT_I_Y]};
+  carom_integrals integrals = {.p = unit * (1 + reduced.e + solution[OUT_OVERSHOOT]),
+                               .F_x = -mu_mu_b * solution[OUT_I_X],
+                               .F_y = -mu_mu_b * solution[OUT_I_Y]};
   if (stick) {
-    g.Q_1 = (c.u_x + g.F_x) / (3.5 * c.kappa);
-    g.Q_2 = (c.u_z + 2.5 * g.F_y) / (2.5 * c.kappa);
-  } else if (u > 0) {
-    g.Q_1 = c.mu_b * (c.u_x / u * g.p + unit * solution[OUT_J_C]);
-    g.Q_2 = c.mu_b * (c.u_z / u * g.p + unit * solution[OUT_J_Z]);
+    integrals.Q_1 = (reduced.u_x + integrals.F_x) / (3.5 * reduced.kappa);
+    integrals.Q_2 = (reduced.u_z + 2.5 * integrals.F_y) / (2.5 * reduced.kappa);
+  } else if (slip > 0) {
+    integrals.Q_1 = reduced.mu_b * (reduced.u_x / slip * integrals.p + unit * solution[OUT_J_C]);
+    integrals.Q_2 = reduced.mu_b * (reduced.u_z / slip * integrals.p + unit * solution[OUT_J_Z]);
   }
   /* v = v_n / kappa in units of `unit`, with the slope 1 - f: see problem.h */
-  const double compression = c.kappa * unit * unit * (solution[OUT_K_C] - 0.5),
+  const double compression = reduced.kappa * unit * unit * (solution[OUT_K_C] - 0.5),
                p_stick = unit * solution[OUT_STICK];
-  carom_detail d = report_of_integrals(frame, &c, approach, &g, compression, stick ? p_stick : NAN,
-                                       c.v_n + c.kappa * p_stick - g.F_y < 0);
-  d.evaluations = evaluations;
-  return d;
+  carom_detail detail =
+      report_of_integrals(frame, &reduced, approach, &integrals, compression, stick ? p_stick : NAN,
+                          reduced.v_n + reduced.kappa * p_stick - integrals.F_y < 0);
+  detail.evaluations = evaluations;
+  return detail;
 }
 
 static carom_detail report_of_trajectory(const carom_frame *frame, const carom_local *approach,
                                          const carom_trajectory *path) {
-  const carom_reduced c = carom_reduce(approach);
-  const carom_integrals integrals = carom_precise_integrals(&c, path);
-  const double p_stick = -c.v_n * path->p_stick;
-  carom_detail d =
-      report_of_integrals(frame, &c, approach, &integrals, -(c.v_n * c.v_n) * path->W_c, p_stick,
-                          c.v_n + c.kappa * p_stick - integrals.F_y < 0);
-  d.evaluations = 8 * path->iterations;
-  return d;
+  const carom_reduced reduced = carom_reduce(approach);
+  const carom_integrals integrals = carom_precise_integrals(&reduced, path);
+  const double p_stick = -reduced.v_n * path->p_stick;
+  carom_detail detail = report_of_integrals(
+      frame, &reduced, approach, &integrals, -(reduced.v_n * reduced.v_n) * path->W_c, p_stick,
+      reduced.v_n + reduced.kappa * p_stick - integrals.F_y < 0);
+  detail.evaluations = 8 * path->iterations;
+  return detail;
 }
 
 static carom_detail report_of_euler(const carom_frame *frame, const carom_local *approach,
@@ -100,16 +105,16 @@ static carom_detail report_of_euler(const carom_frame *frame, const carom_local 
   const double pushed_j = approach->M_j * (departure->v_jy - approach->v_jy);
   const double both = approach->M_i * (departure->v_iy - approach->v_iy) + pushed_j;
   const double P_iy = 0.5 * (both + turned_i - turned_j), P_jy = 0.5 * (both - turned_i + turned_j);
-  carom_detail d = {.steps = run->steps,
-                    .normal = pushed_j - P_jy,
-                    .work_compression = run->work_compression,
-                    .work = run->work,
-                    .stick = CAROM_STICK_NEVER,
-                    .stick_normal = NAN};
-  along(frame, -(departure->w_iz - approach->w_iz) / C_i, 0.0, turned_i - P_iy, d.friction);
-  along(frame, -(departure->w_iy - approach->w_iy) / C_i, P_iy, 0.0, d.cloth_a);
-  along(frame, -(departure->w_jy - approach->w_jy) / C_j, P_jy, 0.0, d.cloth_b);
-  return d;
+  carom_detail detail = {.steps = run->steps,
+                         .normal = pushed_j - P_jy,
+                         .work_compression = run->work_compression,
+                         .work = run->work,
+                         .stick = CAROM_STICK_NEVER,
+                         .stick_normal = NAN};
+  along(frame, -(departure->w_iz - approach->w_iz) / C_i, 0.0, turned_i - P_iy, detail.friction);
+  along(frame, -(departure->w_iy - approach->w_iy) / C_i, P_iy, 0.0, detail.cloth_a);
+  along(frame, -(departure->w_jy - approach->w_jy) / C_j, P_jy, 0.0, detail.cloth_b);
+  return detail;
 }
 
 /* ---- One collision ---- */
@@ -130,13 +135,13 @@ static bool solve_by_collocation(const carom_impact *in, const carom_options *op
 
 static carom_status solve_exact(const carom_frame *frame, carom_local *local, int plain,
                                 carom_detail *detail) {
-  const carom_reduced c = carom_reduce(local);
+  const carom_reduced reduced = carom_reduce(local);
   carom_trajectory path;
-  const carom_status status = carom_precise(&c, CAROM_PRECISE_TOLERANCE, plain, &path);
-  const carom_integrals integrals = carom_precise_integrals(&c, &path);
+  const carom_status status = carom_precise(&reduced, CAROM_PRECISE_TOLERANCE, plain, &path);
+  const carom_integrals integrals = carom_precise_integrals(&reduced, &path);
   if (status == CAROM_OK && detail != NULL)
     *detail = report_of_trajectory(frame, local, &path);
-  carom_restore(&c, &integrals, local);
+  carom_restore(&reduced, &integrals, local);
   return status;
 }
 
@@ -203,22 +208,22 @@ carom_status carom_collide(const carom_impact *in, const carom_options *opt, car
 static void to_double(const carom_impact_f32 *in, carom_impact *out) {
   const float *single = (const float *)in;
   double *wide = (double *)out;
-  for (size_t k = 0; k < sizeof *in / sizeof *single; k++)
-    wide[k] = single[k];
+  for (size_t field = 0; field < sizeof *in / sizeof *single; field++)
+    wide[field] = single[field];
 }
 
 static carom_status to_single(carom_status status, const carom_result *in, carom_result_f32 *out) {
   const double *wide = (const double *)in;
   float *single = (float *)out;
   bool fits = true;
-  for (size_t k = 0; k < sizeof *out / sizeof *single; k++) {
-    single[k] = (float)wide[k];
-    fits &= isfinite(single[k]) || !isfinite(wide[k]);
+  for (size_t field = 0; field < sizeof *out / sizeof *single; field++) {
+    single[field] = (float)wide[field];
+    fits &= isfinite(single[field]) || !isfinite(wide[field]);
   }
   if (fits)
     return status;
-  for (size_t k = 0; k < sizeof *out / sizeof *single; k++)
-    single[k] = NAN;
+  for (size_t field = 0; field < sizeof *out / sizeof *single; field++)
+    single[field] = NAN;
   return CAROM_ERROR_OVERFLOW;
 }
 
@@ -254,11 +259,11 @@ double carom_mu_ball(const carom_impact *in, carom_speed_law law) {
   if (in == NULL)
     return NAN;
   const carom_frame frame = carom_frame_of(in);
-  const carom_local c = carom_to_frame(&frame, in, CAROM_SLIP_PAPER);
-  const double u_x = c.v_ix - c.v_jx - c.R * (c.w_iz + c.w_jz);
-  const double u_z = c.R * (c.w_ix + c.w_jx);
-  const double k[3] = {law.a, law.b, law.c};
-  return carom_friction_at(CAROM_LAW_ALCIATORE, k, sqrt(u_x * u_x + u_z * u_z));
+  const carom_local local = carom_to_frame(&frame, in, CAROM_SLIP_PAPER);
+  const double u_x = local.v_ix - local.v_jx - local.R * (local.w_iz + local.w_jz);
+  const double u_z = local.R * (local.w_ix + local.w_jx);
+  const double numbers[3] = {law.a, law.b, law.c};
+  return carom_friction_at(CAROM_LAW_ALCIATORE, numbers, sqrt(u_x * u_x + u_z * u_z));
 }
 
 void carom_rolling_velocity(const double v[3], const double w[3], double radius,

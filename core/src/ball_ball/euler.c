@@ -46,95 +46,99 @@
 #include <math.h>
 #include <stdbool.h>
 
+/* m/s: slips below this have no direction, as in pooltool. */
+static const double NO_SLIP = 1e-16;
+
 /* Twice the greatest number of steps that exact arithmetic can need; 0 if that is too many. See
  * Termination above. */
-static int64_t step_bound(const carom_local *c, double M, int N) {
-  const double loss_i = c->mu_i * c->mu_b * M / c->M_i;
-  const double loss_j = c->mu_j * c->mu_b * M / c->M_j;
+static int64_t step_bound(const carom_local *local, double M, int N) {
+  const double loss_i = local->mu_i * local->mu_b * M / local->M_i;
+  const double loss_j = local->mu_j * local->mu_b * M / local->M_j;
   const double per_N = 2.0 / (2.0 - fmax(loss_i, loss_j));
   return per_N <= (double)CAROM_EULER_MOST ? (int64_t)(2.0 * (per_N * N + 2.0)) : 0;
 }
 
 carom_status carom_euler(carom_local *state, int N, int64_t most, carom_euler_run *run) {
-  carom_local c = *state;
-  const double R = c.R, sR = c.s * c.R;
+  carom_local local = *state;
+  const double R = local.R, sR = local.s * local.R;
   /* The harmonic mean rounds, so equal masses, which parity is about, are taken as they are. */
-  const double M = c.M_i == c.M_j ? c.M_i : 2.0 / (1.0 / c.M_i + 1.0 / c.M_j);
-  const double C_i = 5.0 / (2.0 * c.M_i * R);
-  const double C_j = 5.0 / (2.0 * c.M_j * R);
+  const double M = local.M_i == local.M_j ? local.M_i : 2.0 / (1.0 / local.M_i + 1.0 / local.M_j);
+  const double C_i = 5.0 / (2.0 * local.M_i * R);
+  const double C_j = 5.0 / (2.0 * local.M_j * R);
 
   /* slips of the balls on each other, and of each on the cloth */
-  double u_x = c.v_ix - c.v_jx - R * (c.w_iz + c.w_jz);
-  double u_z = R * (c.w_ix + c.w_jx);
-  double d_x = c.v_ix + sR * c.w_iy, d_y = c.v_iy - sR * c.w_ix;
-  double b_x = c.v_jx + sR * c.w_jy, b_y = c.v_jy - sR * c.w_jx;
-  double v_n = c.v_jy - c.v_iy;
+  double u_x = local.v_ix - local.v_jx - R * (local.w_iz + local.w_jz);
+  double u_z = R * (local.w_ix + local.w_jx);
+  double d_x = local.v_ix + sR * local.w_iy, d_y = local.v_iy - sR * local.w_ix;
+  double b_x = local.v_jx + sR * local.w_jy, b_y = local.v_jy - sR * local.w_jx;
+  double v_n = local.v_jy - local.v_iy;
 
   /* the impulse of a step, and how many steps there may be */
-  const double DP = 0.5 * (1.0 + c.e) * M * fabs(v_n) / N;
-  const int64_t bound = step_bound(&c, M, N);
-  double W = 0.0, W_c = NAN, W_f = INFINITY;
+  const double DP = 0.5 * (1.0 + local.e) * M * fabs(v_n) / N;
+  const int64_t bound = step_bound(&local, M, N);
+  double work = 0.0, work_compression = NAN, work_end = INFINITY;
   bool compressing = true;
-  int64_t n = 0;
+  int64_t steps = 0;
 
-  while ((v_n < 0.0 || W < W_f) && n < most) {
-    if (n >= bound)
+  while ((v_n < 0.0 || work < work_end) && steps < most) {
+    if (steps >= bound)
       return CAROM_ERROR_TOO_SLOW;
-    n++;
+    steps++;
     /* friction between the balls; its vertical part presses one of them on the cloth */
     double DP1 = 0.0, DP2 = 0.0, DP_ix = 0.0, DP_iy = 0.0, DP_jx = 0.0, DP_jy = 0.0;
-    const double u = sqrt(u_x * u_x + u_z * u_z);
-    if (u >= 1e-16) {
-      DP1 = -c.mu_b * DP * u_x / u;
-      if (fabs(u_z) >= 1e-16) {
-        DP2 = -c.mu_b * DP * u_z / u;
+    const double slip = sqrt(u_x * u_x + u_z * u_z);
+    if (slip >= NO_SLIP) {
+      DP1 = -local.mu_b * DP * u_x / slip;
+      if (fabs(u_z) >= NO_SLIP) {
+        DP2 = -local.mu_b * DP * u_z / slip;
         /* the pressed ball, j or i, rubs on the cloth against its slip there */
         if (DP2 > 0.0) {
           const double b = sqrt(b_x * b_x + b_y * b_y);
           if (b != 0.0) {
-            DP_jx = -c.mu_j * (b_x / b) * DP2;
-            DP_jy = -c.mu_j * (b_y / b) * DP2;
+            DP_jx = -local.mu_j * (b_x / b) * DP2;
+            DP_jy = -local.mu_j * (b_y / b) * DP2;
           }
         } else {
           const double d = sqrt(d_x * d_x + d_y * d_y);
           if (d != 0.0) {
-            DP_ix = c.mu_i * (d_x / d) * DP2;
-            DP_iy = c.mu_i * (d_y / d) * DP2;
+            DP_ix = local.mu_i * (d_x / d) * DP2;
+            DP_iy = local.mu_i * (d_y / d) * DP2;
           }
         }
       }
     }
 
     /* velocities and spins, and the slips that they make */
-    c.v_ix += (DP1 + DP_ix) / c.M_i;
-    c.v_iy += (-DP + DP_iy) / c.M_i;
-    c.v_jx += (-DP1 + DP_jx) / c.M_j;
-    c.v_jy += (DP + DP_jy) / c.M_j;
-    c.w_ix += C_i * (DP2 + DP_iy);
-    c.w_iy += C_i * -DP_ix;
-    c.w_iz += C_i * -DP1;
-    c.w_jx += C_j * (DP2 + DP_jy);
-    c.w_jy += C_j * -DP_jx;
-    c.w_jz += C_j * -DP1;
+    local.v_ix += (DP1 + DP_ix) / local.M_i;
+    local.v_iy += (-DP + DP_iy) / local.M_i;
+    local.v_jx += (-DP1 + DP_jx) / local.M_j;
+    local.v_jy += (DP + DP_jy) / local.M_j;
+    local.w_ix += C_i * (DP2 + DP_iy);
+    local.w_iy += C_i * -DP_ix;
+    local.w_iz += C_i * -DP1;
+    local.w_jx += C_j * (DP2 + DP_jy);
+    local.w_jy += C_j * -DP_jx;
+    local.w_jz += C_j * -DP1;
 
-    u_x = c.v_ix - c.v_jx - R * (c.w_iz + c.w_jz);
-    u_z = R * (c.w_ix + c.w_jx);
-    d_x = c.v_ix + sR * c.w_iy;
-    d_y = c.v_iy - sR * c.w_ix;
-    b_x = c.v_jx + sR * c.w_jy;
-    b_y = c.v_jy - sR * c.w_jx;
+    u_x = local.v_ix - local.v_jx - R * (local.w_iz + local.w_jz);
+    u_z = R * (local.w_ix + local.w_jx);
+    d_x = local.v_ix + sR * local.w_iy;
+    d_y = local.v_iy - sR * local.w_ix;
+    b_x = local.v_jx + sR * local.w_jy;
+    b_y = local.v_jy - sR * local.w_jx;
 
     /* the work of the step; at the end of compression it tells the work in all */
     const double v_n_old = v_n;
-    v_n = c.v_jy - c.v_iy;
-    W += 0.5 * DP * fabs(v_n_old + v_n);
+    v_n = local.v_jy - local.v_iy;
+    work += 0.5 * DP * fabs(v_n_old + v_n);
     if (compressing && v_n > 0.0) {
       compressing = false;
-      W_c = W;
-      W_f = (1.0 + c.e * c.e) * W_c;
+      work_compression = work;
+      work_end = (1.0 + local.e * local.e) * work_compression;
     }
   }
-  *state = c;
-  *run = (carom_euler_run){.steps = n, .step = DP, .work = W, .work_compression = W_c};
+  *state = local;
+  *run = (carom_euler_run){
+      .steps = steps, .step = DP, .work = work, .work_compression = work_compression};
   return CAROM_OK;
 }

@@ -1,5 +1,12 @@
 /* The collision frame: two balls from table axes to the line of centres and back.
  *
+ *       ___       ___
+ *     /     \   /     \        from above: z points up, to the reader
+ *    |   i---|-|---j---|---> y
+ *     \__|__/   \_____/
+ *        v
+ *        x
+ *
  * With r the vector from centre i (first ball) to centre j (second), the frame is right-handed:
  *
  *     y = r/|r|  (line of centres)      z = (0, 0, 1)      x = y × z = (y_y, -y_x, 0)
@@ -46,38 +53,38 @@ static inline double carom_dot(const double a[3], const double b[3]) {
 }
 
 static inline carom_frame carom_frame_of(const carom_impact *in) {
-  carom_frame f;
+  carom_frame frame;
   const double r[3] = {in->b.r[0] - in->a.r[0], in->b.r[1] - in->a.r[1], in->b.r[2] - in->a.r[2]};
-  f.distance = sqrt(carom_dot(r, r));
-  for (int k = 0; k < 3; k++)
-    f.y[k] = r[k] / f.distance;
-  const double x[3] = {f.y[1], -f.y[0], 0.0}, z[3] = {0.0, 0.0, 1.0};
-  for (int k = 0; k < 3; k++) {
-    f.x[k] = x[k];
-    f.z[k] = z[k];
+  frame.distance = sqrt(carom_dot(r, r));
+  for (int axis = 0; axis < 3; axis++)
+    frame.y[axis] = r[axis] / frame.distance;
+  const double x[3] = {frame.y[1], -frame.y[0], 0.0}, z[3] = {0.0, 0.0, 1.0};
+  for (int axis = 0; axis < 3; axis++) {
+    frame.x[axis] = x[axis];
+    frame.z[axis] = z[axis];
   }
-  return f;
+  return frame;
 }
 
 /* A speed that bounds those of the ball's surface. */
-static inline double size_of_motion(const carom_ball *b) {
-  return fabs(b->v[0]) + fabs(b->v[1]) +
-         b->radius * (fabs(b->w[0]) + fabs(b->w[1]) + fabs(b->w[2]));
+static inline double size_of_motion(const carom_ball *ball) {
+  return fabs(ball->v[0]) + fabs(ball->v[1]) +
+         ball->radius * (fabs(ball->w[0]) + fabs(ball->w[1]) + fabs(ball->w[2]));
 }
 
-static inline carom_local carom_to_frame(const carom_frame *f, const carom_impact *in,
+static inline carom_local carom_to_frame(const carom_frame *frame, const carom_impact *in,
                                          carom_slip slip) {
   return (carom_local){
-      .v_ix = carom_dot(in->a.v, f->x),
-      .v_iy = carom_dot(in->a.v, f->y),
-      .w_ix = carom_dot(in->a.w, f->x),
-      .w_iy = carom_dot(in->a.w, f->y),
-      .w_iz = carom_dot(in->a.w, f->z),
-      .v_jx = carom_dot(in->b.v, f->x),
-      .v_jy = carom_dot(in->b.v, f->y),
-      .w_jx = carom_dot(in->b.w, f->x),
-      .w_jy = carom_dot(in->b.w, f->y),
-      .w_jz = carom_dot(in->b.w, f->z),
+      .v_ix = carom_dot(in->a.v, frame->x),
+      .v_iy = carom_dot(in->a.v, frame->y),
+      .w_ix = carom_dot(in->a.w, frame->x),
+      .w_iy = carom_dot(in->a.w, frame->y),
+      .w_iz = carom_dot(in->a.w, frame->z),
+      .v_jx = carom_dot(in->b.v, frame->x),
+      .v_jy = carom_dot(in->b.v, frame->y),
+      .w_jx = carom_dot(in->b.w, frame->x),
+      .w_jy = carom_dot(in->b.w, frame->y),
+      .w_jz = carom_dot(in->b.w, frame->z),
       .M_i = in->a.mass,
       .M_j = in->b.mass,
       .R = in->a.radius,
@@ -86,18 +93,21 @@ static inline carom_local carom_to_frame(const carom_frame *f, const carom_impac
       .mu_b = in->mu_ball,
       .e = in->restitution,
       .s = carom_spin_sign(slip),
-      .rounding = f->x[0] == 0 || f->x[1] == 0
+      .rounding = frame->x[0] == 0 || frame->x[1] == 0
                       ? 0
                       : 0x1p-52 * (size_of_motion(&in->a) + size_of_motion(&in->b)),
   };
 }
 
-static inline void carom_from_frame(const carom_frame *f, const carom_local *c, carom_result *out) {
-  for (int k = 0; k < 3; k++) {
-    out->a.v[k] = f->x[k] * c->v_ix + f->y[k] * c->v_iy;
-    out->b.v[k] = f->x[k] * c->v_jx + f->y[k] * c->v_jy;
-    out->a.w[k] = f->x[k] * c->w_ix + f->y[k] * c->w_iy + f->z[k] * c->w_iz;
-    out->b.w[k] = f->x[k] * c->w_jx + f->y[k] * c->w_jy + f->z[k] * c->w_jz;
+static inline void carom_from_frame(const carom_frame *frame, const carom_local *local,
+                                    carom_result *out) {
+  for (int axis = 0; axis < 3; axis++) {
+    out->a.v[axis] = frame->x[axis] * local->v_ix + frame->y[axis] * local->v_iy;
+    out->b.v[axis] = frame->x[axis] * local->v_jx + frame->y[axis] * local->v_jy;
+    out->a.w[axis] =
+        frame->x[axis] * local->w_ix + frame->y[axis] * local->w_iy + frame->z[axis] * local->w_iz;
+    out->b.w[axis] =
+        frame->x[axis] * local->w_jx + frame->y[axis] * local->w_jy + frame->z[axis] * local->w_jz;
   }
 }
 
@@ -105,8 +115,8 @@ static inline void carom_from_frame(const carom_frame *f, const carom_local *c, 
 
 /* After an error. */
 static inline void carom_fill_nan(carom_result *out) {
-  for (int k = 0; k < 3; k++)
-    out->a.v[k] = out->a.w[k] = out->b.v[k] = out->b.w[k] = NAN;
+  for (int axis = 0; axis < 3; axis++)
+    out->a.v[axis] = out->a.w[axis] = out->b.v[axis] = out->b.w[axis] = NAN;
 }
 
 /* For balls that do not collide. */
@@ -119,8 +129,9 @@ static inline void carom_copy_state(const carom_impact *in, carom_result *out) {
 
 static inline bool carom_result_is_finite(const carom_result *out) {
   double sum = 0.0; /* stays 0 unless a term is infinite or NaN */
-  for (int k = 0; k < 3; k++)
-    sum += out->a.v[k] * 0.0 + out->a.w[k] * 0.0 + out->b.v[k] * 0.0 + out->b.w[k] * 0.0;
+  for (int axis = 0; axis < 3; axis++)
+    sum +=
+        out->a.v[axis] * 0.0 + out->a.w[axis] * 0.0 + out->b.v[axis] * 0.0 + out->b.w[axis] * 0.0;
   return sum == 0.0;
 }
 

@@ -49,88 +49,94 @@ typedef struct carom_integrals {
   double p, Q_1, Q_2, F_x, F_y; /* m/s */
 } carom_integrals;
 
-static inline carom_reduced carom_reduce(const carom_local *c) {
-  const double sR = c->s * c->R, u_z = c->R * (c->w_ix + c->w_jx);
+static inline carom_reduced carom_reduce(const carom_local *local) {
+  const double sR = local->s * local->R, u_z = local->R * (local->w_ix + local->w_jx);
   const int on_j = u_z < 0;
-  return (carom_reduced){.u_x = c->v_ix - c->v_jx - c->R * (c->w_iz + c->w_jz),
-                         .u_z = fabs(u_z),
-                         .d_x = on_j ? -(c->v_jx + sR * c->w_jy) : c->v_ix + sR * c->w_iy,
-                         .d_y = on_j ? -(c->v_jy - sR * c->w_jx) : c->v_iy - sR * c->w_ix,
-                         .v_n = c->v_jy - c->v_iy,
-                         .kappa = 1 + (on_j ? c->M_j / c->M_i : c->M_i / c->M_j),
-                         .mu = on_j ? c->mu_j : c->mu_i,
-                         .mu_b = c->mu_b,
-                         .e = c->e,
-                         .s = c->s,
-                         .rounding = c->rounding,
-                         .j_pressed = on_j};
+  return (carom_reduced){
+      .u_x = local->v_ix - local->v_jx - local->R * (local->w_iz + local->w_jz),
+      .u_z = fabs(u_z),
+      .d_x = on_j ? -(local->v_jx + sR * local->w_jy) : local->v_ix + sR * local->w_iy,
+      .d_y = on_j ? -(local->v_jy - sR * local->w_jx) : local->v_iy - sR * local->w_ix,
+      .v_n = local->v_jy - local->v_iy,
+      .kappa = 1 + (on_j ? local->M_j / local->M_i : local->M_i / local->M_j),
+      .mu = on_j ? local->mu_j : local->mu_i,
+      .mu_b = local->mu_b,
+      .e = local->e,
+      .s = local->s,
+      .rounding = local->rounding,
+      .j_pressed = on_j};
 }
 
-/* Adds to *c the change of its velocities by the integrals. */
-static inline void carom_restore(const carom_reduced *r, const carom_integrals *g, carom_local *c) {
-  const double sign = r->j_pressed ? -1 : 1, ratio = r->kappa - 1, C = 2.5 / c->R;
-  const double p_x = sign * (g->F_x - g->Q_1), p_y = sign * (g->F_y - g->p),
-               o_x = sign * ratio * g->Q_1, o_y = sign * ratio * g->p;
-  const double p_wx = sign * C * (g->F_y - g->Q_2), p_wy = -sign * C * g->F_x,
-               o_wx = -sign * C * ratio * g->Q_2;
-  const double p_wz = C * g->Q_1, o_wz = ratio * p_wz;
-  c->v_ix += r->j_pressed ? o_x : p_x;
-  c->v_jx += r->j_pressed ? p_x : o_x;
-  c->v_iy += r->j_pressed ? o_y : p_y;
-  c->v_jy += r->j_pressed ? p_y : o_y;
-  c->w_ix += r->j_pressed ? o_wx : p_wx;
-  c->w_jx += r->j_pressed ? p_wx : o_wx;
-  c->w_iy += r->j_pressed ? 0 : p_wy;
-  c->w_jy += r->j_pressed ? p_wy : 0;
-  c->w_iz += r->j_pressed ? o_wz : p_wz;
-  c->w_jz += r->j_pressed ? p_wz : o_wz;
+/* Adds to *local the change of its velocities by the integrals. */
+static inline void carom_restore(const carom_reduced *reduced, const carom_integrals *integrals,
+                                 carom_local *local) {
+  const double sign = reduced->j_pressed ? -1 : 1, ratio = reduced->kappa - 1,
+               spin_per_impulse = 2.5 / local->R;
+  const double pressed_x = sign * (integrals->F_x - integrals->Q_1),
+               pressed_y = sign * (integrals->F_y - integrals->p),
+               other_x = sign * ratio * integrals->Q_1, other_y = sign * ratio * integrals->p;
+  const double pressed_wx = sign * spin_per_impulse * (integrals->F_y - integrals->Q_2),
+               pressed_wy = -sign * spin_per_impulse * integrals->F_x,
+               other_wx = -sign * spin_per_impulse * ratio * integrals->Q_2;
+  const double pressed_wz = spin_per_impulse * integrals->Q_1, other_wz = ratio * pressed_wz;
+  local->v_ix += reduced->j_pressed ? other_x : pressed_x;
+  local->v_jx += reduced->j_pressed ? pressed_x : other_x;
+  local->v_iy += reduced->j_pressed ? other_y : pressed_y;
+  local->v_jy += reduced->j_pressed ? pressed_y : other_y;
+  local->w_ix += reduced->j_pressed ? other_wx : pressed_wx;
+  local->w_jx += reduced->j_pressed ? pressed_wx : other_wx;
+  local->w_iy += reduced->j_pressed ? 0 : pressed_wy;
+  local->w_jy += reduced->j_pressed ? pressed_wy : 0;
+  local->w_iz += reduced->j_pressed ? other_wz : pressed_wz;
+  local->w_jz += reduced->j_pressed ? pressed_wz : other_wz;
 }
 
 /* ---- In the terms of contact_law/law.h, for the precise solver: it solves inputs that the fast
  * steps refuse, and follows traces ---- */
 
-static inline carom_law carom_law_of_balls(const carom_reduced *c) {
-  return (carom_law){.K_x = 3.5 * c->kappa,
-                     .K_y = 2.5 * c->kappa,
+static inline carom_law carom_law_of_balls(const carom_reduced *reduced) {
+  return (carom_law){.K_x = 3.5 * reduced->kappa,
+                     .K_y = 2.5 * reduced->kappa,
                      .C_x = 1,
                      .C_y = 2.5,
                      .B_0 = -1,
                      .L_x = 1,
-                     .L_y = -2.5 * c->s,
-                     .H = 1 - 2.5 * c->s,
+                     .L_y = -2.5 * reduced->s,
+                     .H = 1 - 2.5 * reduced->s,
                      .g_1 = -1,
-                     .V_0 = -c->kappa,
+                     .V_0 = -reduced->kappa,
                      .V_F = 1,
-                     .mu = c->mu_b,
-                     .mu_c = c->u_z > 0 ? c->mu : 0, /* no ball is pressed into the cloth */
-                     .e = c->e};
+                     .mu = reduced->mu_b,
+                     .mu_c =
+                         reduced->u_z > 0 ? reduced->mu : 0, /* no ball is pressed into the cloth */
+                     .e = reduced->e};
 }
 
 /* Puts a collision at its start; tolerance, plain: see impact.h. */
-static inline void carom_precise_begin(const carom_reduced *c, double tolerance, int plain,
+static inline void carom_precise_begin(const carom_reduced *reduced, double tolerance, int plain,
                                        carom_trajectory *path) {
-  const double per = -1 / c->v_n;
-  const carom_law law = carom_law_of_balls(c);
-  carom_impact_begin(&law, tolerance, plain, per * c->u_x, per * c->u_z, per * c->d_x, per * c->d_y,
-                     per * c->rounding, path);
+  const double per = -1 / reduced->v_n;
+  const carom_law law = carom_law_of_balls(reduced);
+  carom_impact_begin(&law, tolerance, plain, per * reduced->u_x, per * reduced->u_z,
+                     per * reduced->d_x, per * reduced->d_y, per * reduced->rounding, path);
 }
 
 /* The integrals of reduced.h so far. */
-static inline carom_integrals carom_precise_integrals(const carom_reduced *c,
+static inline carom_integrals carom_precise_integrals(const carom_reduced *reduced,
                                                       const carom_trajectory *path) {
-  const carom_impulses q = carom_impact_impulses(path);
-  const double unit = -c->v_n;
-  return (carom_integrals){.p = unit * q.p,
-                           .Q_1 = -unit * q.f_x,
-                           .Q_2 = -unit * q.f_y,
-                           .F_x = unit * q.F_x,
-                           .F_y = unit * q.F_y};
+  const carom_impulses impulses = carom_impact_impulses(path);
+  const double unit = -reduced->v_n;
+  return (carom_integrals){.p = unit * impulses.p,
+                           .Q_1 = -unit * impulses.f_x,
+                           .Q_2 = -unit * impulses.f_y,
+                           .F_x = unit * impulses.F_x,
+                           .F_y = unit * impulses.F_y};
 }
 
 /* The whole collision, at the cost that a call may have. */
-static inline carom_status carom_precise(const carom_reduced *c, double tolerance, int plain,
+static inline carom_status carom_precise(const carom_reduced *reduced, double tolerance, int plain,
                                          carom_trajectory *path) {
-  carom_precise_begin(c, tolerance, plain, path);
+  carom_precise_begin(reduced, tolerance, plain, path);
   return carom_impact_advance(path, INFINITY, CAROM_IMPACT_ITERATIONS);
 }
 

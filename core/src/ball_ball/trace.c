@@ -12,102 +12,104 @@
 
 /* Contact A is ball on ball, D and B are the first and the second ball on the cloth; see
  * carom_trace_point. */
-static void put_point(const carom_frame *frame, const carom_local *c, double P, double work,
-                      carom_phase phase, bool stuck, carom_trace_point *point) {
-  const double sR = c->s * c->R;
-  *point = (carom_trace_point){.normal = P,
-                               .work = work,
-                               .phase = phase,
-                               .sticks = stuck,
-                               .v_n = c->v_jy - c->v_iy,
-                               .u_x = stuck ? 0.0 : c->v_ix - c->v_jx - c->R * (c->w_iz + c->w_jz),
-                               .u_z = stuck ? 0.0 : c->R * (c->w_ix + c->w_jx),
-                               .d_x = c->v_ix + sR * c->w_iy,
-                               .d_y = c->v_iy - sR * c->w_ix,
-                               .b_x = c->v_jx + sR * c->w_jy,
-                               .b_y = c->v_jy - sR * c->w_jx};
-  carom_from_frame(frame, c, &point->state);
+static void put_point(const carom_frame *frame, const carom_local *local, double normal,
+                      double work, carom_phase phase, bool stuck, carom_trace_point *point) {
+  const double sR = local->s * local->R;
+  *point = (carom_trace_point){
+      .normal = normal,
+      .work = work,
+      .phase = phase,
+      .sticks = stuck,
+      .v_n = local->v_jy - local->v_iy,
+      .u_x = stuck ? 0.0 : local->v_ix - local->v_jx - local->R * (local->w_iz + local->w_jz),
+      .u_z = stuck ? 0.0 : local->R * (local->w_ix + local->w_jx),
+      .d_x = local->v_ix + sR * local->w_iy,
+      .d_y = local->v_iy - sR * local->w_ix,
+      .b_x = local->v_jx + sR * local->w_jy,
+      .b_y = local->v_jy - sR * local->w_jx};
+  carom_from_frame(frame, local, &point->state);
 }
 
-/* P: normal impulse at the end. */
-static carom_status trace_exact(const carom_frame *frame, const carom_local *start, double P,
-                                int plain, size_t n, carom_trace_point *points) {
-  const carom_reduced c = carom_reduce(start);
-  double M = start->M_i;
-  if (c.j_pressed)
-    M = start->M_j;
+/* normal: the impulse at the end. */
+static carom_status trace_exact(const carom_frame *frame, const carom_local *start, double normal,
+                                int plain, size_t count, carom_trace_point *points) {
+  const carom_reduced reduced = carom_reduce(start);
+  double mass = start->M_i;
+  if (reduced.j_pressed)
+    mass = start->M_j;
   carom_trajectory path;
-  carom_precise_begin(&c, CAROM_PRECISE_TOLERANCE, plain, &path);
-  for (size_t k = 0; k < n; k++) {
-    double p = INFINITY; /* the last point is the end */
-    if (k + 1 < n)
-      p = P / (M * -c.v_n) * ((double)k / (double)(n - 1));
+  carom_precise_begin(&reduced, CAROM_PRECISE_TOLERANCE, plain, &path);
+  for (size_t sample = 0; sample < count; sample++) {
+    double impulse = INFINITY; /* the last point is the end */
+    if (sample + 1 < count)
+      impulse = normal / (mass * -reduced.v_n) * ((double)sample / (double)(count - 1));
     const carom_status status =
-        carom_impact_advance(&path, p, path.iterations + CAROM_IMPACT_ITERATIONS);
+        carom_impact_advance(&path, impulse, path.iterations + CAROM_IMPACT_ITERATIONS);
     if (status != CAROM_OK)
       return status;
-    const carom_integrals so_far = carom_precise_integrals(&c, &path);
+    const carom_integrals so_far = carom_precise_integrals(&reduced, &path);
     carom_local local = *start;
-    carom_restore(&c, &so_far, &local);
+    carom_restore(&reduced, &so_far, &local);
     carom_phase phase = CAROM_PHASE_COMPRESSION;
-    if (path.restitution || k + 1 == n)
+    if (path.restitution || sample + 1 == count)
       phase = CAROM_PHASE_RESTITUTION;
-    put_point(frame, &local, M * so_far.p, M * (c.v_n * c.v_n) * carom_impact_work(&path), phase,
-              !isnan(path.p_stick), &points[k]);
+    put_point(frame, &local, mass * so_far.p,
+              mass * (reduced.v_n * reduced.v_n) * carom_impact_work(&path), phase,
+              !isnan(path.p_stick), &points[sample]);
   }
   return CAROM_OK;
 }
 
 /* `total` is the number of steps that the whole collision takes. */
-static carom_status trace_euler(const carom_frame *frame, const carom_local *start, int N,
-                                int64_t total, size_t n, carom_trace_point *points) {
-  for (size_t k = 0; k < n; k++) {
-    carom_local c = *start;
+static carom_status trace_euler(const carom_frame *frame, const carom_local *start, int steps,
+                                int64_t total, size_t count, carom_trace_point *points) {
+  for (size_t sample = 0; sample < count; sample++) {
+    carom_local local = *start;
     carom_euler_run run;
     int64_t most = INT64_MAX;
-    if (k + 1 < n)
-      most = (int64_t)round((double)k * ((double)total / (double)(n - 1)));
-    const carom_status status = carom_euler(&c, N, most, &run);
+    if (sample + 1 < count)
+      most = (int64_t)round((double)sample * ((double)total / (double)(count - 1)));
+    const carom_status status = carom_euler(&local, steps, most, &run);
     if (status != CAROM_OK)
       return status;
     carom_phase phase = CAROM_PHASE_RESTITUTION;
     if (isnan(run.work_compression))
       phase = CAROM_PHASE_COMPRESSION;
-    put_point(frame, &c, (double)run.steps * run.step, run.work, phase, false, &points[k]);
+    put_point(frame, &local, (double)run.steps * run.step, run.work, phase, false, &points[sample]);
   }
   return CAROM_OK;
 }
 
 /* Balls that do not collide stay as they are. */
 static void trace_nothing(const carom_impact *in, const carom_frame *frame,
-                          const carom_local *start, size_t n, carom_trace_point *points) {
-  for (size_t k = 0; k < n; k++) {
-    put_point(frame, start, 0.0, 0.0, CAROM_PHASE_RESTITUTION, false, &points[k]);
-    carom_copy_state(in, &points[k].state);
+                          const carom_local *start, size_t count, carom_trace_point *points) {
+  for (size_t sample = 0; sample < count; sample++) {
+    put_point(frame, start, 0.0, 0.0, CAROM_PHASE_RESTITUTION, false, &points[sample]);
+    carom_copy_state(in, &points[sample].state);
   }
 }
 
-static void fill_nan(size_t n, carom_trace_point *points) {
-  for (size_t k = 0; k < n; k++) {
-    points[k] = (carom_trace_point){.normal = NAN,
-                                    .work = NAN,
-                                    .phase = CAROM_PHASE_RESTITUTION,
-                                    .v_n = NAN,
-                                    .u_x = NAN,
-                                    .u_z = NAN,
-                                    .d_x = NAN,
-                                    .d_y = NAN,
-                                    .b_x = NAN,
-                                    .b_y = NAN};
-    carom_fill_nan(&points[k].state);
+static void fill_nan(size_t count, carom_trace_point *points) {
+  for (size_t sample = 0; sample < count; sample++) {
+    points[sample] = (carom_trace_point){.normal = NAN,
+                                         .work = NAN,
+                                         .phase = CAROM_PHASE_RESTITUTION,
+                                         .v_n = NAN,
+                                         .u_x = NAN,
+                                         .u_z = NAN,
+                                         .d_x = NAN,
+                                         .d_y = NAN,
+                                         .b_x = NAN,
+                                         .b_y = NAN};
+    carom_fill_nan(&points[sample].state);
   }
 }
 
-carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_t n,
+carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_t count,
                          carom_trace_point *points) {
   if (in == NULL || points == NULL)
     return CAROM_ERROR_NULL;
-  if (n < 2)
+  if (count < 2)
     return CAROM_ERROR_POINTS;
   const carom_options defaults = {0};
   if (opt == NULL)
@@ -119,13 +121,13 @@ carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_
     const carom_frame frame = carom_frame_of(in);
     const carom_local start = carom_to_frame(&frame, in, opt->slip);
     if (status == CAROM_SEPARATING)
-      trace_nothing(in, &frame, &start, n, points);
+      trace_nothing(in, &frame, &start, count, points);
     else if (opt->solver == CAROM_SOLVER_EULER)
-      status = trace_euler(&frame, &start, carom_steps(opt), detail.steps, n, points);
+      status = trace_euler(&frame, &start, carom_steps(opt), detail.steps, count, points);
     else
-      status = trace_exact(&frame, &start, detail.normal, opt->plain, n, points);
+      status = trace_exact(&frame, &start, detail.normal, opt->plain, count, points);
   }
   if (status < 0)
-    fill_nan(n, points);
+    fill_nan(count, points);
   return status;
 }

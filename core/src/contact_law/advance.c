@@ -53,6 +53,28 @@ static const double MOST_GROWTH = 6.9;   /* carom_point.growth: log of 1000 */
 static const double MOST_ACROSS = 1e-6;  /* carom_trajectory.across */
 static const double AGAIN = 1e-6;        /* v in restitution of a ball that approaches again: a
                                             second compression */
+
+/* A step to stick begins with this share of the way to a slip of zero along a straight line, if the
+ * goal of the phase is not nearer than about that. */
+static const double STICK_SHARE = 0.95, STICK_NEAR = 0.97;
+/* cos(psi) of a slip that points along the drive. */
+static const double ALONG_DRIVE = 0.9;
+/* The share of the way to a slip of zero at a that a step may go while b passes zero. */
+static const double PASSING_SHARE = 0.7;
+/* The least rate at which r falls, by which the largest tau is divided. */
+static const double LEAST_FALL = 1e-12;
+/* The growth of r to the goal, over r, below which it would be nearly 0: there is no guess of tau.
+ * */
+static const double LEAST_GROWTH = -0.9;
+/* A tau that is this much larger than the largest is taken in two steps. */
+static const double TOO_LONG = 1.1;
+/* The rate of |b| over h below which |b| is constant. */
+static const double STEADY = 1e-3;
+/* A refused step is tried with SAFETY times the length that its error allows, within these shares
+ * of its length; or with half of it where there is no estimate, or one without meaning. */
+static const double SAFETY = 0.9, LEAST_SHARE = 0.3, HALF = 0.5, MOST_ESTIMATE = 1e12;
+/* The same of one that derivatives refuse. */
+static const double LEAST_VARIED = 0.2, MOST_VARIED = 0.7;
 enum {
   MOST_REFUSALS = 6,         /* in a row, before steps become careful; */
   MOST_MISSED = 3,           /* steps to stick that diverged, as a only passes near zero, before
@@ -61,11 +83,13 @@ enum {
 };
 
 /* The kinds of steps, compiled one by one so that each leaves out the terms of the others. */
-typedef enum outcome step_kind(const carom_terms *, const step *, carom_point *, int *, double *);
-#define KIND(name, driving_slips, loaded, exact)                                               \
-  static __attribute__((noinline)) enum outcome name(                                          \
-      const carom_terms *k, const step *s, carom_point *at, int *iterations, double *advice) { \
-    return collocate(k, s, driving_slips, loaded, exact, at, iterations, advice);              \
+typedef enum outcome step_kind(const carom_terms *, const planned_step *, carom_point *, int *,
+                               double *);
+#define KIND(name, driving_slips, loaded, exact)                                                   \
+  static __attribute__((noinline)) enum outcome name(const carom_terms *terms,                     \
+                                                     const planned_step *step, carom_point *point, \
+                                                     int *iterations, double *advice) {            \
+    return collocate(terms, step, driving_slips, loaded, exact, point, iterations, advice);        \
   }
 KIND(sliding, true, true, FOR_NONE)
 KIND(sliding_unloaded, true, false, FOR_NONE)
@@ -77,7 +101,7 @@ KIND(held_exact, false, true, FOR_BOTH)
 
 /* A plan: the step and its kind. */
 typedef struct plan {
-  step s;
+  planned_step step;
   step_kind *kind;
 } plan;
 
@@ -99,78 +123,81 @@ static double work_end(const carom_trajectory *path) {
 }
 
 /* Where a step starts: slips, directions and rates, and how far it may go. */
-static void start_at(const carom_trajectory *path, double target, step_start *s) {
+static void start_at(const carom_trajectory *path, double target, step_start *from) {
   const carom_point *point = &path->point;
-  const carom_terms *k = &path->terms;
+  const carom_terms *terms = &path->terms;
   /* the slips: sizes, and directions or, of a slip that begins, those of the regime */
-  s->r = sqrt(point->a_x * point->a_x + point->a_y * point->a_y);
-  s->q = sqrt(point->b_x * point->b_x + point->b_y * point->b_y);
-  const double per_r = 1 / s->r, per_q = 1 / s->q;
-  s->u_x = s->r > 0 ? point->a_x * per_r : path->regime.u_x;
-  s->u_y = s->r > 0 ? point->a_y * per_r : path->regime.u_y;
-  s->t_x = s->q > 0 ? point->b_x * per_q : path->regime.t_x;
-  s->t_y = s->q > 0 ? point->b_y * per_q : path->regime.t_y;
+  from->size_a = sqrt(point->a_x * point->a_x + point->a_y * point->a_y);
+  from->size_b = sqrt(point->b_x * point->b_x + point->b_y * point->b_y);
+  const double per_a = 1 / from->size_a, per_b = 1 / from->size_b;
+  from->u_x = from->size_a > 0 ? point->a_x * per_a : path->regime.u_x;
+  from->u_y = from->size_a > 0 ? point->a_y * per_a : path->regime.u_y;
+  from->t_x = from->size_b > 0 ? point->b_x * per_b : path->regime.t_x;
+  from->t_y = from->size_b > 0 ? point->b_y * per_b : path->regime.t_y;
 
   /* the rates */
-  s->w = (k->w_0 + k->w_u * s->u_y) / (1 - k->w_t * s->t_y);
-  const double x = s->w * s->t_x, y = s->w * s->t_y;
-  s->da_x = k->S_x * s->u_x - k->C_x * x;
-  s->da_y = k->A_0 + k->S_y * s->u_y - k->C_y * y;
-  s->db_x = k->R_x * s->u_x - k->H_x * x;
-  s->db_y = k->B_0 + k->R_y * s->u_y - k->H_y * y;
-  s->dv = k->V_0 + k->V_u * s->u_y - k->V_w * y;
+  from->w = (terms->w_0 + terms->w_u * from->u_y) / (1 - terms->w_t * from->t_y);
+  const double x = from->w * from->t_x, y = from->w * from->t_y;
+  from->da_x = terms->S_x * from->u_x - terms->C_x * x;
+  from->da_y = terms->A_0 + terms->S_y * from->u_y - terms->C_y * y;
+  from->db_x = terms->R_x * from->u_x - terms->H_x * x;
+  from->db_y = terms->B_0 + terms->R_y * from->u_y - terms->H_y * y;
+  from->dv = terms->V_0 + terms->V_u * from->u_y - terms->V_w * y;
 
   /* the mean of b' if b passes zero, where the cloth's own friction changes its sign */
-  s->line_x = s->db_x + 0.5 * k->H_x * x;
-  s->line_y = s->db_y + 0.5 * k->H_y * y;
+  from->line_x = from->db_x + 0.5 * terms->H_x * x;
+  from->line_y = from->db_y + 0.5 * terms->H_y * y;
 
   /* the end of the phase if v' were constant; or an earlier end. Friction of a steep nose
    * may push the ball on, v' > 0, until slip has changed: then no end is in sight, and a step
    * may go as far as slip lasts */
   if (path->restitution) {
     /* p where W = target, by the quadratic equation for a constant v' */
-    s->goal = AT_WORK;
-    s->target = work_end(path);
-    const double missing = s->target - point->W, square = point->v * point->v + 2 * s->dv * missing;
-    s->to_goal =
-        square > 0 || s->dv < 0 ? 2 * missing / (point->v - sqrt(most_of(square, 0))) : INFINITY;
+    from->goal = AT_WORK;
+    from->target = work_end(path);
+    const double missing = from->target - point->W,
+                 square = point->v * point->v + 2 * from->dv * missing;
+    from->to_goal =
+        square > 0 || from->dv < 0 ? 2 * missing / (point->v - sqrt(most_of(square, 0))) : INFINITY;
   } else {
-    s->goal = AT_END_OF_APPROACH;
-    s->target = 0;
-    s->to_goal = s->dv < 0 ? -point->v / s->dv : INFINITY;
+    from->goal = AT_END_OF_APPROACH;
+    from->target = 0;
+    from->to_goal = from->dv < 0 ? -point->v / from->dv : INFINITY;
   }
 
   /* no end in sight: as far as the larger of the slips lasts, but no more than 1 */
-  if (s->to_goal == INFINITY) {
-    s->goal = AT_LENGTH;
-    s->to_goal =
-        most_of(s->r / (fabs(s->da_x) + fabs(s->da_y)), s->q / (fabs(s->db_x) + fabs(s->db_y)));
-    if (!(s->to_goal > 0 && s->to_goal < 1))
-      s->to_goal = 1;
+  if (from->to_goal == INFINITY) {
+    from->goal = AT_LENGTH;
+    from->to_goal = most_of(from->size_a / (fabs(from->da_x) + fabs(from->da_y)),
+                            from->size_b / (fabs(from->db_x) + fabs(from->db_y)));
+    if (!(from->to_goal > 0 && from->to_goal < 1))
+      from->to_goal = 1;
   }
 
   /* an earlier end: p asked for, the event of the regime, the length left by a refusal */
-  if (target - point->p < s->to_goal) {
-    s->goal = AT_P;
-    s->target = s->to_goal = target - point->p;
+  if (target - point->p < from->to_goal) {
+    from->goal = AT_P;
+    from->target = from->to_goal = target - point->p;
   }
-  if (path->event_at - point->p < (s->goal == AT_P ? s->to_goal : DBL_MAX)) {
-    s->goal = AT_EVENT;
-    s->to_goal = most_of(path->event_at - point->p, DBL_MIN);
+  if (path->event_at - point->p < (from->goal == AT_P ? from->to_goal : DBL_MAX)) {
+    from->goal = AT_EVENT;
+    from->to_goal = most_of(path->event_at - point->p, DBL_MIN);
   }
-  if (path->longest < s->to_goal) {
-    s->goal = AT_LENGTH;
-    s->to_goal = path->longest;
+  if (path->longest < from->to_goal) {
+    from->goal = AT_LENGTH;
+    from->to_goal = path->longest;
   }
 }
 
 /* Directions to begin with: both slips along straight lines. */
-static void aim_u(plan *n, const carom_point *point, const step_start *s) {
-  aim(&n->s, point->a_x, point->a_y, s->da_x, s->da_y, s->u_x, s->u_y, n->s.u_x, n->s.u_y);
+static void aim_u(plan *next, const carom_point *point, const step_start *from) {
+  aim(&next->step, point->a_x, point->a_y, from->da_x, from->da_y, from->u_x, from->u_y,
+      next->step.u_x, next->step.u_y);
 }
 
-static void aim_t(plan *n, const carom_point *point, const step_start *s) {
-  aim(&n->s, point->b_x, point->b_y, s->line_x, s->line_y, s->t_x, s->t_y, n->s.t_x, n->s.t_y);
+static void aim_t(plan *next, const carom_point *point, const step_start *from) {
+  aim(&next->step, point->b_x, point->b_y, from->line_x, from->line_y, from->t_x, from->t_y,
+      next->step.t_x, next->step.t_y);
 }
 
 /* Limits the length, which then is the end of the step. */
@@ -183,141 +210,151 @@ static void limit(double *length, enum goal *goal, double most) {
 
 /* A careful step: exact, over an even map, at most a share of the way to where a slip could
  * vanish. */
-static void plan_carefully(const carom_trajectory *path, const step_start *s, plan *n) {
-  double length = s->to_goal;
-  n->s.goal = s->goal;
+static void plan_carefully(const carom_trajectory *path, const step_start *from, plan *next) {
+  double length = from->to_goal;
+  next->step.goal = from->goal;
   /* |a| and |b| over their rates: sums of components are upper bounds */
-  if (driving_slips(path) && s->r > 0)
-    limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->da_x) + fabs(s->da_y) + DBL_MIN));
-  if (path->regime.loaded && s->q > 0)
-    limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->db_x) + fabs(s->db_y) + DBL_MIN));
-  even_map(&n->s, length);
-  n->kind = held_exact;
+  if (driving_slips(path) && from->size_a > 0)
+    limit(&length, &next->step.goal,
+          CAREFUL_SHARE * from->size_a / (fabs(from->da_x) + fabs(from->da_y) + DBL_MIN));
+  if (path->regime.loaded && from->size_b > 0)
+    limit(&length, &next->step.goal,
+          CAREFUL_SHARE * from->size_b / (fabs(from->db_x) + fabs(from->db_y) + DBL_MIN));
+  even_map(&next->step, length);
+  next->kind = held_exact;
   if (driving_slips(path))
-    n->kind = path->regime.loaded ? exact_in_both : exact_unloaded;
-  aim_u(n, &path->point, s);
-  aim_t(n, &path->point, s);
+    next->kind = path->regime.loaded ? exact_in_both : exact_unloaded;
+  aim_u(next, &path->point, from);
+  aim_t(next, &path->point, from);
 }
 
 /* Whether the equations for b are stiff: b is quasi-steady, so that friction nearly balances
  * the force that drives it, or begins from zero while friction is strong. */
-static bool cloth_is_stiff(const carom_trajectory *path, const step_start *s) {
+static bool cloth_is_stiff(const carom_trajectory *path, const step_start *from) {
   /* |b|' by friction alone; it must be able to stop b several times before the goal */
-  const double friction = path->terms.H_y * s->w;
-  if (!path->regime.loaded || friction * s->to_goal < STIFF * s->q)
+  const double friction = path->terms.H_y * from->w;
+  if (!path->regime.loaded || friction * from->to_goal < STIFF * from->size_b)
     return false;
-  if (s->q == 0)
-    return fabs(s->db_x) + fabs(s->db_y) < SLOW * friction || path->regime.held;
+  if (from->size_b == 0)
+    return fabs(from->db_x) + fabs(from->db_y) < SLOW * friction || path->regime.held;
   /* b hardly turns, and its size changes slowly, against friction alone */
-  const double along = s->t_x * s->db_x + s->t_y * s->db_y,
-               across = s->t_x * s->db_y - s->t_y * s->db_x;
+  const double along = from->t_x * from->db_x + from->t_y * from->db_y,
+               across = from->t_x * from->db_y - from->t_y * from->db_x;
   return fabs(across) < ALIGNED * friction && fabs(along) < SLOW * friction;
 }
 
 /* The step for a stiff b: exact, over an even map, with a constant first direction of b. */
-static void plan_stiff_cloth(const carom_trajectory *path, const step_start *s, plan *n) {
-  const double along = s->t_x * s->db_x + s->t_y * s->db_y;
-  double length = s->to_goal;
-  n->s.goal = s->goal;
+static void plan_stiff_cloth(const carom_trajectory *path, const step_start *from, plan *next) {
+  const double along = from->t_x * from->db_x + from->t_y * from->db_y;
+  double length = from->to_goal;
+  next->step.goal = from->goal;
   /* up to where b becomes zero, if a straight line takes it there; the iteration finds the
    * length */
-  if (s->q > 0 && along < 0 && length > -0.95 * s->q / along) {
-    length = -0.95 * s->q / along;
-    n->s.goal = AT_CLOTH_STICK;
+  if (from->size_b > 0 && along < 0 && length > -STICK_SHARE * from->size_b / along) {
+    length = -STICK_SHARE * from->size_b / along;
+    next->step.goal = AT_CLOTH_STICK;
   }
   /* a is not stiff, and must not vanish within the step */
-  if (driving_slips(path) && s->r > 0)
-    limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->da_x) + fabs(s->da_y) + DBL_MIN));
-  even_map(&n->s, length);
-  n->kind = driving_slips(path) ? exact_in_both : held_exact;
-  aim_u(n, &path->point, s);
-  aim(&n->s, 0, 0, 0, 0, s->t_x, s->t_y, n->s.t_x, n->s.t_y);
+  if (driving_slips(path) && from->size_a > 0)
+    limit(&length, &next->step.goal,
+          CAREFUL_SHARE * from->size_a / (fabs(from->da_x) + fabs(from->da_y) + DBL_MIN));
+  even_map(&next->step, length);
+  next->kind = driving_slips(path) ? exact_in_both : held_exact;
+  aim_u(next, &path->point, from);
+  aim(&next->step, 0, 0, 0, 0, from->t_x, from->t_y, next->step.t_x, next->step.t_y);
 }
 
 /* The step while friction holds the driving contact: a sinh map if b passes near zero, else an
  * even one. */
-static void plan_held(const carom_trajectory *path, const step_start *s, plan *n) {
-  const passage g = passage_of_b(&path->point, &path->terms, s, s->to_goal);
-  n->kind = held_straight;
-  n->s.goal = s->goal;
-  if (!g.matters)
-    even_map(&n->s, s->to_goal);
-  else if (!sinh_map(&n->s, &g, s->to_goal))
-    n->s.goal = AT_LENGTH;
-  aim_t(n, &path->point, s);
+static void plan_held(const carom_trajectory *path, const step_start *from, plan *next) {
+  const passage passing = passage_of_b(&path->point, &path->terms, from, from->to_goal);
+  next->kind = held_straight;
+  next->step.goal = from->goal;
+  if (!passing.matters)
+    even_map(&next->step, from->to_goal);
+  else if (!sinh_map(&next->step, &passing, from->to_goal))
+    next->step.goal = AT_LENGTH;
+  aim_t(next, &path->point, from);
 }
 
 /* The step for a stiff a, which is quasi-steady or begins from zero: exact, over an even map,
  * with a constant first direction.
  */
-static void plan_stiff(const carom_trajectory *path, const step_start *s, const closed_form *c,
-                       plan *n) {
-  const double along = s->u_x * s->da_x + s->u_y * s->da_y;
-  double length = s->to_goal;
-  n->s.goal = s->goal;
+static void plan_stiff(const carom_trajectory *path, const step_start *from,
+                       const closed_form *form, plan *next) {
+  const double along = from->u_x * from->da_x + from->u_y * from->da_y;
+  double length = from->to_goal;
+  next->step.goal = from->goal;
   /* a short step while the direction still settles */
-  if (fabs(c->sine) * s->r > NEGLIGIBLE)
-    limit(&length, &n->s.goal, SETTLING * s->r / c->D);
+  if (fabs(form->sine) * from->size_a > NEGLIGIBLE)
+    limit(&length, &next->step.goal, SETTLING * from->size_a / form->D);
   /* up to where a becomes zero, if a straight line takes it there; the iteration finds the
    * length */
-  if (s->r > 0 && along < 0 && length > -0.97 * s->r / along) {
-    length = -0.95 * s->r / along;
-    n->s.goal = AT_STICK;
+  if (from->size_a > 0 && along < 0 && length > -STICK_NEAR * from->size_a / along) {
+    length = -STICK_SHARE * from->size_a / along;
+    next->step.goal = AT_STICK;
   }
   /* an even map resolves no b that passes near zero: stop before */
-  if (path->regime.loaded && passage_of_b(&path->point, &path->terms, s, length).matters)
-    limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->db_x) + fabs(s->db_y)));
-  even_map(&n->s, length);
-  n->kind = path->regime.loaded ? exact_in_a : exact_unloaded;
-  aim(&n->s, 0, 0, 0, 0, s->u_x, s->u_y, n->s.u_x, n->s.u_y);
-  aim_t(n, &path->point, s);
+  if (path->regime.loaded && passage_of_b(&path->point, &path->terms, from, length).matters)
+    limit(&length, &next->step.goal,
+          CAREFUL_SHARE * from->size_b / (fabs(from->db_x) + fabs(from->db_y)));
+  even_map(&next->step, length);
+  next->kind = path->regime.loaded ? exact_in_a : exact_unloaded;
+  aim(&next->step, 0, 0, 0, 0, from->u_x, from->u_y, next->step.u_x, next->step.u_y);
+  aim_t(next, &path->point, from);
 }
 
 /* The step while a slides: a stretched map, or a sinh map if b passes near zero; but that of
  * plan_stiff() for a stiff a. */
-static void plan_sliding(const carom_trajectory *path, const step_start *s, plan *n) {
+static void plan_sliding(const carom_trajectory *path, const step_start *from, plan *next) {
   /* stiff: u points along the drive D, and friction could stop a several times before the goal */
-  const closed_form c = closed_form_of(&path->terms, s);
-  if (s->r == 0 || (c.cosine > 0.9 && fabs(c.sine) < ALIGNED && s->to_goal * c.D > STIFF * s->r)) {
-    plan_stiff(path, s, &c, n);
+  const closed_form form = closed_form_of(&path->terms, from);
+  if (from->size_a == 0 || (form.cosine > ALONG_DRIVE && fabs(form.sine) < ALIGNED &&
+                            from->to_goal * form.D > STIFF * from->size_a)) {
+    plan_stiff(path, from, &form, next);
     return;
   }
-  n->kind = path->regime.loaded ? sliding : sliding_unloaded;
-  n->s.goal = s->goal;
-  const double along = s->u_x * s->da_x + s->u_y * s->da_y;
-  passage g = {.matters = false};
+  next->kind = path->regime.loaded ? sliding : sliding_unloaded;
+  next->step.goal = from->goal;
+  const double along = from->u_x * from->da_x + from->u_y * from->da_y;
+  passage passing = {.matters = false};
   if (path->regime.loaded)
-    g = passage_of_b(&path->point, &path->terms, s, s->to_goal);
-  if (g.matters) {
+    passing = passage_of_b(&path->point, &path->terms, from, from->to_goal);
+  if (passing.matters) {
     /* a changes little in the step: its E belongs to |a| along a straight line */
-    double length = s->to_goal;
-    limit(&length, &n->s.goal, 0.7 * s->r / (fabs(s->da_x) + fabs(s->da_y)));
-    if (!sinh_map(&n->s, &g, length))
-      n->s.goal = AT_LENGTH;
-    aim_u(n, &path->point, s);
-    EACH n->s.E[i] = exponential(-c.m * n->s.p[i] / (s->r + 0.5 * along * n->s.p[i]));
+    double length = from->to_goal;
+    limit(&length, &next->step.goal,
+          PASSING_SHARE * from->size_a / (fabs(from->da_x) + fabs(from->da_y)));
+    if (!sinh_map(&next->step, &passing, length))
+      next->step.goal = AT_LENGTH;
+    aim_u(next, &path->point, from);
+    EACH next->step.E[i] =
+        exponential(-form.m * next->step.p[i] / (from->size_a + 0.5 * along * next->step.p[i]));
   } else {
     /* tau to the goal, or the largest that is allowed; two equal steps rather than a long and a
      * short one */
-    const double ln = s->r < 1 ? rough_log(1 / s->r) : 0, growth = along * s->to_goal / s->r;
-    const double fall = most_of(most_of(-along, c.m - 0.5 * c.D), 1e-12);
+    const double ln = from->size_a < 1 ? rough_log(1 / from->size_a) : 0,
+                 growth = along * from->to_goal / from->size_a;
+    const double fall = most_of(most_of(-along, form.m - 0.5 * form.D), LEAST_FALL);
     const double share = path->variation != NULL ? SHARE : 1;
     const double most =
-        share * least((MOST_TURN + BOLDER * ln) / c.D, (MOST_FALL + BOLDER * ln) / fall);
-    double tau =
-        tau_at(&c, s->to_goal,
-               growth > -0.9 ? s->to_goal / s->r * (6 + growth) / (6 + 4 * growth) : most, most);
-    if (tau > 1.1 * most) {
-      n->s.goal = AT_LENGTH;
+        share * least((MOST_TURN + BOLDER * ln) / form.D, (MOST_FALL + BOLDER * ln) / fall);
+    double tau = tau_at(&form, from->to_goal,
+                        growth > LEAST_GROWTH
+                            ? from->to_goal / from->size_a * (6 + growth) / (6 + 4 * growth)
+                            : most,
+                        most);
+    if (tau > TOO_LONG * most) {
+      next->step.goal = AT_LENGTH;
       tau = tau < 2 * most ? 0.5 * tau : most;
     }
-    stretched_map(&n->s, &c, s, tau);
+    stretched_map(&next->step, &form, from, tau);
   }
-  aim_t(n, &path->point, s);
+  aim_t(next, &path->point, from);
 }
 
 /* Sets to zero a slip that has become negligible, and the motion along x of an impact that has
- * become planar. Returns whether the regime has ended. before: where the step began. */
+ * become planar. Returns whether the regime has ended. previous: where the step began. */
 static bool snap_to_zero(carom_trajectory *path, const carom_point *previous) {
   carom_point *point = &path->point;
   if (fabs(point->a_x) <= path->no_slip && fabs(point->b_x) <= path->no_slip) {
@@ -325,11 +362,12 @@ static bool snap_to_zero(carom_trajectory *path, const carom_point *previous) {
       path->across += fabs(point->a_x) + fabs(point->b_x);
     point->a_x = point->b_x = 0;
   }
-  const double a = fabs(point->a_x) + fabs(point->a_y), b = fabs(point->b_x) + fabs(point->b_y);
-  const bool a_ends =
-      driving_slips(path) && a <= path->no_slip && a < fabs(previous->a_x) + fabs(previous->a_y);
-  const bool b_ends =
-      path->regime.loaded && b <= path->no_slip && b < fabs(previous->b_x) + fabs(previous->b_y);
+  const double slip_a = fabs(point->a_x) + fabs(point->a_y),
+               slip_b = fabs(point->b_x) + fabs(point->b_y);
+  const bool a_ends = driving_slips(path) && slip_a <= path->no_slip &&
+                      slip_a < fabs(previous->a_x) + fabs(previous->a_y);
+  const bool b_ends = path->regime.loaded && slip_b <= path->no_slip &&
+                      slip_b < fabs(previous->b_x) + fabs(previous->b_y);
   if (a_ends)
     point->a_x = point->a_y = 0;
   if (b_ends)
@@ -337,23 +375,24 @@ static bool snap_to_zero(carom_trajectory *path, const carom_point *previous) {
   return a_ends || b_ends;
 }
 
-/* Where friction drives the slip on the cloth, it also drives an error e of planar motion that
- * lies across b. With |b|' = r and h = -H w, e' = h e/|b|, so that e follows |b|^(h/r). Where b
- * passes zero, e is the rest of |b|: then |b|^(h/r) e is |b| itself. The error of the
- * friction's impulse is the change of e over |H|. */
-static void drive_error(carom_trajectory *path, const step_start *s, const carom_point *start) {
-  const double e = path->across, begin = most_of(fabs(start->b_y), e), end = fabs(path->point.b_y);
-  const double h = -path->terms.H_x * s->w,
-               r = (end - fabs(start->b_y)) / (path->point.p - start->p);
-  if (!(e > 0 && h > 0 && path->regime.loaded))
+/* Where friction drives the slip on the cloth, it also drives an error e of planar motion that lies
+ * across b. With |b|' = r, which is `rate`, and h = -H w, e' = h e/|b|, so that e follows
+ * |b|^(h/r). Where b passes zero, e is the rest of |b|: then |b|^(h/r) e is |b| itself. The error
+ * of the friction's impulse is the change of e over |H|. */
+static void drive_error(carom_trajectory *path, const step_start *from, const carom_point *start) {
+  const double across = path->across, begin = most_of(fabs(start->b_y), across),
+               end = fabs(path->point.b_y);
+  const double h = -path->terms.H_x * from->w,
+               rate = (end - fabs(start->b_y)) / (path->point.p - start->p);
+  if (!(across > 0 && h > 0 && path->regime.loaded))
     return;
-  if (end > e) /* rates of nearly zero leave |b| as it is, and e grows exponentially */
-    path->across =
-        e * carom_exp(fabs(r) > 1e-3 * h ? h / r * (rough_log(end) - rough_log(begin))
-                                         : h * (path->point.p - start->p) / least(begin, end));
-  if (r < 0 && begin > e && !(path->across < end)) {
-    const double power = -h / r;
-    path->across = carom_exp((rough_log(e) + power * rough_log(begin)) / (1 + power));
+  if (end > across) /* rates of nearly zero leave |b| as it is, and e grows exponentially */
+    path->across = across * carom_exp(fabs(rate) > STEADY * h
+                                          ? h / rate * (rough_log(end) - rough_log(begin))
+                                          : h * (path->point.p - start->p) / least(begin, end));
+  if (rate < 0 && begin > across && !(path->across < end)) {
+    const double power = -h / rate;
+    path->across = carom_exp((rough_log(across) + power * rough_log(begin)) / (1 + power));
   }
 }
 
@@ -362,33 +401,35 @@ static void drive_error(carom_trajectory *path, const step_start *s, const carom
 static bool driven_at_start(const carom_trajectory *path) {
   if (!(path->law.H < 0) || !path->regime.loaded || (path->point.a_x == 0 && path->point.b_x == 0))
     return false;
-  step_start s;
-  start_at(path, INFINITY, &s);
+  step_start from;
+  start_at(path, INFINITY, &from);
   /* |b|' = h + d, if the force on b beside friction is along b */
-  const double h = -path->terms.H_x * s.w, d_x = s.db_x - h * s.t_x, d_y = s.db_y - h * s.t_y;
+  const double h = -path->terms.H_x * from.w, d_x = from.db_x - h * from.t_x,
+               d_y = from.db_y - h * from.t_y;
   const double d = sqrt(d_x * d_x + d_y * d_y);
-  return s.q > 0 && s.q < 1 && DBL_EPSILON * carom_exp(-h / (h + d) * rough_log(s.q)) > MOST_ACROSS;
+  return from.size_b > 0 && from.size_b < 1 &&
+         DBL_EPSILON * carom_exp(-h / (h + d) * rough_log(from.size_b)) > MOST_ACROSS;
 }
 
 /* On along a straight line, where all rates are constant: to the goal, or to where a slip is
  * zero. Returns whether that is the goal. In planar motion only the y components change. */
-static bool go_straight(carom_trajectory *path, const step_start *s) {
+static bool go_straight(carom_trajectory *path, const step_start *from) {
   carom_point *point = &path->point;
   const carom_point start = *point;
   const double to_a =
-      driving_slips(path) && point->a_y * s->da_y < 0 ? -point->a_y / s->da_y : INFINITY;
+      driving_slips(path) && point->a_y * from->da_y < 0 ? -point->a_y / from->da_y : INFINITY;
   const double to_b =
-      path->regime.loaded && point->b_y * s->db_y < 0 ? -point->b_y / s->db_y : INFINITY;
-  const double length = least(s->to_goal, least(to_a, to_b));
+      path->regime.loaded && point->b_y * from->db_y < 0 ? -point->b_y / from->db_y : INFINITY;
+  const double length = least(from->to_goal, least(to_a, to_b));
   /* W before v, since it is the integral of the old v */
-  point->W += length * (point->v + 0.5 * s->dv * length);
-  point->v += s->dv * length;
+  point->W += length * (point->v + 0.5 * from->dv * length);
+  point->v += from->dv * length;
   point->p += length;
-  point->a_y = length == to_a ? 0 : point->a_y + s->da_y * length;
-  point->b_y = length == to_b ? 0 : point->b_y + s->db_y * length;
+  point->a_y = length == to_a ? 0 : point->a_y + from->da_y * length;
+  point->b_y = length == to_b ? 0 : point->b_y + from->db_y * length;
   path->iterations++;
-  drive_error(path, s, &start);
-  return length == s->to_goal;
+  drive_error(path, from, &start);
+  return length == from->to_goal;
 }
 
 static void end_phase(carom_trajectory *path) {
@@ -407,13 +448,13 @@ static void end_phase(carom_trajectory *path) {
  * no way on. */
 static bool next_step(carom_trajectory *path, double target) {
   /* planar motion, and motion without any friction that changes, is a straight line */
-  step_start s;
-  start_at(path, target, &s);
+  step_start from;
+  start_at(path, target, &from);
   const carom_point start = path->point;
-  const bool planar = start.a_x == 0 && start.b_x == 0 && s.u_x == 0 && s.t_x == 0;
+  const bool planar = start.a_x == 0 && start.b_x == 0 && from.u_x == 0 && from.t_x == 0;
   if (planar || (!driving_slips(path) && !path->regime.loaded)) {
     const bool reached =
-        go_straight(path, &s) && (s.goal == AT_END_OF_APPROACH || s.goal == AT_WORK);
+        go_straight(path, &from) && (from.goal == AT_END_OF_APPROACH || from.goal == AT_WORK);
     if (path->variation != NULL)
       carom_variation_straight(path, &start, planar);
     if (reached)
@@ -427,52 +468,56 @@ static bool next_step(carom_trajectory *path, double target) {
   }
 
   /* what every plan needs, and the plan: the first that applies */
-  plan n;
-  n.s.target = s.target;
-  n.s.restitution = path->restitution;
-  n.s.least_work = work_end(path);
-  n.s.tolerance = path->tolerance;
-  n.s.record = path->variation != NULL ? &path->variation->record : NULL;
+  plan next;
+  next.step.target = from.target;
+  next.step.restitution = path->restitution;
+  next.step.least_work = work_end(path);
+  next.step.tolerance = path->tolerance;
+  next.step.record = path->variation != NULL ? &path->variation->record : NULL;
   if (path->careful)
-    plan_carefully(path, &s, &n);
-  else if (cloth_is_stiff(path, &s))
-    plan_stiff_cloth(path, &s, &n);
+    plan_carefully(path, &from, &next);
+  else if (cloth_is_stiff(path, &from))
+    plan_stiff_cloth(path, &from, &next);
   else if (driving_slips(path))
-    plan_sliding(path, &s, &n);
+    plan_sliding(path, &from, &next);
   else
-    plan_held(path, &s, &n);
+    plan_held(path, &from, &next);
 
   /* the step. Behind it a regime may begin, a phase may end, or a slip may be negligible */
   double advice = 1;
-  const enum outcome r = n.kind(&path->terms, &n.s, &path->point, &path->iterations, &advice);
-  if (r == TAKEN && path->variation != NULL) {
+  const enum outcome result =
+      next.kind(&path->terms, &next.step, &path->point, &path->iterations, &advice);
+  if (result == TAKEN && path->variation != NULL) {
     /* derivatives may need a shorter step */
     const double length = path->point.p - start.p;
     int vanishes = -1;
-    if (n.s.goal == AT_STICK)
+    if (next.step.goal == AT_STICK)
       vanishes = (int)OF_A_X;
-    else if (n.s.goal == AT_CLOTH_STICK)
+    else if (next.step.goal == AT_CLOTH_STICK)
       vanishes = (int)OF_B_X;
-    const bool stiff = n.kind == exact_in_a || n.kind == exact_unloaded ||
-                       n.kind == exact_in_both || n.kind == held_exact;
+    const bool stiff = next.kind == exact_in_a || next.kind == exact_unloaded ||
+                       next.kind == exact_in_both || next.kind == held_exact;
     advice = variation_step(path, &start, driving_slips(path), stiff, vanishes);
     if (advice > 1) {
       /* the planner keeps a length that it is given to a few percent only */
       path->point = start;
       path->longest =
-          length * most_of(0.2, least(0.7, 0.9 / sqrt(sqrt(sqrt(sqrt(least(advice, 1e12)))))));
+          length * most_of(LEAST_VARIED,
+                           least(MOST_VARIED,
+                                 SAFETY / sqrt(sqrt(sqrt(sqrt(least(advice, MOST_ESTIMATE)))))));
       return true;
     }
   }
 
   /* taken: the next regime or phase, if one begins at the end of the step */
-  if (r == TAKEN) {
+  if (result == TAKEN) {
     path->longest = INFINITY;
     path->refusals = 0;
-    const bool reached = n.s.goal == AT_END_OF_APPROACH || n.s.goal == AT_WORK;
+    const bool reached = next.step.goal == AT_END_OF_APPROACH || next.step.goal == AT_WORK;
     bool goes_on;
-    if (n.s.goal == AT_STICK || n.s.goal == AT_CLOTH_STICK || n.s.goal == AT_EVENT) {
-      goes_on = carom_impact_regime(path, n.s.goal == AT_EVENT);
+    if (next.step.goal == AT_STICK || next.step.goal == AT_CLOTH_STICK ||
+        next.step.goal == AT_EVENT) {
+      goes_on = carom_impact_regime(path, next.step.goal == AT_EVENT);
     } else {
       if (reached)
         end_phase(path);
@@ -484,18 +529,19 @@ static bool next_step(carom_trajectory *path, double target) {
   }
 
   /* refused: up to the event; or a shorter step, by the error estimate */
-  if (r == EVENT_WITHIN) {
+  if (result == EVENT_WITHIN) {
     path->event_at = path->point.p + advice;
-    if (advice < IMMEDIATE * s.to_goal)
+    if (advice < IMMEDIATE * from.to_goal)
       return carom_impact_regime(path, true);
   } else /* the error is of order 16 in the length */
-    path->longest = n.s.length * (r == INACCURATE && advice < 1e12
-                                      ? most_of(0.3, 0.9 / sqrt(sqrt(sqrt(sqrt(advice)))))
-                                      : 0.5);
+    path->longest =
+        next.step.length * (result == INACCURATE && advice < MOST_ESTIMATE
+                                ? most_of(LEAST_SHARE, SAFETY / sqrt(sqrt(sqrt(sqrt(advice)))))
+                                : HALF);
 
   /* after too many refusals, careful steps; after too many of those, no way on */
   path->refusals++;
-  path->sticks_missed += r == DIVERGED && n.s.goal == AT_STICK;
+  path->sticks_missed += result == DIVERGED && next.step.goal == AT_STICK;
   if ((path->refusals == MOST_REFUSALS || path->sticks_missed == MOST_MISSED) && !path->careful) {
     path->careful = true;
     path->refusals = 0;

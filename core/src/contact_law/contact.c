@@ -44,40 +44,41 @@ static double size(pair a) {
 }
 
 static pair direction(pair a, pair otherwise) {
-  const double s = size(a);
-  return s > 0 ? (pair){a.x / s, a.y / s} : otherwise;
+  const double length = size(a);
+  return length > 0 ? (pair){a.x / length, a.y / length} : otherwise;
 }
 
-static double load(const carom_law *l, double f_y) {
-  return l->g_0 + l->g_1 * f_y;
+static double load(const carom_law *law, double f_y) {
+  return law->g_0 + law->g_1 * f_y;
 }
 
 /* a' for given frictions. */
-static pair driving_rate(const carom_law *l, pair f, pair F) {
-  return (pair){l->K_x * f.x + l->C_x * F.x, l->A_0 + l->K_y * f.y + l->C_y * F.y};
+static pair driving_rate(const carom_law *law, pair f, pair F) {
+  return (pair){law->K_x * f.x + law->C_x * F.x, law->A_0 + law->K_y * f.y + law->C_y * F.y};
 }
 
 /* The rate of b without friction of the cloth. */
-static pair cloth_drive(const carom_law *l, pair f) {
-  return (pair){l->L_x * f.x, l->B_0 + l->L_y * f.y};
+static pair cloth_drive(const carom_law *law, pair f) {
+  return (pair){law->L_x * f.x, law->B_0 + law->L_y * f.y};
 }
 
 /* The friction of a cloth that slips in the direction t, or bears no load. */
-static pair cloth_friction(const carom_law *l, pair f, pair t) {
-  const double g = l->mu_c * fmax(load(l, f.y), 0);
+static pair cloth_friction(const carom_law *law, pair f, pair t) {
+  const double g = law->mu_c * fmax(load(law, f.y), 0);
   return (pair){-g * t.x, -g * t.y};
 }
 
 /* The friction that holds the driving contact while the cloth slips in the direction t. */
-static pair holding(const carom_law *l, pair t) {
-  const double G_0 = l->g_0 - l->g_1 * l->A_0 / l->K_y;
-  const double w = G_0 > 0 ? l->mu_c * G_0 / (1 - l->mu_c * l->g_1 * l->C_y / l->K_y * t.y) : 0;
-  return (pair){l->C_x / l->K_x * w * t.x, (l->C_y * w * t.y - l->A_0) / l->K_y};
+static pair holding(const carom_law *law, pair t) {
+  const double G_0 = law->g_0 - law->g_1 * law->A_0 / law->K_y;
+  const double w =
+      G_0 > 0 ? law->mu_c * G_0 / (1 - law->mu_c * law->g_1 * law->C_y / law->K_y * t.y) : 0;
+  return (pair){law->C_x / law->K_x * w * t.x, (law->C_y * w * t.y - law->A_0) / law->K_y};
 }
 
 /* Whether friction holds the cloth under the friction f; H > 0 says that friction opposes slip. */
-static bool cloth_holds(const carom_law *l, pair f) {
-  return l->H > 0 && size(cloth_drive(l, f)) <= l->H * l->mu_c * load(l, f.y);
+static bool cloth_holds(const carom_law *law, pair f) {
+  return law->H > 0 && size(cloth_drive(law, f)) <= law->H * law->mu_c * load(law, f.y);
 }
 
 static bool within(pair f, double mu) {
@@ -85,166 +86,173 @@ static bool within(pair f, double mu) {
 }
 
 /* Whether friction holds both contacts, once they do not slip. */
-static bool both_hold(const carom_law *l) {
-  const double det = l->K_y * l->H - l->C_y * l->L_y;
-  const pair f = {0, (l->C_y * l->B_0 - l->H * l->A_0) / det},
-             F = {0, (l->L_y * l->A_0 - l->K_y * l->B_0) / det};
-  return l->H > 0 && within(f, l->mu) && load(l, f.y) > 0 && size(F) <= l->mu_c * load(l, f.y);
+static bool both_hold(const carom_law *law) {
+  const double det = law->K_y * law->H - law->C_y * law->L_y;
+  const pair f = {0, (law->C_y * law->B_0 - law->H * law->A_0) / det},
+             F = {0, (law->L_y * law->A_0 - law->K_y * law->B_0) / det};
+  return law->H > 0 && within(f, law->mu) && load(law, f.y) > 0 &&
+         size(F) <= law->mu_c * load(law, f.y);
 }
 
 /* The regime where both slips are zero: the first of these that is consistent with its own
  * rates. Everything lies along y. False if none is. */
-static bool from_rest(const carom_law *l, carom_regime *r) {
-  const double mu = l->mu;
-  if (both_hold(l)) {
-    *r = (carom_regime){.held = true, .cloth_held = true};
+static bool from_rest(const carom_law *law, carom_regime *regime) {
+  const double mu = law->mu;
+  if (both_hold(law)) {
+    *regime = (carom_regime){.held = true, .cloth_held = true};
     return true;
   }
   for (int side = 1; side >= -1; side -= 2) {
     /* the driving contact holds, the cloth's slip begins */
-    const pair t = {0, side}, h = holding(l, t);
-    if (within(h, mu)) {
+    const pair t = {0, side}, hold = holding(law, t);
+    if (within(hold, mu)) {
       /* b' must point along t; a cloth without load is dragged along t = y */
-      const pair drive = cloth_drive(l, h), w = cloth_friction(l, h, t);
-      if (side * (drive.y + l->H * w.y) > 0 || (load(l, h.y) <= 0 && side > 0)) {
-        *r = (carom_regime){.held = true, .loaded = load(l, h.y) > 0, .t_y = side};
+      const pair drive = cloth_drive(law, hold), of_cloth = cloth_friction(law, hold, t);
+      if (side * (drive.y + law->H * of_cloth.y) > 0 || (load(law, hold.y) <= 0 && side > 0)) {
+        *regime = (carom_regime){.held = true, .loaded = load(law, hold.y) > 0, .t_y = side};
         return true;
       }
     }
   }
   for (int side = 1; side >= -1; side -= 2) {
     /* the driving contact's slip begins; the cloth holds, or slips too */
-    const pair u = {0, side}, s = {0, -mu * side};
-    const bool stays = cloth_holds(l, s);
-    const pair drive = cloth_drive(l, s), t = direction(drive, (pair){0, -1});
-    pair w = cloth_friction(l, s, t);
+    const pair u = {0, side}, friction = {0, -mu * side};
+    const bool stays = cloth_holds(law, friction);
+    const pair drive = cloth_drive(law, friction), t = direction(drive, (pair){0, -1});
+    pair of_cloth = cloth_friction(law, friction, t);
     if (stays)
-      w = (pair){0, -drive.y / l->H};
+      of_cloth = (pair){0, -drive.y / law->H};
     /* a' must point along u */
-    const pair rate = driving_rate(l, s, w);
+    const pair rate = driving_rate(law, friction, of_cloth);
     if (side * rate.y > 0) {
-      *r = (carom_regime){.cloth_held = stays,
-                          .loaded = !stays && load(l, s.y) > 0,
-                          .u_x = u.x,
-                          .u_y = u.y,
-                          .t_x = t.x,
-                          .t_y = t.y};
+      *regime = (carom_regime){.cloth_held = stays,
+                               .loaded = !stays && load(law, friction.y) > 0,
+                               .u_x = u.x,
+                               .u_y = u.y,
+                               .t_x = t.x,
+                               .t_y = t.y};
       return true;
     }
   }
   return false;
 }
 
-/* The regime that begins at a point, after *r. event: that of *r has ended it. False if no
- * regime is consistent. */
-static bool choose(const carom_law *l, const carom_point *point, bool event, carom_regime *r) {
-  const bool a_rests = l->mu > 0 && point->a_x == 0 && point->a_y == 0,
-             b_rests = l->mu_c > 0 && point->b_x == 0 && point->b_y == 0;
+/* The regime that begins at a point, after *regime. event: that of *regime has ended it. False if
+ * no regime is consistent. */
+static bool choose(const carom_law *law, const carom_point *point, bool event,
+                   carom_regime *regime) {
+  const bool a_rests = law->mu > 0 && point->a_x == 0 && point->a_y == 0,
+             b_rests = law->mu_c > 0 && point->b_x == 0 && point->b_y == 0;
   if (a_rests && b_rests)
-    return from_rest(l, r);
-  const carom_regime last = *r;
-  *r = (carom_regime){.held = false};
+    return from_rest(law, regime);
+  const carom_regime last = *regime;
+  *regime = (carom_regime){.held = false};
 
   /* the driving contact: friction f holds it, or its slip begins, or it slips */
   pair u, f;
   if (a_rests) {
     const pair t = direction((pair){point->b_x, point->b_y}, (pair){0, -1});
-    f = holding(l, t);
-    r->held = within(f, l->mu) && !(event && last.held);
-    if (!r->held) {
+    f = holding(law, t);
+    regime->held = within(f, law->mu) && !(event && last.held);
+    if (!regime->held) {
       u = direction((pair){-f.x, -f.y}, (pair){0, 1});
-      r->u_x = u.x;
-      r->u_y = u.y;
-      f = (pair){-l->mu * u.x, -l->mu * u.y};
+      regime->u_x = u.x;
+      regime->u_y = u.y;
+      f = (pair){-law->mu * u.x, -law->mu * u.y};
     }
   } else {
     u = direction((pair){point->a_x, point->a_y}, (pair){0, 0});
-    f = (pair){-l->mu * u.x, -l->mu * u.y};
+    f = (pair){-law->mu * u.x, -law->mu * u.y};
   }
 
   /* the load of the cloth; an event of two slipping contacts was its beginning or end */
-  r->loaded = l->mu_c > 0 && load(l, f.y) > 0;
+  regime->loaded = law->mu_c > 0 && load(law, f.y) > 0;
   if (event && !last.held && !last.cloth_held)
-    r->loaded = !last.loaded;
+    regime->loaded = !last.loaded;
 
   /* the cloth: friction holds it, or its slip begins */
-  if (b_rests && r->loaded) {
-    r->cloth_held = cloth_holds(l, f) && !(event && last.cloth_held);
-    r->loaded = !r->cloth_held;
-    const pair drive = cloth_drive(l, f), lead = direction(drive, (pair){0, -1});
-    const double driven = -l->H * l->mu_c * load(l, f.y);
-    if (r->loaded && driven > MOST_DRIVEN * size(drive))
+  if (b_rests && regime->loaded) {
+    regime->cloth_held = cloth_holds(law, f) && !(event && last.cloth_held);
+    regime->loaded = !regime->cloth_held;
+    const pair drive = cloth_drive(law, f), lead = direction(drive, (pair){0, -1});
+    const double driven = -law->H * law->mu_c * load(law, f.y);
+    if (regime->loaded && driven > MOST_DRIVEN * size(drive))
       return false;
-    r->t_x = lead.x;
-    r->t_y = lead.y;
+    regime->t_x = lead.x;
+    regime->t_y = lead.y;
   }
   return true;
 }
 
-carom_terms carom_impact_terms(const carom_law *l, const carom_regime *r) {
-  const double mu = l->mu;
-  carom_terms k = {.A_0 = l->A_0,
-                   .C_x = l->C_x,
-                   .C_y = l->C_y,
-                   .B_0 = l->B_0,
-                   .H_x = l->H,
-                   .H_y = l->H,
-                   .V_0 = l->V_0,
-                   .V_w = l->V_F,
-                   .event = {-1}};
-  if (r->held) {
-    /* f from a' = 0, put into the rates of b and v */
-    const double f = -l->A_0 / l->K_y, f_w = l->C_y / l->K_y;
-    k.A_0 = k.C_x = k.C_y = 0;
-    k.B_0 += l->L_y * f;
-    k.H_x -= l->L_x * l->C_x / l->K_x;
-    k.H_y -= l->L_y * f_w;
-    k.V_0 += l->V_f * f;
-    k.V_w -= l->V_f * f_w;
-    if (r->loaded) {
-      k.w_0 = l->mu_c * load(l, f);
-      k.w_t = l->mu_c * l->g_1 * f_w;
+carom_terms carom_impact_terms(const carom_law *law, const carom_regime *regime) {
+  const double mu = law->mu;
+  carom_terms terms = {.A_0 = law->A_0,
+                       .C_x = law->C_x,
+                       .C_y = law->C_y,
+                       .B_0 = law->B_0,
+                       .H_x = law->H,
+                       .H_y = law->H,
+                       .V_0 = law->V_0,
+                       .V_w = law->V_F,
+                       .event = {-1}};
+  if (regime->held) {
+    /* f from a' = 0, f_y = f_0 + f_w w t_y, put into the rates of b and v */
+    const double f_0 = -law->A_0 / law->K_y, f_w = law->C_y / law->K_y;
+    terms.A_0 = terms.C_x = terms.C_y = 0;
+    terms.B_0 += law->L_y * f_0;
+    terms.H_x -= law->L_x * law->C_x / law->K_x;
+    terms.H_y -= law->L_y * f_w;
+    terms.V_0 += law->V_f * f_0;
+    terms.V_w -= law->V_f * f_w;
+    if (regime->loaded) {
+      terms.w_0 = law->mu_c * load(law, f_0);
+      terms.w_t = law->mu_c * law->g_1 * f_w;
       /* |f|^2 > mu^2 */
-      k.event[0] = f * f - mu * mu;
-      k.event[1] = 2 * f * f_w;
-      k.event[2] = l->C_x / l->K_x * (l->C_x / l->K_x);
-      k.event[3] = f_w * f_w;
+      terms.event[0] = f_0 * f_0 - mu * mu;
+      terms.event[1] = 2 * f_0 * f_w;
+      terms.event[2] = law->C_x / law->K_x * (law->C_x / law->K_x);
+      terms.event[3] = f_w * f_w;
     }
-    return k;
+    return terms;
   }
-  k.S_x = -mu * l->K_x;
-  k.S_y = -mu * l->K_y;
-  k.R_x = -mu * l->L_x;
-  k.R_y = -mu * l->L_y;
-  k.V_u = -mu * l->V_f;
-  const double g_u = -l->g_1 * mu;
-  if (r->cloth_held) {
-    /* F from b' = 0, put into the rates of a and v */
-    const double per = 1 / l->H, c = mu * l->L_x * per, d = -l->B_0 * per, d_u = mu * l->L_y * per,
-                 h = l->mu_c * l->g_0, h_u = l->mu_c * g_u;
-    k.A_0 += l->C_y * d;
-    k.S_x += l->C_x * c;
-    k.S_y += l->C_y * d_u;
-    k.V_0 += l->V_F * d;
-    k.V_u += l->V_F * d_u;
-    k.B_0 = k.R_x = k.R_y = 0;
+
+  /* the driving contact slips, f = -mu u, and with it the load changes by g_u u_y */
+  terms.S_x = -mu * law->K_x;
+  terms.S_y = -mu * law->K_y;
+  terms.R_x = -mu * law->L_x;
+  terms.R_y = -mu * law->L_y;
+  terms.V_u = -mu * law->V_f;
+  const double g_u = -law->g_1 * mu;
+  if (regime->cloth_held) {
+    /* F from b' = 0, F_x = F_x_u u_x and F_y = F_y_0 + F_y_u u_y, put into the rates of a and v;
+     * the size of its cone is cone_0 + cone_u u_y */
+    const double per = 1 / law->H;
+    const double F_x_u = mu * law->L_x * per;
+    const double F_y_0 = -law->B_0 * per, F_y_u = mu * law->L_y * per;
+    const double cone_0 = law->mu_c * law->g_0, cone_u = law->mu_c * g_u;
+    terms.A_0 += law->C_y * F_y_0;
+    terms.S_x += law->C_x * F_x_u;
+    terms.S_y += law->C_y * F_y_u;
+    terms.V_0 += law->V_F * F_y_0;
+    terms.V_u += law->V_F * F_y_u;
+    terms.B_0 = terms.R_x = terms.R_y = 0;
     /* |F|^2 > (mu_c g)^2 */
-    k.event[0] = d * d - h * h;
-    k.event[1] = 2 * (d * d_u - h * h_u);
-    k.event[2] = c * c;
-    k.event[3] = d_u * d_u - h_u * h_u;
-  } else if (r->loaded) {
-    k.w_0 = l->mu_c * l->g_0;
-    k.w_u = l->mu_c * g_u;
+    terms.event[0] = F_y_0 * F_y_0 - cone_0 * cone_0;
+    terms.event[1] = 2 * (F_y_0 * F_y_u - cone_0 * cone_u);
+    terms.event[2] = F_x_u * F_x_u;
+    terms.event[3] = F_y_u * F_y_u - cone_u * cone_u;
+  } else if (regime->loaded) {
+    terms.w_0 = law->mu_c * law->g_0;
+    terms.w_u = law->mu_c * g_u;
     /* the load falls below zero */
-    k.event[0] = -l->g_0;
-    k.event[1] = -g_u;
-  } else if (l->mu_c > 0 && mu > 0) {
+    terms.event[0] = -law->g_0;
+    terms.event[1] = -g_u;
+  } else if (law->mu_c > 0 && mu > 0) {
     /* the load rises above zero */
-    k.event[0] = l->g_0;
-    k.event[1] = g_u;
+    terms.event[0] = law->g_0;
+    terms.event[1] = g_u;
   }
-  return k;
+  return terms;
 }
 
 bool carom_impact_jams(const carom_trajectory *path) {

@@ -69,20 +69,25 @@ carom_status carom_impact_advance(carom_trajectory *path, double target, int mos
 }
 
 carom_impulses carom_impact_impulses(const carom_trajectory *path) {
-  const carom_law *l = &path->law;
+  const carom_law *law = &path->law;
   const carom_point *start = &path->start, *point = &path->point;
+
   /* the changes by friction */
-  const double a_x = point->a_x - start->a_x, a_y = point->a_y - start->a_y - l->A_0 * point->p,
-               b_x = point->b_x - start->b_x, v = point->v - start->v - l->V_0 * point->p;
-  if (l->mu_c == 0)
-    return (carom_impulses){.p = point->p, .f_x = a_x / l->K_x, .f_y = a_y / l->K_y};
-  const double per_x = 1 / (l->K_x * l->H - l->C_x * l->L_x),
-               per_y = 1 / (l->K_y * l->V_F - l->C_y * l->V_f);
+  const double a_x = point->a_x - start->a_x;
+  const double a_y = point->a_y - start->a_y - law->A_0 * point->p;
+  const double b_x = point->b_x - start->b_x;
+  const double approach = point->v - start->v - law->V_0 * point->p;
+  if (law->mu_c == 0)
+    return (carom_impulses){.p = point->p, .f_x = a_x / law->K_x, .f_y = a_y / law->K_y};
+
+  /* f and F by the two pairs of equations of the head, each with its determinant */
+  const double per_x = 1 / (law->K_x * law->H - law->C_x * law->L_x),
+               per_y = 1 / (law->K_y * law->V_F - law->C_y * law->V_f);
   return (carom_impulses){.p = point->p,
-                          .f_x = (l->H * a_x - l->C_x * b_x) * per_x,
-                          .f_y = (l->V_F * a_y - l->C_y * v) * per_y,
-                          .F_x = (l->K_x * b_x - l->L_x * a_x) * per_x,
-                          .F_y = (l->K_y * v - l->V_f * a_y) * per_y};
+                          .f_x = (law->H * a_x - law->C_x * b_x) * per_x,
+                          .f_y = (law->V_F * a_y - law->C_y * approach) * per_y,
+                          .F_x = (law->K_x * b_x - law->L_x * a_x) * per_x,
+                          .F_y = (law->K_y * approach - law->V_f * a_y) * per_y};
 }
 
 double carom_impact_work(const carom_trajectory *path) {

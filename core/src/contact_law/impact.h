@@ -78,7 +78,7 @@ typedef struct carom_impulses {
 void carom_impact_begin(const carom_law *law, double tolerance, int plain, double a_x, double a_y,
                         double b_x, double b_y, double rounding, carom_trajectory *path);
 
-/* On to p = `to`, or to the end if that comes first. Errors: CAROM_ERROR_OVERFLOW; and
+/* On to p = target, or to the end if that comes first. Errors: CAROM_ERROR_OVERFLOW; and
  * CAROM_ERROR_UNRESOLVED if that takes more than `most` iterations, counted from the start, if
  * no regime is consistent, or if the result depends on rounding errors.
  */
@@ -94,7 +94,7 @@ carom_impulses carom_impact_impulses(const carom_trajectory *path);
  * approach; for a cushion, over the cosine of the nose's angle too. */
 double carom_impact_work(const carom_trajectory *path);
 
-/* The regime that begins at path->at, into path->regime and path->terms. event: that of the last
+/* The regime that begins at path->point, into path->regime and path->terms. event: that of the last
  * regime has ended it. False if no regime is consistent. See contact.c. */
 bool carom_impact_regime(carom_trajectory *path, bool event);
 

@@ -5,6 +5,12 @@
  * the ball; the prime is the derivative by p. Both tangent planes have the axes x (horizontal)
  * and y. With
  *
+ *               ___
+ *             /     \  driving contact: p pushes the ball off, f acts along its tangent plane,
+ *            |   o   |                  the slip is a, y points up
+ *             \_ _ _/
+ *     __________|__________  cloth: it bears the load g, F acts along it, the slip is b
+ *
  *     a   the slip at the driving contact       f   its friction on the ball, per unit of p
  *     b   the slip on the cloth                 F   its friction on the ball, per unit of p
  *     v   the speed of approach                 g   the load that the cloth bears, per unit of p
@@ -31,8 +37,7 @@
  *     V_0, V_f, V_F -cos, -sin, 1                              -kappa, 0, 1
  *
  * s is -1 for the slip of the 2014 paper and +1 for that of pooltool. All speeds are over the
- * speed of approach, so v starts at
- * 1. Derivation: docs/understanding/method.md. */
+ * speed of approach, so v starts at 1. Derivation: docs/understanding/method.md. */
 #ifndef CAROM_SRC_CONTACT_LAW_LAW_H
 #define CAROM_SRC_CONTACT_LAW_LAW_H
 

@@ -7,9 +7,13 @@
  * line, nearest to zero at p_c, at the distance d (in units of p). Then p = p_c + d sinh x makes
  * the direction of b smooth in x.
  *
+ *      path of b
+ *      ------*-----*----*---*----*-----*------       nodes are dense where the direction of b
+ *                       | d                           turns fast
+ *                       0, at p_c
+ *
  * STRETCHED. Let t be constant and friction isotropic, so that a' = D - m u with a constant
- * vector D of size D, and let
- * dp = r dtau, r = |a|. With psi the angle from D to u,
+ * vector D of size D, and let dp = r dtau, r = |a|. With psi the angle from D to u,
  *
  *     psi' = -D sin psi        r' = (D cos psi - m) r        so        tan(psi/2) = q_0 e^(-D tau)
  *     r = A e^((D - m) tau) + B e^(-(D + m) tau),     A = r_0 / (1 + q_0^2),     B = r_0 - A
@@ -30,10 +34,16 @@ static const double ELLIPSE = 3; /* b passes near zero if its complex zero lies 
 /* least d, as a share of the distance to p_c */
 static const double LEAST_D = 1e-3, LEAST_D_UNSTABLE = 1e-14;
 static const double SINH_LENGTH = 3; /* length of a step in x */
+/* Less than these would divide by 0: D of a drive, and the sine of psi_0 */
+static const double LEAST_DRIVE = 1e-12, LEAST_SINE = 1e-14;
+/* D - m below which r is constant in the integral of a map */
+static const double NO_EXPONENT = 1e-9;
+static const double LN_2 = 0.6931471805599453;
+enum { EXPONENT_BIAS = 1023 }; /* of a double of IEEE 754, whose fraction has 52 bits */
 
 /* The state in which a step begins. */
 typedef struct step_start {
-  double r, q;                          /* |a|, |b| */
+  double size_a, size_b;                /* |a| and |b|; |a| is r of STRETCHED */
   double u_x, u_y, t_x, t_y;            /* their directions */
   double w, da_x, da_y, db_x, db_y, dv; /* w, a', b', v' */
   double line_x, line_y;                /* b' without half of the cloth's own friction: its mean
@@ -43,13 +53,13 @@ typedef struct step_start {
   double target;
 } step_start;
 
-static void even_map(step *s, double length) {
+static void even_map(planned_step *step, double length) {
   EACH {
-    s->z[i] = splat(length);
-    s->p[i] = length * PART(NODE, i);
-    s->E[i] = splat(1);
+    step->z[i] = splat(length);
+    step->p[i] = length * PART(NODE, i);
+    step->E[i] = splat(1);
   }
-  s->length = length;
+  step->length = length;
 }
 
 /* Where a straight line is nearest to zero. */
@@ -60,35 +70,37 @@ typedef struct passage {
 
 static passage nearest(const carom_point *point, double rate_x, double rate_y, double length) {
   const double per = 1 / (rate_x * rate_x + rate_y * rate_y);
-  passage g = {.p_c = -(point->b_x * rate_x + point->b_y * rate_y) * per,
-               .d = fabs(point->b_x * rate_y - point->b_y * rate_x) * per};
+  passage passing = {.p_c = -(point->b_x * rate_x + point->b_y * rate_y) * per,
+                     .d = fabs(point->b_x * rate_y - point->b_y * rate_x) * per};
   /* b is zero at p_c +- i d: in units of the step, from -1 to 1, the sum of the distances to the
    * ends tells the ellipse */
-  const double x = 2 * g.p_c / length - 1, y = 2 * g.d / length;
-  g.matters = sqrt((x - 1) * (x - 1) + y * y) + sqrt((x + 1) * (x + 1) + y * y) < ELLIPSE;
-  return g;
+  const double center = 2 * passing.p_c / length - 1, offset = 2 * passing.d / length;
+  passing.matters = sqrt((center - 1) * (center - 1) + offset * offset) +
+                        sqrt((center + 1) * (center + 1) + offset * offset) <
+                    ELLIPSE;
+  return passing;
 }
 
 /* How b passes zero. It goes at its present rate, or if that does not lead near zero, at the
  * mean rate beyond. */
-static passage passage_of_b(const carom_point *point, const carom_terms *k, const step_start *s,
-                            double length) {
-  const double rate =
-      fabs(s->db_x) + fabs(s->db_y) + (k->H_x < 0 ? fabs(s->line_x) + fabs(s->line_y) : 0);
-  passage g = {.matters = false};
-  if (s->q == 0 || s->q > 2 * length * rate)
-    return g;
+static passage passage_of_b(const carom_point *point, const carom_terms *terms,
+                            const step_start *from, double length) {
+  const double rate = fabs(from->db_x) + fabs(from->db_y) +
+                      (terms->H_x < 0 ? fabs(from->line_x) + fabs(from->line_y) : 0);
+  passage passing = {.matters = false};
+  if (from->size_b == 0 || from->size_b > 2 * length * rate)
+    return passing;
   /* friction that drives the slip slows b on its way to zero: then the mean rate comes first */
-  if (k->H_x > 0)
-    g = nearest(point, s->db_x, s->db_y, length);
-  if (!g.matters)
-    g = nearest(point, s->line_x, s->line_y, length);
-  if (!g.matters && k->H_x < 0)
-    g = nearest(point, s->db_x, s->db_y, length);
+  if (terms->H_x > 0)
+    passing = nearest(point, from->db_x, from->db_y, length);
+  if (!passing.matters)
+    passing = nearest(point, from->line_x, from->line_y, length);
+  if (!passing.matters && terms->H_x < 0)
+    passing = nearest(point, from->db_x, from->db_y, length);
   /* a slip that friction drives stays near zero for long: there the map has to resolve more */
-  const double least = (k->H_x > 0 ? LEAST_D : LEAST_D_UNSTABLE) * s->q / rate;
-  g.d = g.d > least ? g.d : least;
-  return g;
+  const double least = (terms->H_x > 0 ? LEAST_D : LEAST_D_UNSTABLE) * from->size_b / rate;
+  passing.d = passing.d > least ? passing.d : least;
+  return passing;
 }
 
 /* log(x) to 0.06, for x > 0: the exponent, and linear in between. */
@@ -96,36 +108,36 @@ static double rough_log(double x) {
   union {
     double value;
     int64_t bits;
-  } u = {.value = x};
-  return 0.6931471805599453 * (0x1p-52 * (double)u.bits - 1023);
+  } number = {.value = x};
+  return LN_2 * (0x1p-52 * (double)number.bits - EXPONENT_BIAS);
 }
 
 /* asinh(x) to 2e-5: a rough logarithm, and a step of Halley's method. */
 static double near_asinh(double x) {
-  const double y = fabs(x) + sqrt(x * x + 1), guess = rough_log(y),
-               e = exponential(splat(guess))[0];
-  return copysign(guess + 2 * (y - e) / (y + e), x);
+  const double e_to_asinh = fabs(x) + sqrt(x * x + 1), guess = rough_log(e_to_asinh),
+               e_to_guess = exponential(splat(guess))[0];
+  return copysign(guess + 2 * (e_to_asinh - e_to_guess) / (e_to_asinh + e_to_guess), x);
 }
 
 /* The sinh map to p = length, or as far as SINH_LENGTH allows. Returns whether that is `length`,
  * but for the error of near_asinh(). */
-static bool sinh_map(step *s, const passage *g, double length) {
+static bool sinh_map(planned_step *step, const passage *passing, double length) {
   /* x at both ends of the step */
-  const double low = near_asinh(-g->p_c / g->d);
-  double high = near_asinh((length - g->p_c) / g->d);
+  const double low = near_asinh(-passing->p_c / passing->d);
+  double high = near_asinh((length - passing->p_c) / passing->d);
   const bool arrives = high - low <= SINH_LENGTH;
   if (!arrives) /* two equal steps rather than a long and a short one */
     high = low + (high - low < 2 * SINH_LENGTH ? 0.5 * (high - low) : SINH_LENGTH);
-  /* dp = d cosh(x) h dX and p = d (sinh(x) - sinh(from)), by e^x */
-  const double h = high - low;
+  /* dp = d cosh(x) span dX and p = d (sinh(x) - sinh(from)), by e^x */
+  const double span = high - low;
   const part ends = exponential((part){low, high}), sinh_2 = ends - 1 / ends; /* twice the sine */
   EACH {
-    const part e = exponential(low + h * PART(NODE, i)), per_e = 1 / e;
-    s->z[i] = (0.5 * h * g->d) * (e + per_e);
-    s->p[i] = (0.5 * g->d) * ((e - per_e) - sinh_2[0]);
-    s->E[i] = splat(1);
+    const part e_x = exponential(low + span * PART(NODE, i)), per_e_x = 1 / e_x;
+    step->z[i] = (0.5 * span * passing->d) * (e_x + per_e_x);
+    step->p[i] = (0.5 * passing->d) * ((e_x - per_e_x) - sinh_2[0]);
+    step->E[i] = splat(1);
   }
-  s->length = (0.5 * g->d) * (sinh_2[1] - sinh_2[0]);
+  step->length = (0.5 * passing->d) * (sinh_2[1] - sinh_2[0]);
   return arrives;
 }
 
@@ -134,37 +146,40 @@ typedef struct closed_form {
   double D, m, q_0, A, B, cosine, sine; /* of psi_0 */
 } closed_form;
 
-static closed_form closed_form_of(const carom_terms *k, const step_start *s) {
+static closed_form closed_form_of(const carom_terms *terms, const step_start *from) {
   /* the components of a' across u and along it */
-  const double across = s->u_x * s->da_y - s->u_y * s->da_x,
-               along = s->u_x * s->da_x + s->u_y * s->da_y;
+  const double across = from->u_x * from->da_y - from->u_y * from->da_x,
+               along = from->u_x * from->da_x + from->u_y * from->da_y;
   /* the derivative by phi of the component of a' across u */
-  const double turned = -along + k->S_x * s->u_y * s->u_y + k->S_y * s->u_x * s->u_x -
-                        k->w_u * s->u_x * (s->u_x * k->C_y * s->t_y - s->u_y * k->C_x * s->t_x);
+  const double turned =
+      -along + terms->S_x * from->u_y * from->u_y + terms->S_y * from->u_x * from->u_x -
+      terms->w_u * from->u_x *
+          (from->u_x * terms->C_y * from->t_y - from->u_y * terms->C_x * from->t_x);
   /* D cos psi = along + m and D sin psi = -across, with m = -turned - along */
-  closed_form c = {.D = sqrt(across * across + turned * turned) + 1e-12, .m = -turned - along};
-  c.cosine = -turned / c.D;
-  c.sine = -across / c.D;
+  closed_form form = {.D = sqrt(across * across + turned * turned) + LEAST_DRIVE,
+                      .m = -turned - along};
+  form.cosine = -turned / form.D;
+  form.sine = -across / form.D;
   /* q_0 = tan(psi / 2), without a difference of nearly equal numbers; then A and B */
-  const double sine = fabs(c.sine) > 1e-14 ? c.sine : copysign(1e-14, c.sine);
-  c.q_0 = c.cosine > 0 ? c.sine / (1 + c.cosine) : (1 - c.cosine) / sine;
-  c.A = s->r / (1 + c.q_0 * c.q_0);
-  c.B = s->r - c.A;
-  return c;
+  const double sine = fabs(form.sine) > LEAST_SINE ? form.sine : copysign(LEAST_SINE, form.sine);
+  form.q_0 = form.cosine > 0 ? form.sine / (1 + form.cosine) : (1 - form.cosine) / sine;
+  form.A = from->size_a / (1 + form.q_0 * form.q_0);
+  form.B = from->size_a - form.A;
+  return form;
 }
 
 /* tau where p has come to `length`, to a few percent, by two steps of Newton's method; if that
  * is beyond 2 most, some tau beyond it. first: a guess. */
-static double tau_at(const closed_form *c, double length, double first, double most) {
+static double tau_at(const closed_form *form, double length, double first, double most) {
   /* the exponents of r */
-  const double slow = c->D - c->m, fast = -c->D - c->m;
+  const double slow = form->D - form->m, fast = -form->D - form->m;
   double tau = first > 0 && first < most ? first : most;
-  for (int n = 0; n < 2 && tau < 2 * most; n++) {
+  for (int step = 0; step < 2 && tau < 2 * most; step++) {
     /* r and p at tau; a step that at most halves or triples tau */
-    const part e = exponential((part){slow * tau, fast * tau});
-    const double r = c->A * e[0] + c->B * e[1];
-    const double p =
-        (fabs(slow) > 1e-9 ? c->A * (e[0] - 1) / slow : c->A * tau) + c->B * (e[1] - 1) / fast;
+    const part powers = exponential((part){slow * tau, fast * tau});
+    const double r = form->A * powers[0] + form->B * powers[1];
+    const double p = (fabs(slow) > NO_EXPONENT ? form->A * (powers[0] - 1) / slow : form->A * tau) +
+                     form->B * (powers[1] - 1) / fast;
     const double more = (length - p) / r;
     if (more < -0.5 * tau)
       tau += -0.5 * tau;
@@ -175,36 +190,37 @@ static double tau_at(const closed_form *c, double length, double first, double m
 }
 
 /* To tau, with the directions of u that belong to it. */
-static void stretched_map(step *s, const closed_form *c, const step_start *origin, double tau) {
+static void stretched_map(planned_step *step, const closed_form *form, const step_start *origin,
+                          double tau) {
   /* a slip along D keeps its direction, not only nearly */
-  const double q_2 = c->q_0 * c->q_0, turns = c->sine != 0;
+  const double q_2 = form->q_0 * form->q_0, turns = form->sine != 0;
   EACH {
     /* e^(-D tau), e^(-m tau) and tan(psi / 2) at the nodes */
-    const part x = tau * PART(NODE, i), d = exponential(-c->D * x), e = exponential(-c->m * x),
-               q = c->q_0 * d;
+    const part taus = tau * PART(NODE, i), e_D = exponential(-form->D * taus),
+               e_m = exponential(-form->m * taus), q_nodes = form->q_0 * e_D;
     /* (1 - i q_0) (1 + i q) has half the angle by which u has turned */
-    const part across = q - c->q_0, along = 1 + c->q_0 * q,
+    const part across = q_nodes - form->q_0, along = 1 + form->q_0 * q_nodes,
                per = 1 / madd(across, across, along * along);
     const part cosine = (along * along - across * across) * per,
                sine = turns * 2 * across * along * per;
     /* dp = r tau dX; u turned by the angle */
-    s->E[i] = e;
-    s->z[i] = (tau * c->A) * e * (1 / d + q_2 * d);
-    s->u_x[i] = origin->u_x * cosine - origin->u_y * sine;
-    s->u_y[i] = origin->u_y * cosine + origin->u_x * sine;
+    step->E[i] = e_m;
+    step->z[i] = (tau * form->A) * e_m * (1 / e_D + q_2 * e_D);
+    step->u_x[i] = origin->u_x * cosine - origin->u_y * sine;
+    step->u_y[i] = origin->u_y * cosine + origin->u_x * sine;
   }
-  integrate(s->z, s->p);
-  s->length = dot(WEIGHT, s->z);
+  integrate(step->z, step->p);
+  step->length = dot(WEIGHT, step->z);
 }
 
 /* Directions of a slip that goes along a straight line from x, y. A slip of zero has the
  * direction lead_x, lead_y. */
-static void aim(const step *s, double x, double y, double rate_x, double rate_y, double lead_x,
-                double lead_y, part *to_x, part *to_y) {
+static void aim(const planned_step *step, double x, double y, double rate_x, double rate_y,
+                double lead_x, double lead_y, part *to_x, part *to_y) {
   const bool constant = x == 0 && y == 0;
   EACH {
-    to_x[i] = constant ? splat(lead_x) : x + s->p[i] * rate_x;
-    to_y[i] = constant ? splat(lead_y) : y + s->p[i] * rate_y;
+    to_x[i] = constant ? splat(lead_x) : x + step->p[i] * rate_x;
+    to_y[i] = constant ? splat(lead_y) : y + step->p[i] * rate_y;
   }
   nodes inverse;
   if (!constant)

@@ -1,10 +1,9 @@
 /* Numbers at the eight Gauss nodes of a step, and the operations on them.
  *
  * Eight numbers are PARTS vectors: two of four numbers with AVX2, else four of two. What happens
- * at every
- * node alike is a loop over the parts; only integrals join nodes. Each operation is one of IEEE
- * 754 on each number, so that all builds without AVX2 have the same bits. `madd` fuses a product
- * and a sum where the instruction set can. */
+ * at every node alike is a loop over the parts; only integrals join nodes. Each operation is one
+ * of IEEE 754 on each number, so that all builds without AVX2 have the same bits. `madd` fuses a
+ * product and a sum where the instruction set can. */
 #ifndef CAROM_SRC_CONTACT_LAW_NODES_H
 #define CAROM_SRC_CONTACT_LAW_NODES_H
 
@@ -105,9 +104,10 @@ always part within(part x, double most) {
 
 /* The sum of weight[k] f[k], added in the same order whatever the width. */
 always double dot(const double *weight, const part *f) {
-  double e[NODES] __attribute__((aligned(PART_BYTES)));
-  EACH *(part_of_row *)(e + NODES / PARTS * i) = (part_of_row)(PART(weight, i) * f[i]);
-  const pair_of_row *p = (const pair_of_row *)e, sum = (p[0] + p[2]) + (p[1] + p[3]);
+  double products[NODES] __attribute__((aligned(PART_BYTES)));
+  EACH *(part_of_row *)(products + NODES / PARTS * i) = (part_of_row)(PART(weight, i) * f[i]);
+  const pair_of_row *pairs = (const pair_of_row *)products,
+                    sum = (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]);
   return sum[0] + sum[1];
 }
 
@@ -115,23 +115,25 @@ always double dot(const double *weight, const part *f) {
 always double largest(const part *f) {
   part most = f[0];
   unrolled for (int i = 1; i < PARTS; i++) most = greater(most, f[i]);
-  double x = most[0];
-  unrolled for (int k = 1; k < NODES / PARTS; k++) x = x > most[k] ? x : most[k];
-  return x;
+  double found = most[0];
+  unrolled for (int node = 1; node < NODES / PARTS; node++) {
+    found = found > most[node] ? found : most[node];
+  }
+  return found;
 }
 
-/* out = m f, m by columns. */
-always void apply(const double (*m)[NODES], const part *f, part *out) {
-  double e[NODES] __attribute__((aligned(PART_BYTES)));
+/* out = matrix f, of a matrix by columns. */
+always void apply(const double (*matrix)[NODES], const part *f, part *out) {
+  double numbers[NODES] __attribute__((aligned(PART_BYTES)));
   nodes even, odd;
-  EACH *(part_of_row *)(e + NODES / PARTS * i) = (part_of_row)f[i];
+  EACH *(part_of_row *)(numbers + NODES / PARTS * i) = (part_of_row)f[i];
   EACH {
-    even[i] = PART(m[0], i) * splat(e[0]);
-    odd[i] = PART(m[1], i) * splat(e[1]);
+    even[i] = PART(matrix[0], i) * splat(numbers[0]);
+    odd[i] = PART(matrix[1], i) * splat(numbers[1]);
   }
-  unrolled for (int j = 2; j < NODES; j += 2) EACH {
-    even[i] = madd(PART(m[j], i), splat(e[j]), even[i]);
-    odd[i] = madd(PART(m[j + 1], i), splat(e[j + 1]), odd[i]);
+  unrolled for (int column = 2; column < NODES; column += 2) EACH {
+    even[i] = madd(PART(matrix[column], i), splat(numbers[column]), even[i]);
+    odd[i] = madd(PART(matrix[column + 1], i), splat(numbers[column + 1]), odd[i]);
   }
   EACH out[i] = even[i] + odd[i];
 }
@@ -145,46 +147,49 @@ always void integrate(const part *f, part *out) {
 always void invert(double (*matrix)[NODES]) {
 #define ROW(x, i) (((part_of_row *)(x))[i])
   double diagonal = matrix[0][0];
-  unrolled for (int k = 0; k < NODES; k++) {
-    /* the part of row k for every row: the entries of column k vanish, that of row k becomes 1. The
-     * next element of the diagonal comes first, as the next row waits for its division */
+  unrolled for (int step = 0; step < NODES; step++) {
+    /* the part of row `step` for every row: the entries of that column vanish, that of the row
+     * becomes 1. The next element of the diagonal comes first, as the next row waits for its
+     * division */
     const double pivot = 1 / diagonal;
-    if (k + 1 < NODES)
-      diagonal = madd(splat(matrix[k][k + 1] * -pivot), splat(matrix[k + 1][k]),
-                      splat(matrix[k + 1][k + 1]))[0];
+    if (step + 1 < NODES)
+      diagonal = madd(splat(matrix[step][step + 1] * -pivot), splat(matrix[step + 1][step]),
+                      splat(matrix[step + 1][step + 1]))[0];
     nodes column;
-    EACH column[i] = (part)ROW(matrix[k], i) * -pivot;
-    AT(column, k) = pivot - 1;
-    for (int j = 0; j < NODES; j++)
-      if (j != k) {
-        const double row = matrix[j][k];
-        EACH ROW(matrix[j], i) = (part_of_row)madd(column[i], splat(row), PART(matrix[j], i));
+    EACH column[i] = (part)ROW(matrix[step], i) * -pivot;
+    AT(column, step) = pivot - 1;
+    for (int other = 0; other < NODES; other++)
+      if (other != step) {
+        const double row = matrix[other][step];
+        EACH ROW(matrix[other], i) =
+            (part_of_row)madd(column[i], splat(row), PART(matrix[other], i));
       }
-    /* column k of the inverse takes its place */
-    AT(column, k) = pivot;
-    EACH ROW(matrix[k], i) = (part_of_row)column[i];
+    /* that column of the inverse takes its place */
+    AT(column, step) = pivot;
+    EACH ROW(matrix[step], i) = (part_of_row)column[i];
   }
 #undef ROW
 }
 
 /* exp(x) to a few units in the last place; 1e-304 below -700. */
 always part exponential(part x) {
+  /* ln 2 in two parts, of which the first times an integer is exact */
   const double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821492927058770002e-10,
                per_ln2 = 1.4426950408889634;
   const double round = 6755399441055744.0; /* 3 2^51: a number added to it is rounded to an
                                               integer */
   x = greater(x, splat(-700));
   /* exp(x) = 2^k exp(r), |r| < 0.35 */
-  const part shifted = madd(x, splat(per_ln2), splat(round)), k = shifted - round;
-  const part r = madd(k, splat(-ln2_low), madd(k, splat(-ln2_high), x)), r_2 = r * r,
+  const part shifted = madd(x, splat(per_ln2), splat(round)), power = shifted - round;
+  const part r = madd(power, splat(-ln2_low), madd(power, splat(-ln2_high), x)), r_2 = r * r,
              r_4 = r_2 * r_2;
-  /* the Taylor polynomial of degree 10 */
-  const part a = 1 + r, b = madd(r, splat(1.0 / 6), splat(1.0 / 2)),
-             c = madd(r, splat(1.0 / 120), splat(1.0 / 24)),
-             d = madd(r, splat(1.0 / 5040), splat(1.0 / 720)),
-             e = madd(r, splat(1.0 / 362880), splat(1.0 / 40320));
-  const part low = madd(b, r_2, a), mid = madd(d, r_2, c),
-             high = madd(r_2, splat(1.0 / 3628800), e);
+  /* the Taylor polynomial of degree 10: pairs of its terms, and their sum by powers of r^2 */
+  const part degree_0 = 1 + r, degree_2 = madd(r, splat(1.0 / 6), splat(1.0 / 2)),
+             degree_4 = madd(r, splat(1.0 / 120), splat(1.0 / 24)),
+             degree_6 = madd(r, splat(1.0 / 5040), splat(1.0 / 720)),
+             degree_8 = madd(r, splat(1.0 / 362880), splat(1.0 / 40320));
+  const part low = madd(degree_2, r_2, degree_0), mid = madd(degree_6, r_2, degree_4),
+             high = madd(r_2, splat(1.0 / 3628800), degree_8);
   return (part)((part_int)madd(madd(high, r_4, mid), r_4, low) + ((part_int)shifted << 52));
 }
 

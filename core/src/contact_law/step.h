@@ -10,6 +10,18 @@
  * Where the driving contact holds there is no u, and where the cloth holds or bears no load w =
  * 0; the coefficients contain the holding contacts (contact.c).
  *
+ *   symbol   meaning; speeds are over the speed of approach at the start of the impact
+ *   p        normal impulse of the driving contact over the mass of the ball
+ *   a, b     slips at the driving contact and on the cloth
+ *   u, t     their directions
+ *   v        speed of approach; in `iterate` its rate v'
+ *   w        friction of the cloth per unit of p
+ *   X        position within a step, 0 to 1
+ *   z        dp/dX
+ *   M        the matrix of INTEGRAL
+ *   E        integrating factor of the map
+ *   D        z da'/dphi or z db'/dpsi
+ *
  * COLLOCATION. A map takes X in [0, 1] to p, with dp = z dX. With M the matrix that integrates
  * the polynomial through the nodes, the directions u, t at the nodes have to be those of
  *
@@ -56,7 +68,21 @@ static const double NEARLY_CONVERGED =
     3e-3; /* correction, of directions and of the length, after which Newton's method updates
              inverse lengths, */
 static const double FRESH = 0.02; /* and that after which an exact step keeps its matrix */
-enum { MOST_ITERATIONS = 12 };
+/* Limits of the iteration. An exact step turns a direction by this at most, rad. */
+static const double MOST_ANGLE = 0.6;
+/* The rate of convergence, as long as none has been seen. */
+static const double FIRST_RATE = 0.3;
+/* Of a correction of t, because a later iteration corrects far less of it. */
+static const double LATER_SHARE = 0.3;
+/* An iteration has diverged where its correction is larger than LOST, or after PATIENCE iterations
+ * where it converges slowly and is still coarse. A coarse one has not converged in any case. */
+static const double LOST = 10, SLOW_RATE = 0.6, COARSE = 1e-3;
+/* One correction of the length is within these shares of it. */
+static const double MOST_SHORTENED = -0.4, MOST_LENGTHENED = 0.5;
+/* The share of the length by which a step grows that sees no way to its work, or to its event. */
+static const double BLIND_WORK = 0.3, BLIND_EVENT = 0.2;
+/* SOFTENED: the first iterations, which compute `ease`. */
+enum { MOST_ITERATIONS = 12, PATIENCE = 3, SOFTENED = 2 };
 
 /* Where a step ends. */
 enum goal {
@@ -81,7 +107,7 @@ enum outcome {
 enum exact { FOR_NONE, FOR_U, FOR_BOTH };
 
 /* A step that has been planned. */
-typedef struct step {
+typedef struct planned_step {
   nodes z, p, E;            /* dp/dX; p from the beginning of the step; see above */
   nodes u_x, u_y, t_x, t_y; /* directions to begin with */
   double length;            /* p at X = 1 */
@@ -91,7 +117,7 @@ typedef struct step {
   double least_work;
   double tolerance;        /* scales CONVERGED and TOLERANCE */
   carom_kept_step *record; /* where the step is kept for derivatives, or NULL */
-} step;
+} planned_step;
 
 /* The values of the iteration at the nodes. */
 typedef struct iterate {
@@ -101,39 +127,39 @@ typedef struct iterate {
 } iterate;
 
 /* The rates from the directions. scale: of z. */
-always void rates(const carom_terms *k, const part *z, double scale, const bool driving_slips,
-                  const bool loaded, iterate *c) {
+always void rates(const carom_terms *terms, const part *z, double scale, const bool driving_slips,
+                  const bool loaded, iterate *now) {
   EACH {
     const part zs = scale * z[i];
-    part a_x = splat(0), a_y = splat(k->A_0), b_x = splat(0), b_y = splat(k->B_0),
-         v = splat(k->V_0);
+    part a_x = splat(0), a_y = splat(terms->A_0), b_x = splat(0), b_y = splat(terms->B_0),
+         v = splat(terms->V_0);
     /* friction of the driving contact */
     if (driving_slips) {
-      a_x = k->S_x * c->u_x[i];
-      a_y = madd(c->u_y[i], splat(k->S_y), a_y);
-      b_x = k->R_x * c->u_x[i];
-      b_y = madd(c->u_y[i], splat(k->R_y), b_y);
-      v = madd(c->u_y[i], splat(k->V_u), v);
+      a_x = terms->S_x * now->u_x[i];
+      a_y = madd(now->u_y[i], splat(terms->S_y), a_y);
+      b_x = terms->R_x * now->u_x[i];
+      b_y = madd(now->u_y[i], splat(terms->R_y), b_y);
+      v = madd(now->u_y[i], splat(terms->V_u), v);
     }
     /* friction of the cloth */
     if (loaded) {
       if (driving_slips)
-        c->w[i] = madd(c->u_y[i], splat(k->w_u), splat(k->w_0));
+        now->w[i] = madd(now->u_y[i], splat(terms->w_u), splat(terms->w_0));
       else
-        c->w[i] = k->w_0 / (1 - k->w_t * c->t_y[i]);
-      const part x = c->w[i] * c->t_x[i], y = c->w[i] * c->t_y[i];
-      a_x = madd(x, splat(-k->C_x), a_x);
-      a_y = madd(y, splat(-k->C_y), a_y);
-      b_x = madd(x, splat(-k->H_x), b_x);
-      b_y = madd(y, splat(-k->H_y), b_y);
-      v = madd(y, splat(-k->V_w), v);
+        now->w[i] = terms->w_0 / (1 - terms->w_t * now->t_y[i]);
+      const part x = now->w[i] * now->t_x[i], y = now->w[i] * now->t_y[i];
+      a_x = madd(x, splat(-terms->C_x), a_x);
+      a_y = madd(y, splat(-terms->C_y), a_y);
+      b_x = madd(x, splat(-terms->H_x), b_x);
+      b_y = madd(y, splat(-terms->H_y), b_y);
+      v = madd(y, splat(-terms->V_w), v);
     }
     /* over the length of the step */
-    c->za_x[i] = zs * a_x;
-    c->za_y[i] = zs * a_y;
-    c->zb_x[i] = zs * b_x;
-    c->zb_y[i] = zs * b_y;
-    c->v[i] = v;
+    now->za_x[i] = zs * a_x;
+    now->za_y[i] = zs * a_y;
+    now->zb_x[i] = zs * b_x;
+    now->zb_y[i] = zs * b_y;
+    now->v[i] = v;
   }
 }
 
@@ -148,7 +174,7 @@ always void integrate_slip(double x, double y, const part *zx, const part *zy, p
   }
 }
 
-/* x, y over their length, whose inverse becomes *inverse. near: *inverse has the inverse of a
+/* x, y over their length, whose inverse becomes *inverse. approximate: *inverse has that of a
  * similar length. */
 always void normalise(part *x, part *y, bool approximate, part *inverse) {
   EACH {
@@ -168,13 +194,13 @@ always void normalise(part *x, part *y, bool approximate, part *inverse) {
  * correction: by which angles. */
 always void rotate(part *a_x, part *a_y, const part *zk, const part *previous, const part *next,
                    bool approximate, part *inverse, part *u_x, part *u_y, part *correction) {
-  nodes across, f, angle;
+  nodes across, integrand, angle;
   /* the sine of the angle from u to a, once a has length 1 */
   EACH across[i] = madd(u_x[i], a_y[i], -(u_y[i] * a_x[i]));
   normalise(a_x, a_y, approximate, inverse);
   /* (E / |a|) M(z k r / E): by this angle a is turned back, which gives the new u */
-  EACH f[i] = zk[i] * previous[i] * across[i] * inverse[i];
-  integrate(f, angle);
+  EACH integrand[i] = zk[i] * previous[i] * across[i] * inverse[i];
+  integrate(integrand, angle);
   EACH {
     angle[i] *= next[i] * inverse[i];
     correction[i] = magnitude(across[i] * inverse[i] - angle[i]);
@@ -200,20 +226,20 @@ always bool rotate_exactly(const part *a_x, const part *a_y, const part *D_x, co
   }
   /* the matrix by columns, (u . a) on the diagonal less u x M(D), and its inverse */
   if (anew) {
-    for (int j = 0; j < NODES; j++) {
-      EACH((part_of_row *)solved[j])
-      [i] = (part_of_row)(PART(INTEGRAL[j], i) *
-                          (u_y[i] * splat(AT(D_x, j)) - u_x[i] * splat(AT(D_y, j))));
-      solved[j][j] += AT(along, j);
+    for (int node = 0; node < NODES; node++) {
+      EACH((part_of_row *)solved[node])
+      [i] = (part_of_row)(PART(INTEGRAL[node], i) *
+                          (u_y[i] * splat(AT(D_x, node)) - u_x[i] * splat(AT(D_y, node))));
+      solved[node][node] += AT(along, node);
     }
     invert(solved);
   }
   /* the angles d, limited; u turned by d to first order, and made a unit vector again */
   apply((const double(*)[NODES])solved, across, angle);
   EACH {
-    const part x = u_x[i], s = within(angle[i], 0.6);
-    u_x[i] = x - u_y[i] * s;
-    u_y[i] = u_y[i] + x * s;
+    const part old_x = u_x[i], turn = within(angle[i], MOST_ANGLE);
+    u_x[i] = old_x - u_y[i] * turn;
+    u_y[i] = u_y[i] + old_x * turn;
     along[i] = -along[i];
     correction[i] = magnitude(angle[i]);
   }
@@ -222,39 +248,42 @@ always bool rotate_exactly(const part *a_x, const part *a_y, const part *D_x, co
 }
 
 /* The event function where the direction u, or w t, is x, y. */
-always double event_of(const carom_terms *k, double x, double y) {
-  return k->event[0] + y * (k->event[1] + y * k->event[3]) + x * x * k->event[2];
+always double event_of(const carom_terms *terms, double x, double y) {
+  return terms->event[0] + y * (terms->event[1] + y * terms->event[3]) + x * x * terms->event[2];
 }
 
 /* The same at the nodes. */
-always void events(const carom_terms *k, const iterate *c, const bool driving_slips, part *event) {
+always void events(const carom_terms *terms, const iterate *now, const bool driving_slips,
+                   part *event) {
   EACH {
-    const part x = driving_slips ? c->u_x[i] : c->w[i] * c->t_x[i],
-               y = driving_slips ? c->u_y[i] : c->w[i] * c->t_y[i];
-    event[i] = madd(y, madd(y, splat(k->event[3]), splat(k->event[1])),
-                    madd(x * x, splat(k->event[2]), splat(k->event[0])));
+    const part x = driving_slips ? now->u_x[i] : now->w[i] * now->t_x[i],
+               y = driving_slips ? now->u_y[i] : now->w[i] * now->t_y[i];
+    event[i] = madd(y, madd(y, splat(terms->event[3]), splat(terms->event[1])),
+                    madd(x * x, splat(terms->event[2]), splat(terms->event[0])));
   }
 }
 
 /* The event function at a point; 0 where the slip has no direction. */
-static double event_gap(const carom_terms *k, const carom_point *point, const bool driving_slips) {
+static double event_gap(const carom_terms *terms, const carom_point *point,
+                        const bool driving_slips) {
   const double x = driving_slips ? point->a_x : point->b_x,
                y = driving_slips ? point->a_y : point->b_y, size = sqrt(x * x + y * y);
   if (!(size > 0))
     return 0;
-  const double w = driving_slips ? 1 : k->w_0 / (1 - k->w_t * y / size);
-  return event_of(k, w * x / size, w * y / size);
+  const double w = driving_slips ? 1 : terms->w_0 / (1 - terms->w_t * y / size);
+  return event_of(terms, w * x / size, w * y / size);
 }
 
 /* p from the beginning of the step to where the event function, at the nodes *f, first becomes
  * positive, by linear interpolation between nodes. scale: of z. */
-static double first_event(const carom_terms *k, const carom_point *point, const step *s,
-                          double scale, const part *f, const bool driving_slips) {
-  double p = 0, value = event_gap(k, point, driving_slips);
-  for (int n = 0; n <= NODES; n++) {
-    const double next_p = scale * (n < NODES ? AT(s->p, n) : s->length),
-                 next = n < NODES ? AT(f, n) : 1;
-    if (next > 0 && n == NODES)
+static double first_event(const carom_terms *terms, const carom_point *point,
+                          const planned_step *step, double scale, const part *event,
+                          const bool driving_slips) {
+  double p = 0, value = event_gap(terms, point, driving_slips);
+  for (int node = 0; node <= NODES; node++) {
+    const double next_p = scale * (node < NODES ? AT(step->p, node) : step->length),
+                 next = node < NODES ? AT(event, node) : 1;
+    if (next > 0 && node == NODES)
       return 0.5 * (p + next_p);
     if (next > 0)
       return value < 0 ? p + (next_p - p) * value / (value - next) : p;
@@ -266,40 +295,41 @@ static double first_event(const carom_terms *k, const carom_point *point, const 
 
 /* int v dp from *point to the end of the step. to_end: weights of the integral of an integral. */
 always double work(const carom_point *point, double length, double scale, const double *to_end,
-                   const iterate *c) {
-  return point->v * length + scale * scale * dot(to_end, c->v);
+                   const iterate *now) {
+  return point->v * length + scale * scale * dot(to_end, now->v);
 }
 
 /* By how much p has to grow for the step to end at its goal: a step of Newton's method. */
-always double to_goal(const carom_terms *k, const carom_point *start, const step *s,
-                      const iterate *c, double scale, const part *to_end,
+always double to_goal(const carom_terms *terms, const carom_point *start, const planned_step *step,
+                      const iterate *now, double scale, const part *to_end,
                       const bool driving_slips) {
   /* a given p, or v = 0 or W = target: Newton's method with v at the end and v' there */
-  const double length = scale * s->length;
-  if (s->goal == AT_P)
-    return s->target - length;
-  if (s->goal == AT_END_OF_APPROACH || s->goal == AT_WORK) {
+  const double length = scale * step->length;
+  if (step->goal == AT_P)
+    return step->target - length;
+  if (step->goal == AT_END_OF_APPROACH || step->goal == AT_WORK) {
     nodes zv;
-    EACH zv[i] = s->z[i] * c->v[i];
+    EACH zv[i] = step->z[i] * now->v[i];
     const double v = start->v + scale * dot(WEIGHT, zv);
-    if (s->goal == AT_END_OF_APPROACH)
-      return -v / LAST(c->v);
-    return v < 0
-               ? (s->target - start->W - work(start, length, scale, (const double *)to_end, c)) / v
-               : 0.3 * length;
+    if (step->goal == AT_END_OF_APPROACH)
+      return -v / LAST(now->v);
+    return v < 0 ? (step->target - start->W -
+                    work(start, length, scale, (const double *)to_end, now)) /
+                       v
+                 : BLIND_WORK * length;
   }
 
   /* the slip at the end, and its rate there */
-  const bool driving = s->goal == AT_STICK || (s->goal == AT_EVENT && driving_slips);
-  const part *zx = driving ? c->za_x : c->zb_x, *zy = driving ? c->za_y : c->zb_y;
-  const double last = 1 / (scale * LAST(s->z)), dx = LAST(zx) * last, dy = LAST(zy) * last;
+  const bool driving = step->goal == AT_STICK || (step->goal == AT_EVENT && driving_slips);
+  const part *zx = driving ? now->za_x : now->zb_x, *zy = driving ? now->za_y : now->zb_y;
+  const double last = 1 / (scale * LAST(step->z)), dx = LAST(zx) * last, dy = LAST(zy) * last;
   double x = (driving ? start->a_x : start->b_x) + dot(WEIGHT, zx),
          y = (driving ? start->a_y : start->b_y) + dot(WEIGHT, zy);
 
   /* stick: the slip along its direction over its rate */
-  if (s->goal != AT_EVENT) {
-    const double u_x = driving ? LAST(c->u_x) : LAST(c->t_x),
-                 u_y = driving ? LAST(c->u_y) : LAST(c->t_y);
+  if (step->goal != AT_EVENT) {
+    const double u_x = driving ? LAST(now->u_x) : LAST(now->t_x),
+                 u_y = driving ? LAST(now->u_y) : LAST(now->t_y);
     return -(x * u_x + y * u_y) / (dx * u_x + dy * u_y);
   }
 
@@ -309,26 +339,27 @@ always double to_goal(const carom_terms *k, const carom_point *start, const step
   x *= inverse;
   y *= inverse;
   if (!driving_slips) {
-    w = k->w_0 / (1 - k->w_t * y);
-    growth = w * k->w_t * x * turning / (1 - k->w_t * y);
+    w = terms->w_0 / (1 - terms->w_t * y);
+    growth = w * terms->w_t * x * turning / (1 - terms->w_t * y);
   }
 
   /* the rate of the event function */
-  const double X = w * x, Y = w * y;
-  const double rate = (k->event[1] + 2 * k->event[3] * Y) * (w * x * turning + growth * y) +
-                      2 * k->event[2] * X * (growth * x - w * y * turning);
-  return rate > 0 ? -event_of(k, X, Y) / rate : 0.2 * length;
+  const double event_x = w * x, event_y = w * y;
+  const double rate =
+      (terms->event[1] + 2 * terms->event[3] * event_y) * (w * x * turning + growth * y) +
+      2 * terms->event[2] * event_x * (growth * x - w * y * turning);
+  return rate > 0 ? -event_of(terms, event_x, event_y) / rate : BLIND_EVENT * length;
 }
 
-/* Takes a step from *at. slips: the driving contact slips; loaded: the cloth bears a load, and
- * slips. A refused step leaves *at as it is; then *advice is, for INACCURATE, the squared error
+/* Takes a step from *point. driving_slips: that contact slips; loaded: the cloth bears a load, and
+ * slips. A refused step leaves *point as it is; then *advice is, for INACCURATE, the squared error
  * estimate over the tolerance, and for EVENT_WITHIN the p from here to the event. */
-always enum outcome collocate(const carom_terms *terms, const step *s, const bool driving_slips,
-                              const bool loaded, const enum exact exact, carom_point *point,
-                              int *iterations, double *advice) {
-  const carom_terms k = *terms;
-  iterate c;
-  nodes per_E, ease, unit, to_end, inverse_a, inverse_b, slip_x, slip_y, D_x, D_y, zk, f,
+always enum outcome collocate(const carom_terms *regime_terms, const planned_step *step,
+                              const bool driving_slips, const bool loaded, const enum exact exact,
+                              carom_point *point, int *iterations, double *advice) {
+  const carom_terms terms = *regime_terms;
+  iterate now;
+  nodes per_E, ease, unit, to_end, inverse_a, inverse_b, slip_x, slip_y, D_x, D_y, zk, values,
       correction, correction_t;
   double for_u[NODES][NODES] __attribute__((aligned(PART_BYTES))),
       for_t[NODES][NODES] __attribute__((aligned(PART_BYTES)));
@@ -336,90 +367,93 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
   /* the planned directions; 1/E; `ease`, which stands for E(X)/E(X') of t; the weights of the
    * work */
   EACH {
-    c.u_x[i] = s->u_x[i];
-    c.u_y[i] = s->u_y[i];
-    c.t_x[i] = s->t_x[i];
-    c.t_y[i] = s->t_y[i];
+    now.u_x[i] = step->u_x[i];
+    now.u_y[i] = step->u_y[i];
+    now.t_x[i] = step->t_x[i];
+    now.t_y[i] = step->t_y[i];
     unit[i] = splat(1);
     ease[i] = inverse_a[i] = inverse_b[i] = splat(0);
-    per_E[i] = driving_slips && exact == FOR_NONE ? 1 / s->E[i] : splat(1);
-    to_end[i] = PART(WEIGHT, i) * s->z[i] * (s->length - s->p[i]);
+    per_E[i] = driving_slips && exact == FOR_NONE ? 1 / step->E[i] : splat(1);
+    to_end[i] = PART(WEIGHT, i) * step->z[i] * (step->length - step->p[i]);
   }
 
   /* iterations; `scale` is the length over the planned one, `last` the last correction */
-  double scale = 1, last = 1, last_rate = 0.3;
+  double scale = 1, last = 1, last_rate = FIRST_RATE;
   bool converged = false, forward = true, approximate = false;
-  for (int n = 0; n < MOST_ITERATIONS && !converged; n++) {
+  for (int iteration = 0; iteration < MOST_ITERATIONS && !converged; iteration++) {
     forward = true;
     /* the rates at the nodes, and the correction of the length */
     ++*iterations;
-    rates(&k, s->z, scale, driving_slips, loaded, &c);
-    const double change =
-        s->goal == AT_LENGTH
-            ? 0
-            : to_goal(&k, point, s, &c, scale, to_end, driving_slips) / (scale * s->length);
+    rates(&terms, step->z, scale, driving_slips, loaded, &now);
+    const double change = step->goal == AT_LENGTH
+                              ? 0
+                              : to_goal(&terms, point, step, &now, scale, to_end, driving_slips) /
+                                    (scale * step->length);
     EACH correction[i] = splat(0);
 
     /* u from the slip at the driving contact */
     if (driving_slips) {
-      integrate_slip(point->a_x, point->a_y, c.za_x, c.za_y, slip_x, slip_y);
+      integrate_slip(point->a_x, point->a_y, now.za_x, now.za_y, slip_x, slip_y);
       /* z da'/dphi, of which u has a part in the load too */
       EACH {
-        const part zs = scale * s->z[i], w_u = loaded ? k.w_u * c.u_x[i] : splat(0);
-        D_x[i] = -zs * madd(c.u_y[i], splat(k.S_x), (k.C_x * w_u) * c.t_x[i]);
-        D_y[i] = zs * madd(c.u_x[i], splat(k.S_y), (-k.C_y * w_u) * c.t_y[i]);
-        zk[i] = madd(c.u_y[i], D_x[i], -(c.u_x[i] * D_y[i]));
+        const part zs = scale * step->z[i], w_u = loaded ? terms.w_u * now.u_x[i] : splat(0);
+        D_x[i] = -zs * madd(now.u_y[i], splat(terms.S_x), (terms.C_x * w_u) * now.t_x[i]);
+        D_y[i] = zs * madd(now.u_x[i], splat(terms.S_y), (-terms.C_y * w_u) * now.t_y[i]);
+        zk[i] = madd(now.u_y[i], D_x[i], -(now.u_x[i] * D_y[i]));
       }
       if (exact)
-        forward = rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_u, c.u_x,
-                                 c.u_y, correction);
+        forward = rotate_exactly(slip_x, slip_y, D_x, D_y, iteration == 0 || last > FRESH, for_u,
+                                 now.u_x, now.u_y, correction);
       else
-        rotate(slip_x, slip_y, zk, per_E, s->E, approximate, inverse_a, c.u_x, c.u_y, correction);
+        rotate(slip_x, slip_y, zk, per_E, step->E, approximate, inverse_a, now.u_x, now.u_y,
+               correction);
     }
 
     /* t from the slip on the cloth */
     if (loaded) {
-      integrate_slip(point->b_x, point->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
+      integrate_slip(point->b_x, point->b_y, now.zb_x, now.zb_y, slip_x, slip_y);
       /* z db'/dphi, of which t has a part in the load where the driving contact holds */
       if (driving_slips && exact != FOR_BOTH)
-        EACH zk[i] = (scale * s->z[i]) * (k.H_x * c.w[i]);
+        EACH zk[i] = (scale * step->z[i]) * (terms.H_x * now.w[i]);
       else
         EACH {
-          const part zw = (scale * s->z[i]) * c.w[i];
+          const part zw = (scale * step->z[i]) * now.w[i];
           const part zw_t =
-              driving_slips ? splat(0) : zw * k.w_t * c.t_x[i] / (1 - k.w_t * c.t_y[i]);
-          D_x[i] = k.H_x * (zw * c.t_y[i] - zw_t * c.t_x[i]);
-          D_y[i] = -k.H_y * (zw * c.t_x[i] + zw_t * c.t_y[i]);
-          zk[i] = c.t_y[i] * D_x[i] - c.t_x[i] * D_y[i];
+              driving_slips ? splat(0) : zw * terms.w_t * now.t_x[i] / (1 - terms.w_t * now.t_y[i]);
+          D_x[i] = terms.H_x * (zw * now.t_y[i] - zw_t * now.t_x[i]);
+          D_y[i] = -terms.H_y * (zw * now.t_x[i] + zw_t * now.t_y[i]);
+          zk[i] = now.t_y[i] * D_x[i] - now.t_x[i] * D_y[i];
         }
       /* by its linear equations, or by the kernel for t: ITERATION */
       if (exact == FOR_BOTH)
-        forward &= rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_t, c.t_x,
-                                  c.t_y, correction_t);
+        forward &= rotate_exactly(slip_x, slip_y, D_x, D_y, iteration == 0 || last > FRESH, for_t,
+                                  now.t_x, now.t_y, correction_t);
       else {
-        rotate(slip_x, slip_y, zk, ease, unit, approximate, inverse_b, c.t_x, c.t_y, correction_t);
-        if (n < 2) {
-          integrate(zk, f);
-          EACH ease[i] = 1 / (1 + f[i] * inverse_b[i]);
+        rotate(slip_x, slip_y, zk, ease, unit, approximate, inverse_b, now.t_x, now.t_y,
+               correction_t);
+        if (iteration < SOFTENED) {
+          integrate(zk, values);
+          EACH ease[i] = 1 / (1 + values[i] * inverse_b[i]);
         }
-        EACH correction_t[i] *= 0.3; /* a later iteration corrects t by far less than this */
+        EACH correction_t[i] *= LATER_SHARE;
       }
       EACH correction[i] = greater(correction[i], correction_t[i]);
     }
 
     /* the error left is the last correction times the rate of convergence; it acts over the length
      * of the step */
-    const double remainder = largest(correction), rate = n > 0 ? remainder / last : 0.3,
+    const double remainder = largest(correction),
+                 rate = iteration > 0 ? remainder / last : FIRST_RATE,
                  worst = rate > last_rate ? rate : last_rate;
-    if (!(remainder < 10) || (n >= 3 && rate > 0.6 && remainder > 1e-3))
+    if (!(remainder < LOST) || (iteration >= PATIENCE && rate > SLOW_RATE && remainder > COARSE))
       return DIVERGED;
-    const double share = scale * s->length < 1 ? scale * s->length : 1;
-    converged = remainder * (worst < 1 ? worst : 1) * share < CONVERGED * s->tolerance &&
-                remainder < 1e-3 && fabs(change) < SETTLED;
+    const double share = scale * step->length < 1 ? scale * step->length : 1;
+    converged = remainder * (worst < 1 ? worst : 1) * share < CONVERGED * step->tolerance &&
+                remainder < COARSE && fabs(change) < SETTLED;
 
     /* the new length, within limits */
-    const double at_least = change > -0.4 ? change : -0.4;
-    scale *= 1 + (change > 0.5 ? 0.5 : at_least);
+    const double at_least = change > MOST_SHORTENED ? change : MOST_SHORTENED;
+    scale *= 1 + (change > MOST_LENGTHENED ? MOST_LENGTHENED : at_least);
     approximate = remainder < NEARLY_CONVERGED && fabs(change) < NEARLY_CONVERGED;
     last = remainder;
     last_rate = rate;
@@ -428,69 +462,70 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     return DIVERGED;
 
   /* the point at the end */
-  rates(&k, s->z, scale, driving_slips, loaded, &c);
-  const double length = scale * s->length;
-  EACH f[i] = s->z[i] * c.v[i];
-  carom_point reached = {.a_x = point->a_x + dot(WEIGHT, c.za_x),
-                         .a_y = point->a_y + dot(WEIGHT, c.za_y),
-                         .b_x = point->b_x + dot(WEIGHT, c.zb_x),
-                         .b_y = point->b_y + dot(WEIGHT, c.zb_y),
-                         .v = point->v + scale * dot(WEIGHT, f),
-                         .W = point->W + work(point, length, scale, (const double *)to_end, &c),
+  rates(&terms, step->z, scale, driving_slips, loaded, &now);
+  const double length = scale * step->length;
+  EACH values[i] = step->z[i] * now.v[i];
+  carom_point reached = {.a_x = point->a_x + dot(WEIGHT, now.za_x),
+                         .a_y = point->a_y + dot(WEIGHT, now.za_y),
+                         .b_x = point->b_x + dot(WEIGHT, now.zb_x),
+                         .b_y = point->b_y + dot(WEIGHT, now.zb_y),
+                         .v = point->v + scale * dot(WEIGHT, values),
+                         .W = point->W + work(point, length, scale, (const double *)to_end, &now),
                          .p = point->p + length,
                          .growth = point->growth};
 
   /* the estimate of its error */
   double error = 0;
   if (driving_slips)
-    error += fabs(dot(HIGHEST, c.za_x)) + fabs(dot(HIGHEST, c.za_y));
+    error += fabs(dot(HIGHEST, now.za_x)) + fabs(dot(HIGHEST, now.za_y));
   if (loaded)
-    error += fabs(dot(HIGHEST, c.zb_x)) + fabs(dot(HIGHEST, c.zb_y));
-  *advice = error * error / ((exact ? TOLERANCE_EXACT : TOLERANCE) * s->tolerance * length);
+    error += fabs(dot(HIGHEST, now.zb_x)) + fabs(dot(HIGHEST, now.zb_y));
+  *advice = error * error / ((exact ? TOLERANCE_EXACT : TOLERANCE) * step->tolerance * length);
   if (!(*advice < 1))
     return INACCURATE;
 
   /* whether the regime has lasted to the end */
-  events(&k, &c, driving_slips, f);
-  const double event = largest(f), end = event_gap(&k, &reached, driving_slips);
-  const bool sticks = s->goal == AT_STICK || s->goal == AT_CLOTH_STICK;
-  if (s->goal == AT_EVENT ? event > LATE
-                          : event > EVENT_TOLERANCE || (end > EVENT_TOLERANCE && !sticks)) {
-    *advice = first_event(&k, point, s, scale, f, driving_slips);
+  events(&terms, &now, driving_slips, values);
+  const double event = largest(values), end = event_gap(&terms, &reached, driving_slips);
+  const bool sticks = step->goal == AT_STICK || step->goal == AT_CLOTH_STICK;
+  if (step->goal == AT_EVENT ? event > LATE
+                             : event > EVENT_TOLERANCE || (end > EVENT_TOLERANCE && !sticks)) {
+    *advice = first_event(&terms, point, step, scale, values, driving_slips);
     return EVENT_WITHIN;
   }
 
   /* where friction drives the slip on the cloth, an error of its direction grows by exp(int |H|
    * w / |b| dp) */
-  if (loaded && k.H_x < 0) {
-    integrate_slip(point->b_x, point->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
+  if (loaded && terms.H_x < 0) {
+    integrate_slip(point->b_x, point->b_y, now.zb_x, now.zb_y, slip_x, slip_y);
     normalise(slip_x, slip_y, false, inverse_b);
-    EACH f[i] = s->z[i] * c.w[i] * inverse_b[i];
-    reached.growth -= scale * k.H_x * dot(WEIGHT, f);
+    EACH values[i] = step->z[i] * now.w[i] * inverse_b[i];
+    reached.growth -= scale * terms.H_x * dot(WEIGHT, values);
   }
 
   /* the variables that are exactly zero at the goal */
-  if (s->goal == AT_STICK)
+  if (step->goal == AT_STICK)
     reached.a_x = reached.a_y = 0;
-  if (s->goal == AT_CLOTH_STICK)
+  if (step->goal == AT_CLOTH_STICK)
     reached.b_x = reached.b_y = 0;
-  if (s->goal == AT_END_OF_APPROACH ||
-      (s->goal == AT_CLOTH_STICK && fabs(reached.v) < NEARLY_STOPPED))
+  if (step->goal == AT_END_OF_APPROACH ||
+      (step->goal == AT_CLOTH_STICK && fabs(reached.v) < NEARLY_STOPPED))
     reached.v = 0;
-  else if (s->goal != AT_WORK && (s->restitution ? reached.W < s->least_work : reached.v < 0))
+  else if (step->goal != AT_WORK &&
+           (step->restitution ? reached.W < step->least_work : reached.v < 0))
     return BEYOND_PHASE;
 
   /* a slip that takes no part has no direction: the plan did not set one */
-  if (s->record != NULL)
+  if (step->record != NULL)
     EACH {
-      const int n = NODES / PARTS * i;
+      const int first = NODES / PARTS * i;
       const part none = splat(0);
-      *(part_of_row *)&s->record->z[n] = (part_of_row)(scale * s->z[i]);
-      *(part_of_row *)&s->record->p[n] = (part_of_row)(scale * s->p[i]);
-      *(part_of_row *)&s->record->u_x[n] = (part_of_row)(driving_slips ? c.u_x[i] : none);
-      *(part_of_row *)&s->record->u_y[n] = (part_of_row)(driving_slips ? c.u_y[i] : none);
-      *(part_of_row *)&s->record->t_x[n] = (part_of_row)(loaded ? c.t_x[i] : none);
-      *(part_of_row *)&s->record->t_y[n] = (part_of_row)(loaded ? c.t_y[i] : none);
+      *(part_of_row *)&step->record->z[first] = (part_of_row)(scale * step->z[i]);
+      *(part_of_row *)&step->record->p[first] = (part_of_row)(scale * step->p[i]);
+      *(part_of_row *)&step->record->u_x[first] = (part_of_row)(driving_slips ? now.u_x[i] : none);
+      *(part_of_row *)&step->record->u_y[first] = (part_of_row)(driving_slips ? now.u_y[i] : none);
+      *(part_of_row *)&step->record->t_x[first] = (part_of_row)(loaded ? now.t_x[i] : none);
+      *(part_of_row *)&step->record->t_y[first] = (part_of_row)(loaded ? now.t_y[i] : none);
     }
   *point = reached;
   return TAKEN;

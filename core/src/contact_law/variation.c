@@ -56,132 +56,145 @@ static const double COEFFICIENT = 1e-5; /* share of a variable by which coeffici
                                            differentiated */
 static const double CONE = 0.02;        /* 1 - (|f| / mu)^2 of a slip that friction hardly holds:
                                            core/tests/agree/tangents.c */
-static const double KINK = 1e-4;        /* difference of the slopes to both sides, over the
+/* Central differences, of which `differentiate` says more: */
+static const double STEP = 1e-4;         /* change of a friction or of lambda, */
+static const double STEP_OF_E = 1e-3;    /* of restitution, */
+static const double STEP_OF_SLIP = 2e-3; /* and of a slip; where slips are beyond LONG_SLIP, over
+                                            that times as much */
+static const double LONG_SLIP = 0.01;    /* 1 over such a slip */
+static const double STEP_SHARE = 0.4;    /* of the variable itself, which a step is below, so that
+                                            two steps to each side are in its range */
+static const double GOOD = 1e-5;         /* error with which no smaller step is tried, */
+static const double POOR = 1e-4;         /* and above which there may be a kink */
+static const double KINK = 1e-4;         /* difference of the slopes to both sides, over the
                                            largest, that is a kink */
 
-void carom_variation_rates(const carom_terms *k, const double lead[4], double v,
+void carom_variation_rates(const carom_terms *terms, const double lead[4], double v,
                            double rate[CAROM_VARIED]) {
-  const double w = (k->w_0 + k->w_u * lead[1]) / (1 - k->w_t * lead[3]), x = w * lead[2],
-               y = w * lead[3];
-  rate[OF_A_X] = k->S_x * lead[0] - k->C_x * x;
-  rate[OF_A_Y] = k->A_0 + k->S_y * lead[1] - k->C_y * y;
-  rate[OF_B_X] = k->R_x * lead[0] - k->H_x * x;
-  rate[OF_B_Y] = k->B_0 + k->R_y * lead[1] - k->H_y * y;
-  rate[OF_V] = k->V_0 + k->V_u * lead[1] - k->V_w * y;
+  const double w = (terms->w_0 + terms->w_u * lead[1]) / (1 - terms->w_t * lead[3]),
+               x = w * lead[2], y = w * lead[3];
+  rate[OF_A_X] = terms->S_x * lead[0] - terms->C_x * x;
+  rate[OF_A_Y] = terms->A_0 + terms->S_y * lead[1] - terms->C_y * y;
+  rate[OF_B_X] = terms->R_x * lead[0] - terms->H_x * x;
+  rate[OF_B_Y] = terms->B_0 + terms->R_y * lead[1] - terms->H_y * y;
+  rate[OF_V] = terms->V_0 + terms->V_u * lead[1] - terms->V_w * y;
   rate[OF_W] = v;
 }
 
 void carom_variation_leads(const carom_point *point, const double otherwise[4], double lead[4]) {
-  const double a = sqrt(point->a_x * point->a_x + point->a_y * point->a_y),
-               b = sqrt(point->b_x * point->b_x + point->b_y * point->b_y);
-  lead[0] = a > 0 ? point->a_x / a : otherwise[0];
-  lead[1] = a > 0 ? point->a_y / a : otherwise[1];
-  lead[2] = b > 0 ? point->b_x / b : otherwise[2];
-  lead[3] = b > 0 ? point->b_y / b : otherwise[3];
+  const double size_a = sqrt(point->a_x * point->a_x + point->a_y * point->a_y),
+               size_b = sqrt(point->b_x * point->b_x + point->b_y * point->b_y);
+  lead[0] = size_a > 0 ? point->a_x / size_a : otherwise[0];
+  lead[1] = size_a > 0 ? point->a_y / size_a : otherwise[1];
+  lead[2] = size_b > 0 ? point->b_x / size_b : otherwise[2];
+  lead[3] = size_b > 0 ? point->b_y / size_b : otherwise[3];
 }
 
 /* The coefficients of the regime with one variable changed by a small amount, over twice of
  * which their difference is their derivative: of this and the opposite change. */
 static double changed_terms(const carom_trajectory *path, enum carom_variable variable,
                             carom_terms *more, carom_terms *less) {
-  const carom_law *law = &path->law, *d = path->variation->d_law;
-  carom_law l[2] = {*law, *law};
+  const carom_law *law = &path->law, *d_law = path->variation->d_law;
+  carom_law changed[2] = {*law, *law};
 
   /* a friction by a share of itself; else all coefficients along their derivatives */
   double step = COEFFICIENT;
-  for (int k = 0; k < 2; k++) {
-    const double s = k == 0 ? COEFFICIENT : -COEFFICIENT;
+  for (int side = 0; side < 2; side++) {
+    const double share = side == 0 ? COEFFICIENT : -COEFFICIENT;
     if (variable == BY_MU) {
-      l[k].mu += s * law->mu;
+      changed[side].mu += share * law->mu;
       step = COEFFICIENT * law->mu;
     } else if (variable == BY_MU_C) {
-      l[k].mu_c += s * law->mu_c;
+      changed[side].mu_c += share * law->mu_c;
       step = COEFFICIENT * law->mu_c;
     } else {
       /* of the driving contact, of the cloth, of its load and of the approach: law.h */
-      l[k].A_0 += s * d->A_0;
-      l[k].K_x += s * d->K_x;
-      l[k].K_y += s * d->K_y;
-      l[k].C_x += s * d->C_x;
-      l[k].C_y += s * d->C_y;
-      l[k].B_0 += s * d->B_0;
-      l[k].L_x += s * d->L_x;
-      l[k].L_y += s * d->L_y;
-      l[k].H += s * d->H;
-      l[k].g_0 += s * d->g_0;
-      l[k].g_1 += s * d->g_1;
-      l[k].V_0 += s * d->V_0;
-      l[k].V_f += s * d->V_f;
-      l[k].V_F += s * d->V_F;
+      changed[side].A_0 += share * d_law->A_0;
+      changed[side].K_x += share * d_law->K_x;
+      changed[side].K_y += share * d_law->K_y;
+      changed[side].C_x += share * d_law->C_x;
+      changed[side].C_y += share * d_law->C_y;
+      changed[side].B_0 += share * d_law->B_0;
+      changed[side].L_x += share * d_law->L_x;
+      changed[side].L_y += share * d_law->L_y;
+      changed[side].H += share * d_law->H;
+      changed[side].g_0 += share * d_law->g_0;
+      changed[side].g_1 += share * d_law->g_1;
+      changed[side].V_0 += share * d_law->V_0;
+      changed[side].V_f += share * d_law->V_f;
+      changed[side].V_F += share * d_law->V_F;
     }
   }
 
-  *more = carom_impact_terms(&l[0], &path->regime);
-  *less = carom_impact_terms(&l[1], &path->regime);
+  *more = carom_impact_terms(&changed[0], &path->regime);
+  *less = carom_impact_terms(&changed[1], &path->regime);
   return 2 * step;
 }
 
 void carom_variation_begin_regime(carom_trajectory *path) {
-  carom_variation *g = path->variation;
+  carom_variation *variation = path->variation;
   const int regime = 1 + path->regime.held + 2 * path->regime.cloth_held + 4 * path->regime.loaded;
-  if (g->regime == regime)
+  if (variation->regime == regime)
     return;
-  g->regime = regime;
-  for (int c = BY_MU; c < CAROM_VARIABLES; c++) {
+  variation->regime = regime;
+  for (int variable = BY_MU; variable < CAROM_VARIABLES; variable++) {
     carom_terms more, less;
-    if (!(g->requests & CAROM_PARAMETERS & 1u << c))
+    if (!(variation->requests & CAROM_PARAMETERS & 1u << variable))
       continue;
-    const double apart = changed_terms(path, (enum carom_variable)c, &more, &less);
+    const double apart = changed_terms(path, (enum carom_variable)variable, &more, &less);
     const double *high = (const double *)&more, *low = (const double *)&less;
-    for (size_t k = 0; k < sizeof g->d_terms / sizeof g->d_terms[0]; k++)
-      g->d_terms[k][c] = apart > 0 ? (high[k] - low[k]) / apart : 0;
+    for (size_t term = 0; term < sizeof variation->d_terms / sizeof variation->d_terms[0]; term++)
+      variation->d_terms[term][variable] = apart > 0 ? (high[term] - low[term]) / apart : 0;
   }
 }
 
 void carom_variation_straight(carom_trajectory *path, const carom_point *start, bool planar) {
-  carom_variation *g = path->variation;
+  carom_variation *variation = path->variation;
   const double length = path->point.p - start->p, none[4] = {0};
   /* constant rates, which no direction changes */
-  g->lost |= planar && ((!path->regime.held && path->law.mu > 0) || path->regime.loaded);
-  for (int c = 0; c < CAROM_VARIABLES; c++)
-    g->d[OF_W][c] += length * g->d[OF_V][c];
+  variation->lost |= planar && ((!path->regime.held && path->law.mu > 0) || path->regime.loaded);
+  for (int variable = 0; variable < CAROM_VARIABLES; variable++)
+    variation->d[OF_W][variable] += length * variation->d[OF_V][variable];
   carom_variation_begin_regime(path);
   static const size_t term[5] = {0, offsetof(carom_terms, A_0), 0, offsetof(carom_terms, B_0),
                                  offsetof(carom_terms, V_0)};
-  for (int c = BY_MU; c < CAROM_VARIABLES; c++) {
-    for (int r = 1; r < 5; r += r == 1 ? 2 : 1)
-      g->d[r][c] += length * g->d_terms[term[r] / sizeof(double)][c];
-    g->d[OF_W][c] += 0.5 * length * length * g->d_terms[term[OF_V] / sizeof(double)][c];
+  for (int variable = BY_MU; variable < CAROM_VARIABLES; variable++) {
+    for (int row = 1; row < 5; row += row == 1 ? 2 : 1)
+      variation->d[row][variable] +=
+          length * variation->d_terms[term[row] / sizeof(double)][variable];
+    variation->d[OF_W][variable] +=
+        0.5 * length * length * variation->d_terms[term[OF_V] / sizeof(double)][variable];
   }
-  carom_variation_leads(&path->point, none, g->lead);
-  carom_variation_rates(&path->terms, g->lead, path->point.v, g->rate);
+  carom_variation_leads(&path->point, none, variation->lead);
+  carom_variation_rates(&path->terms, variation->lead, path->point.v, variation->rate);
 }
 
 /* The end of the impact, or of compression: where W, or v, has its value. */
 static void end_phase(carom_trajectory *path) {
-  carom_variation *g = path->variation;
+  carom_variation *variation = path->variation;
   const double e = path->law.e;
   const bool compression = path->point.v == 0 && !(path->ended && e > 0);
-  for (int c = 0; c < CAROM_VARIABLES; c++) {
+  for (int variable = 0; variable < CAROM_VARIABLES; variable++) {
     double d_p = 0;
     if (compression) {
-      g->d_W_c[c] = g->d[OF_W][c];
-      g->d[OF_W][c] = 0;
-      d_p = -g->d[OF_V][c] / g->rate[OF_V];
+      variation->d_W_c[variable] = variation->d[OF_W][variable];
+      variation->d[OF_W][variable] = 0;
+      d_p = -variation->d[OF_V][variable] / variation->rate[OF_V];
     } else {
-      const double d_target = -e * e * g->d_W_c[c] - (c == BY_E ? 2 * e * path->W_c : 0);
-      d_p = (d_target - g->d[OF_W][c]) / g->rate[OF_W];
+      const double d_target =
+          -e * e * variation->d_W_c[variable] - (variable == BY_E ? 2 * e * path->W_c : 0);
+      d_p = (d_target - variation->d[OF_W][variable]) / variation->rate[OF_W];
     }
     if (!path->ended)
       continue;
-    for (int r = 0; r < CAROM_VARIED; r++)
-      g->d[r][c] += g->rate[r] * d_p;
-    g->d_p[c] = d_p;
+    for (int row = 0; row < CAROM_VARIED; row++)
+      variation->d[row][variable] += variation->rate[row] * d_p;
+    variation->d_p[variable] = d_p;
   }
 }
 
 void carom_variation_follow(carom_trajectory *path, const carom_point *start, bool phase_ended) {
-  carom_variation *g = path->variation;
+  carom_variation *variation = path->variation;
   const carom_point *point = &path->point;
   if (phase_ended)
     end_phase(path);
@@ -197,14 +210,14 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *start, bo
     return;
   if ((a_ends && b_ends) || (a_ends && !path->regime.held) ||
       (b_ends && !path->regime.cloth_held)) {
-    g->lost = true;
+    variation->lost = true;
     return;
   }
 
   /* along which it ends, and how fast; the rates behind its end */
   const int first = a_ends ? OF_A_X : OF_B_X;
-  const double u_x = g->lead[a_ends ? 0 : 2], u_y = g->lead[a_ends ? 1 : 3];
-  const double falls = u_x * g->rate[first] + u_y * g->rate[first + 1];
+  const double u_x = variation->lead[a_ends ? 0 : 2], u_y = variation->lead[a_ends ? 1 : 3];
+  const double falls = u_x * variation->rate[first] + u_y * variation->rate[first + 1];
   const double begins[4] = {path->regime.u_x, path->regime.u_y, path->regime.t_x, path->regime.t_y};
   double lead[4], next_rate[CAROM_VARIED];
   carom_variation_leads(point, begins, lead);
@@ -213,17 +226,23 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *start, bo
   /* it ends a little earlier or later; rates change there. By the rates at its end and not by
    * the direction of the slip alone: that of a slip which is negligible, but not zero, still
    * turns, and the part of da across the motion falls with |a| */
-  for (int c = 0; c < CAROM_VARIABLES; c++) {
-    const double d_p = falls < 0 ? -(u_x * g->d[first][c] + u_y * g->d[first + 1][c]) / falls : 0;
+  for (int variable = 0; variable < CAROM_VARIABLES; variable++) {
+    const double d_p =
+        falls < 0
+            ? -(u_x * variation->d[first][variable] + u_y * variation->d[first + 1][variable]) /
+                  falls
+            : 0;
     /* the rest of da, which has to be 0, tells how well the end of the slip was resolved */
-    const double x = g->d[first][c] + g->rate[first] * d_p,
-                 y = g->d[first + 1][c] + g->rate[first + 1] * d_p;
-    if ((g->requests >> c & 1) &&
-        fabs(x) + fabs(y) > UNRESOLVED * fmax(fabs(g->d[first][c]) + fabs(g->d[first + 1][c]), 1))
-      g->lost = true;
-    for (int r = 0; r < CAROM_VARIED; r++)
-      g->d[r][c] += (g->rate[r] - next_rate[r]) * d_p;
-    g->d[first][c] = g->d[first + 1][c] = 0;
+    const double x = variation->d[first][variable] + variation->rate[first] * d_p,
+                 y = variation->d[first + 1][variable] + variation->rate[first + 1] * d_p;
+    if ((variation->requests >> variable & 1) &&
+        fabs(x) + fabs(y) > UNRESOLVED * fmax(fabs(variation->d[first][variable]) +
+                                                  fabs(variation->d[first + 1][variable]),
+                                              1))
+      variation->lost = true;
+    for (int row = 0; row < CAROM_VARIED; row++)
+      variation->d[row][variable] += (variation->rate[row] - next_rate[row]) * d_p;
+    variation->d[first][variable] = variation->d[first + 1][variable] = 0;
   }
 }
 
@@ -236,14 +255,17 @@ static void begin(const carom_law *law, const double slips[4], double tolerance,
 
 /* The impulses, without derivatives. */
 static carom_status impulses_of(const carom_law *law, const double slips[4], double tolerance,
-                                int plain, double q[5]) {
+                                int plain, double impulses[5]) {
   carom_trajectory path;
   begin(law, slips, tolerance, plain, &path);
   const carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
-  const carom_impulses i = carom_impact_impulses(&path);
-  memcpy(q, (const double[5]){i.p, i.f_x, i.f_y, i.F_x, i.F_y}, 5 * sizeof *q);
+  const carom_impulses end = carom_impact_impulses(&path);
+  memcpy(impulses, (const double[5]){end.p, end.f_x, end.f_y, end.F_x, end.F_y},
+         5 * sizeof *impulses);
   return status;
 }
+
+enum { COEFFICIENTS = 14 }; /* of a law, by lambda: all before mu */
 
 /* A law and slips with one variable changed. */
 static void change(carom_law *law, const carom_law *d_law, double slips[4], int variable,
@@ -259,10 +281,10 @@ static void change(carom_law *law, const carom_law *d_law, double slips[4], int 
     law->e += step;
     break;
   case BY_LAMBDA: {
-    const double *d = (const double *)d_law;
-    double *l = (double *)law;
-    for (int k = 0; k < 14; k++)
-      l[k] += step * d[k];
+    const double *d_coefficient = (const double *)d_law;
+    double *coefficient = (double *)law;
+    for (int index = 0; index < COEFFICIENTS; index++)
+      coefficient[index] += step * d_coefficient[index];
     break;
   }
   default:
@@ -270,7 +292,7 @@ static void change(carom_law *law, const carom_law *d_law, double slips[4], int 
   }
 }
 _Static_assert(sizeof(carom_law) == 17 * sizeof(double) &&
-                   offsetof(carom_law, mu) == 14 * sizeof(double),
+                   offsetof(carom_law, mu) == COEFFICIENTS * sizeof(double),
                "14 coefficients, then frictions and restitution");
 
 /* Central differences of order 4 by one variable, with smaller steps where two orders differ. */
@@ -280,39 +302,53 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
                                                     carom_impact_tangent *out) {
   const double size =
       fmax(fmax(fabs(slips[0]), fabs(slips[1])), fmax(fabs(slips[2]), fabs(slips[3])));
-  double h = variable == BY_E ? 1e-3 : 1e-4, best = INFINITY, bends = INFINITY;
+  double step = variable == BY_E ? STEP_OF_E : STEP, best = INFINITY, bends = INFINITY;
   if (variable <= BY_B_Y)
-    h = 2e-3 * fmax(1, 0.01 * size);
+    step = STEP_OF_SLIP * fmax(1, LONG_SLIP * size);
+
+  /* the step to begin with */
   const double value[5] = {out->q.p, out->q.f_x, out->q.f_y, out->q.F_x, out->q.F_y};
   if (variable == BY_MU || variable == BY_MU_C)
-    h = fmin(h, 0.4 * (variable == BY_MU ? law->mu : law->mu_c));
+    step = fmin(step, STEP_SHARE * (variable == BY_MU ? law->mu : law->mu_c));
   if (variable == BY_E)
-    h = fmin(h, 0.4 * law->e);
-  for (int attempt = 0; attempt < 4 && (best > 1e-5 || bends > KINK) && h > 0; attempt++, h /= 8) {
+    step = fmin(step, STEP_SHARE * law->e);
+  for (int attempt = 0; attempt < 4 && (best > GOOD || bends > KINK) && step > 0;
+       attempt++, step /= 8) {
     static const double steps[4] = {-2, -1, 1, 2};
-    double f[4][5], error = 0, bend = 0, most = 1;
+    double impulses[4][5], error = 0, bend = 0, most = 1;
     bool fine = true;
-    for (int s = 0; s < 4 && fine; s++) {
-      carom_law l = *law;
-      double x[4] = {slips[0], slips[1], slips[2], slips[3]};
-      change(&l, d_law, x, variable, steps[s] * h);
-      fine = impulses_of(&l, x, tolerance, plain, f[s]) == CAROM_OK;
+
+    /* the impulses at two steps to each side */
+    for (int offset = 0; offset < 4 && fine; offset++) {
+      carom_law changed_law = *law;
+      double changed_slips[4] = {slips[0], slips[1], slips[2], slips[3]};
+      change(&changed_law, d_law, changed_slips, variable, steps[offset] * step);
+      fine =
+          impulses_of(&changed_law, changed_slips, tolerance, plain, impulses[offset]) == CAROM_OK;
     }
-    for (int r = 0; r < 5 && fine; r++) {
-      const double narrow = (f[2][r] - f[1][r]) / (2 * h), far = (f[3][r] - f[0][r]) / (4 * h);
+
+    /* slopes over one step and over two, which differ by three times the error of the former */
+    for (int row = 0; row < 5 && fine; row++) {
+      const double narrow = (impulses[2][row] - impulses[1][row]) / (2 * step),
+                   far = (impulses[3][row] - impulses[0][row]) / (4 * step);
       error = fmax(error, fabs(narrow - far) / 3);
       most = fmax(most, fabs(narrow));
       /* the difference of the slopes to both sides, less a smooth function's, which is in
        * proportion to h */
-      const double less = f[2][r] + f[1][r] - 2 * value[r], more = f[3][r] + f[0][r] - 2 * value[r];
-      bend = fmax(bend, fabs(2 * less - 0.5 * more) / h);
+      const double less = impulses[2][row] + impulses[1][row] - 2 * value[row],
+                   more = impulses[3][row] + impulses[0][row] - 2 * value[row];
+      bend = fmax(bend, fabs(2 * less - 0.5 * more) / step);
     }
     if (fine)
       bends = fmin(bends, bend / most);
+
+    /* the best so far, with the error of order 2 removed */
     if (fine && error / most < best) {
       best = error / most;
-      for (int r = 0; r < 5; r++)
-        out->d[r][variable] = (8 * (f[2][r] - f[1][r]) - (f[3][r] - f[0][r])) / (12 * h);
+      for (int row = 0; row < 5; row++)
+        out->d[row][variable] =
+            (8 * (impulses[2][row] - impulses[1][row]) - (impulses[3][row] - impulses[0][row])) /
+            (12 * step);
     }
   }
   if (!(best < INFINITY) && tolerance < 1) {
@@ -321,93 +357,99 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
   }
   out->differences = true;
   out->error = fmax(out->error, best < INFINITY ? best : 1);
-  out->kink |= !(best < 1e-4) || !(bends < KINK);
+  out->kink |= !(best < POOR) || !(bends < KINK);
 }
 
 /* Derivatives of the impulses by one variable, at the end of an impact. A function of its own,
  * so that its stack is not there while the impact is followed. */
 __attribute__((noinline)) static void impulses_by(const carom_trajectory *path,
-                                                  const carom_variation *g, int c,
+                                                  const carom_variation *variation, int variable,
                                                   carom_impact_tangent *out) {
   /* impulses are linear in the motion at both ends, with coefficients of the law */
-  carom_trajectory d = *path;
-  d.start =
-      (carom_point){.a_x = c == BY_A_X, .a_y = c == BY_A_Y, .b_x = c == BY_B_X, .b_y = c == BY_B_Y};
-  d.point = (carom_point){.a_x = g->d[OF_A_X][c],
-                          .a_y = g->d[OF_A_Y][c],
-                          .b_x = g->d[OF_B_X][c],
-                          .b_y = g->d[OF_B_Y][c],
-                          .v = g->d[OF_V][c],
-                          .p = g->d_p[c]};
-  const carom_impulses q = carom_impact_impulses(&d);
-  double sum[5] = {q.p, q.f_x, q.f_y, q.F_x, q.F_y};
-  if (c == BY_LAMBDA) {
+  carom_trajectory changes = *path;
+  changes.start = (carom_point){.a_x = variable == BY_A_X,
+                                .a_y = variable == BY_A_Y,
+                                .b_x = variable == BY_B_X,
+                                .b_y = variable == BY_B_Y};
+  changes.point = (carom_point){.a_x = variation->d[OF_A_X][variable],
+                                .a_y = variation->d[OF_A_Y][variable],
+                                .b_x = variation->d[OF_B_X][variable],
+                                .b_y = variation->d[OF_B_Y][variable],
+                                .v = variation->d[OF_V][variable],
+                                .p = variation->d_p[variable]};
+  const carom_impulses impulses = carom_impact_impulses(&changes);
+  double sum[5] = {impulses.p, impulses.f_x, impulses.f_y, impulses.F_x, impulses.F_y};
+  if (variable == BY_LAMBDA) {
     carom_impulses end[2];
     double unused[4];
-    for (int k = 0; k < 2; k++) {
+    for (int side = 0; side < 2; side++) {
       carom_trajectory shifted = *path;
-      change(&shifted.law, g->d_law, unused, c, k == 0 ? COEFFICIENT : -COEFFICIENT);
-      end[k] = carom_impact_impulses(&shifted);
+      change(&shifted.law, variation->d_law, unused, variable,
+             side == 0 ? COEFFICIENT : -COEFFICIENT);
+      end[side] = carom_impact_impulses(&shifted);
     }
     sum[1] += (end[0].f_x - end[1].f_x) / (2 * COEFFICIENT);
     sum[2] += (end[0].f_y - end[1].f_y) / (2 * COEFFICIENT);
     sum[3] += (end[0].F_x - end[1].F_x) / (2 * COEFFICIENT);
     sum[4] += (end[0].F_y - end[1].F_y) / (2 * COEFFICIENT);
   }
-  for (int r = 0; r < 5; r++) {
-    out->d[r][c] = sum[r];
-    out->kink |= !isfinite(sum[r]);
+  for (int row = 0; row < 5; row++) {
+    out->d[row][variable] = sum[row];
+    out->kink |= !isfinite(sum[row]);
   }
 }
 
 /* Ends the seeds of slips that friction holds from the start: see the head. */
-static void end_held_slips(const carom_trajectory *path, carom_variation *g) {
-  const carom_law *l = &path->law;
-  const carom_regime *r = &path->regime;
+static void end_held_slips(const carom_trajectory *path, carom_variation *variation) {
+  const carom_law *law = &path->law;
+  const carom_regime *regime = &path->regime;
   const carom_point *point = &path->point;
-  const double begins[4] = {r->u_x, r->u_y, r->t_x, r->t_y};
-  carom_variation_leads(point, begins, g->lead);
-  const double t_x = g->lead[2], t_y = g->lead[3], w = r->loaded ? l->mu_c * l->g_1 : 0;
+  const double begins[4] = {regime->u_x, regime->u_y, regime->t_x, regime->t_y};
+  carom_variation_leads(point, begins, variation->lead);
+  const double t_x = variation->lead[2], t_y = variation->lead[3],
+               w = regime->loaded ? law->mu_c * law->g_1 : 0;
 
   /* friction that nearly leaves its cone: the smallest change lasts, or is held, depending on
    * its sign */
-  const carom_terms *k = &path->terms;
-  const double load = k->w_0 / (1 - k->w_t * t_y), x = load * t_x, y = load * t_y;
-  const double outside = k->event[0] + k->event[1] * y + k->event[2] * x * x + k->event[3] * y * y;
-  const bool edge = r->held && outside > -CONE * l->mu * l->mu;
-  for (int c = BY_A_X; c <= BY_B_Y; c++) {
+  const carom_terms *terms = &path->terms;
+  const double load = terms->w_0 / (1 - terms->w_t * t_y), x = load * t_x, y = load * t_y;
+  const double outside =
+      terms->event[0] + terms->event[1] * y + terms->event[2] * x * x + terms->event[3] * y * y;
+  const bool edge = regime->held && outside > -CONE * law->mu * law->mu;
+  for (int variable = BY_A_X; variable <= BY_B_Y; variable++) {
     double f_x = 0, f_y = 0, F_x = 0, F_y = 0;
-    const double a_x = g->d[OF_A_X][c], a_y = g->d[OF_A_Y][c];
+    const double a_x = variation->d[OF_A_X][variable], a_y = variation->d[OF_A_Y][variable];
     /* a slip that begins from zero goes one way, whatever the sign of a change: here, and of b
      * below */
-    g->kink |=
-        l->mu > 0 && !r->held && point->a_x == 0 && point->a_y == 0 && (a_x != 0 || a_y != 0);
-    if (r->held && (a_x != 0 || a_y != 0)) {
-      g->kink |= edge;
-      f_y = -a_y / (l->K_y - l->C_y * w * t_y);
+    variation->kink |= law->mu > 0 && !regime->held && point->a_x == 0 && point->a_y == 0 &&
+                       (a_x != 0 || a_y != 0);
+    if (regime->held && (a_x != 0 || a_y != 0)) {
+      variation->kink |= edge;
+      f_y = -a_y / (law->K_y - law->C_y * w * t_y);
       F_x = -w * t_x * f_y;
       F_y = -w * t_y * f_y;
-      f_x = -(a_x + l->C_x * F_x) / l->K_x;
+      f_x = -(a_x + law->C_x * F_x) / law->K_x;
       /* on the way friction may be anything in the cone, but along x alone if nothing turns it:
        * does the load keep its sign? */
-      const double most = a_y != 0 || l->A_0 != 0 || r->loaded ? l->mu * fabs(l->g_1) : 0;
-      g->lost |= l->mu_c > 0 && (r->loaded ? l->g_0 < most : l->g_0 > -most);
-    } else if (r->cloth_held) {
-      F_x = -g->d[OF_B_X][c] / l->H;
-      F_y = -g->d[OF_B_Y][c] / l->H;
+      const double most =
+          a_y != 0 || law->A_0 != 0 || regime->loaded ? law->mu * fabs(law->g_1) : 0;
+      variation->lost |= law->mu_c > 0 && (regime->loaded ? law->g_0 < most : law->g_0 > -most);
+    } else if (regime->cloth_held) {
+      F_x = -variation->d[OF_B_X][variable] / law->H;
+      F_y = -variation->d[OF_B_Y][variable] / law->H;
     }
-    g->d[OF_A_X][c] += l->K_x * f_x + l->C_x * F_x;
-    g->d[OF_A_Y][c] += l->K_y * f_y + l->C_y * F_y;
-    g->d[OF_B_X][c] += l->L_x * f_x + l->H * F_x;
-    g->d[OF_B_Y][c] += l->L_y * f_y + l->H * F_y;
-    g->d[OF_V][c] += l->V_f * f_y + l->V_F * F_y;
+    variation->d[OF_A_X][variable] += law->K_x * f_x + law->C_x * F_x;
+    variation->d[OF_A_Y][variable] += law->K_y * f_y + law->C_y * F_y;
+    variation->d[OF_B_X][variable] += law->L_x * f_x + law->H * F_x;
+    variation->d[OF_B_Y][variable] += law->L_y * f_y + law->H * F_y;
+    variation->d[OF_V][variable] += law->V_f * f_y + law->V_F * F_y;
     /* exactly none is left */
-    if (r->held)
-      g->d[OF_A_X][c] = g->d[OF_A_Y][c] = 0;
-    if (r->cloth_held)
-      g->d[OF_B_X][c] = g->d[OF_B_Y][c] = 0;
-    g->kink |= r->loaded && point->b_x == 0 && point->b_y == 0 &&
-               (g->d[OF_B_X][c] != 0 || g->d[OF_B_Y][c] != 0);
+    if (regime->held)
+      variation->d[OF_A_X][variable] = variation->d[OF_A_Y][variable] = 0;
+    if (regime->cloth_held)
+      variation->d[OF_B_X][variable] = variation->d[OF_B_Y][variable] = 0;
+    variation->kink |= regime->loaded && point->b_x == 0 && point->b_y == 0 &&
+                       (variation->d[OF_B_X][variable] != 0 || variation->d[OF_B_Y][variable] != 0);
   }
 }
 
@@ -415,28 +457,28 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
                                         const double slips[4], int plain, unsigned requests,
                                         carom_impact_tangent *out) {
   carom_trajectory path;
-  carom_variation g;
+  carom_variation variation;
   begin(law, slips, TOLERANCE, plain, &path);
-  memset(&g, 0, sizeof g);
+  memset(&variation, 0, sizeof variation);
   memset(out, 0, sizeof *out);
 
   /* each variable asked for begins as its own derivative */
-  g.d_law = d_law;
-  g.requests = requests;
-  for (int c = BY_A_X; c <= BY_B_Y; c++)
-    g.d[c][c] = requests >> c & 1;
+  variation.d_law = d_law;
+  variation.requests = requests;
+  for (int variable = BY_A_X; variable <= BY_B_Y; variable++)
+    variation.d[variable][variable] = requests >> variable & 1;
   if (path.status == CAROM_OK)
-    end_held_slips(&path, &g);
+    end_held_slips(&path, &variation);
 
   /* the impact with its derivatives */
   double tolerance = TOLERANCE;
-  path.variation = &g;
+  path.variation = &variation;
   carom_status status = carom_impact_advance(&path, INFINITY, 10 * CAROM_IMPACT_ITERATIONS);
   if (status == CAROM_ERROR_UNRESOLVED) {
     /* near the frictions at which balls jam only the tolerance of the impact itself leaves a way
      * to the end */
     tolerance = 1;
-    g.lost = true;
+    variation.lost = true;
     begin(law, slips, tolerance, plain, &path);
     status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
   }
@@ -445,19 +487,20 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   out->q = carom_impact_impulses(&path);
   if (status != CAROM_OK)
     return status;
-  out->kink = g.kink || (law->mu == 0 && (requests >> BY_MU & 1)) ||
+  out->kink = variation.kink || (law->mu == 0 && (requests >> BY_MU & 1)) ||
               (law->e == 0 && (requests >> BY_E & 1));
 
   /* where they were lost on the way, differences of impacts take their place */
-  g.lost |= !path.ended || g.rate[OF_V] == 0 || (path.regime.held && path.regime.cloth_held);
-  for (int c = 0; c < CAROM_VARIABLES; c++) {
-    if (!(requests >> c & 1))
+  variation.lost |=
+      !path.ended || variation.rate[OF_V] == 0 || (path.regime.held && path.regime.cloth_held);
+  for (int variable = 0; variable < CAROM_VARIABLES; variable++) {
+    if (!(requests >> variable & 1))
       continue;
-    if (g.lost) {
-      differentiate(law, d_law, slips, tolerance, plain, c, out);
+    if (variation.lost) {
+      differentiate(law, d_law, slips, tolerance, plain, variable, out);
       continue;
     }
-    impulses_by(&path, &g, c, out);
+    impulses_by(&path, &variation, variable, out);
   }
   return CAROM_OK;
 }

@@ -37,7 +37,7 @@ typedef struct carom_variation {
   carom_kept_step record;
   /* the derivatives of the coefficients of path->terms by the variables, for `regime` */
   double d_terms[sizeof(carom_terms) / sizeof(double)][CAROM_VARIABLES];
-  double d[CAROM_VARIED][CAROM_VARIABLES]; /* derivatives at a fixed p: that of path->at; those
+  double d[CAROM_VARIED][CAROM_VARIABLES]; /* derivatives at a fixed p: path->point.p; those
                                               by others than those asked are 0 */
   const carom_law *d_law;                  /* by lambda */
   unsigned requests;                       /* bit k: by variable k */
@@ -61,7 +61,7 @@ typedef struct carom_impact_tangent {
 } carom_impact_tangent;
 
 /* The impulses of an impact that begins with these slips over the speed of approach, and their
- * derivatives by the variables in `asked` (bit k: variable k); the others are 0. d_law: the
+ * derivatives by the variables in `requests` (bit k: variable k); the others are 0. d_law: the
  * derivative of the law by lambda; plain:
  * options.plain of the call. Errors: those of
  * carom_impact_advance(). */

@@ -44,13 +44,13 @@ _Static_assert((int)CAROM_VARIABLES == (int)NODES, "both fill a vector");
  * on the diagonal, or NULL. */
 always void block(const part *u_x, const part *u_y, const part *D_x, const part *D_y,
                   const part *length, matrix columns) {
-  unrolled for (int j = 0; j < NODES; j++) {
-    const part x = splat(AT(D_x, j)), y = splat(-AT(D_y, j));
+  unrolled for (int node = 0; node < NODES; node++) {
+    const part x = splat(AT(D_x, node)), y = splat(-AT(D_y, node));
     nodes column;
-    EACH column[i] = PART(INTEGRAL[j], i) * madd(u_y[i], x, u_x[i] * y);
+    EACH column[i] = PART(INTEGRAL[node], i) * madd(u_y[i], x, u_x[i] * y);
     if (length != NULL)
-      AT(column, j) += AT(length, j);
-    EACH((part_of_row *)columns[j])[i] = (part_of_row)column[i];
+      AT(column, node) += AT(length, node);
+    EACH((part_of_row *)columns[node])[i] = (part_of_row)column[i];
   }
 }
 
@@ -63,24 +63,24 @@ always void lengths(double x, double y, const part *za_x, const part *za_y, cons
 }
 
 /* z times the derivatives of the rates by the angles of u and of t, and by the parameters. */
-always void node_derivatives(const carom_terms *k, const part *z, const part *u_x, const part *u_y,
-                             const part *t_x, const part *t_y, const part *w, const part *per,
-                             node_rates by_u, node_rates by_t) {
+always void node_derivatives(const carom_terms *terms, const part *z, const part *u_x,
+                             const part *u_y, const part *t_x, const part *t_y, const part *w,
+                             const part *per, node_rates by_u, node_rates by_t) {
   EACH {
-    const part w_u = k->w_u * u_x[i] * per[i], w_t = w[i] * k->w_t * t_x[i] * per[i];
+    const part w_u = terms->w_u * u_x[i] * per[i], w_t = w[i] * terms->w_t * t_x[i] * per[i];
     /* w t by the angles */
     const part x_u = w_u * t_x[i], y_u = w_u * t_y[i], x_t = w_t * t_x[i] - w[i] * t_y[i],
                y_t = w_t * t_y[i] + w[i] * t_x[i];
-    by_u[0][i] = z[i] * (-k->S_x * u_y[i] - k->C_x * x_u);
-    by_u[1][i] = z[i] * (k->S_y * u_x[i] - k->C_y * y_u);
-    by_u[2][i] = z[i] * (-k->R_x * u_y[i] - k->H_x * x_u);
-    by_u[3][i] = z[i] * (k->R_y * u_x[i] - k->H_y * y_u);
-    by_u[4][i] = z[i] * (k->V_u * u_x[i] - k->V_w * y_u);
-    by_t[0][i] = z[i] * (-k->C_x * x_t);
-    by_t[1][i] = z[i] * (-k->C_y * y_t);
-    by_t[2][i] = z[i] * (-k->H_x * x_t);
-    by_t[3][i] = z[i] * (-k->H_y * y_t);
-    by_t[4][i] = z[i] * (-k->V_w * y_t);
+    by_u[0][i] = z[i] * (-terms->S_x * u_y[i] - terms->C_x * x_u);
+    by_u[1][i] = z[i] * (terms->S_y * u_x[i] - terms->C_y * y_u);
+    by_u[2][i] = z[i] * (-terms->R_x * u_y[i] - terms->H_x * x_u);
+    by_u[3][i] = z[i] * (terms->R_y * u_x[i] - terms->H_y * y_u);
+    by_u[4][i] = z[i] * (terms->V_u * u_x[i] - terms->V_w * y_u);
+    by_t[0][i] = z[i] * (-terms->C_x * x_t);
+    by_t[1][i] = z[i] * (-terms->C_y * y_t);
+    by_t[2][i] = z[i] * (-terms->H_x * x_t);
+    by_t[3][i] = z[i] * (-terms->H_y * y_t);
+    by_t[4][i] = z[i] * (-terms->V_w * y_t);
   }
 }
 
@@ -89,58 +89,62 @@ always void node_derivatives(const carom_terms *k, const part *z, const part *u_
 _Static_assert((int)BY_MU == NODES / 2, "the upper half");
 
 /* z times the derivatives of the rates by the parameters, at each node over the variables. */
-always void parameter_derivatives(const carom_terms *k, const carom_variation *g, const part *z,
-                                  const part *u_x, const part *u_y, const part *t_x,
+always void parameter_derivatives(const carom_terms *terms, const carom_variation *variation,
+                                  const part *z, const part *u_x, const part *u_y, const part *t_x,
                                   const part *t_y, const part *w, const part *per,
                                   table *by_parameters) {
-#define D(name) PART(g->d_terms[offsetof(carom_terms, name) / sizeof(double)], i)
-  for (int j = 0; j < NODES; j++) {
-    const part a_x = splat(AT(u_x, j)), a_y = splat(AT(u_y, j)), b_x = splat(AT(t_x, j)),
-               b_y = splat(AT(t_y, j));
-    const part w_j = splat(AT(w, j)), scale = splat(AT(z, j)), x = w_j * b_x, y = w_j * b_y,
-               held = splat(AT(per, j));
+#define TERM(name) PART(variation->d_terms[offsetof(carom_terms, name) / sizeof(double)], i)
+  for (int node = 0; node < NODES; node++) {
+    const part a_x = splat(AT(u_x, node)), a_y = splat(AT(u_y, node)), b_x = splat(AT(t_x, node)),
+               b_y = splat(AT(t_y, node));
+    const part w_j = splat(AT(w, node)), scale = splat(AT(z, node)), x = w_j * b_x, y = w_j * b_y,
+               held = splat(AT(per, node));
     EACH_PARAMETER {
-      const part d_w = madd(y, D(w_t), madd(a_y, D(w_u), D(w_0))) * held, d_x = d_w * b_x,
+      const part d_w = madd(y, TERM(w_t), madd(a_y, TERM(w_u), TERM(w_0))) * held, d_x = d_w * b_x,
                  d_y = d_w * b_y;
-      by_parameters[OF_A_X][j][i] = scale * madd(a_x, D(S_x), -madd(x, D(C_x), k->C_x * d_x));
-      by_parameters[OF_A_Y][j][i] =
-          scale * (madd(a_y, D(S_y), D(A_0)) - madd(y, D(C_y), k->C_y * d_y));
-      by_parameters[OF_B_X][j][i] = scale * madd(a_x, D(R_x), -madd(x, D(H_x), k->H_x * d_x));
-      by_parameters[OF_B_Y][j][i] =
-          scale * (madd(a_y, D(R_y), D(B_0)) - madd(y, D(H_y), k->H_y * d_y));
-      by_parameters[OF_V][j][i] =
-          scale * (madd(a_y, D(V_u), D(V_0)) - madd(y, D(V_w), k->V_w * d_y));
+      by_parameters[OF_A_X][node][i] =
+          scale * madd(a_x, TERM(S_x), -madd(x, TERM(C_x), terms->C_x * d_x));
+      by_parameters[OF_A_Y][node][i] =
+          scale * (madd(a_y, TERM(S_y), TERM(A_0)) - madd(y, TERM(C_y), terms->C_y * d_y));
+      by_parameters[OF_B_X][node][i] =
+          scale * madd(a_x, TERM(R_x), -madd(x, TERM(H_x), terms->H_x * d_x));
+      by_parameters[OF_B_Y][node][i] =
+          scale * (madd(a_y, TERM(R_y), TERM(B_0)) - madd(y, TERM(H_y), terms->H_y * d_y));
+      by_parameters[OF_V][node][i] =
+          scale * (madd(a_y, TERM(V_u), TERM(V_0)) - madd(y, TERM(V_w), terms->V_w * d_y));
     }
   }
-#undef D
+#undef TERM
 }
 
 /* The product of a matrix by columns with a matrix by rows, whose numbers in a row belong to the
  * variables. */
-always void multiply(matrix m, table f, table product) {
-  for (int k = 0; k < NODES; k++) {
+always void multiply(matrix columns, table factor, table product) {
+  for (int row = 0; row < NODES; row++) {
     nodes sum;
-    EACH sum[i] = splat(m[0][k]) * f[0][i];
-    unrolled for (int j = 1; j < NODES; j++) EACH sum[i] = madd(splat(m[j][k]), f[j][i], sum[i]);
-    EACH product[k][i] = sum[i];
+    EACH sum[i] = splat(columns[0][row]) * factor[0][i];
+    unrolled for (int node = 1; node < NODES; node++) {
+      EACH sum[i] = madd(splat(columns[node][row]), factor[node][i], sum[i]);
+    }
+    EACH product[row][i] = sum[i];
   }
 }
 
 /* u x (da_0 + M z da'), where `by` has z da' of the parameters. */
-always void right_sides(nodes *d, table *by_parameters, int first, bool parameters, const part *u_x,
-                        const part *u_y, table right) {
-  for (int k = 0; k < NODES; k++) {
+always void right_sides(nodes *changes, table *by_parameters, int first, bool parameters,
+                        const part *u_x, const part *u_y, table right) {
+  for (int row = 0; row < NODES; row++) {
     nodes x, y;
     EACH {
-      x[i] = d[first][i];
-      y[i] = d[first + 1][i];
+      x[i] = changes[first][i];
+      y[i] = changes[first + 1][i];
     }
     if (parameters)
-      unrolled for (int j = 0; j < NODES; j++) EACH_PARAMETER {
-        x[i] = madd(splat(INTEGRAL[j][k]), by_parameters[first][j][i], x[i]);
-        y[i] = madd(splat(INTEGRAL[j][k]), by_parameters[first + 1][j][i], y[i]);
+      unrolled for (int node = 0; node < NODES; node++) EACH_PARAMETER {
+        x[i] = madd(splat(INTEGRAL[node][row]), by_parameters[first][node][i], x[i]);
+        y[i] = madd(splat(INTEGRAL[node][row]), by_parameters[first + 1][node][i], y[i]);
       }
-    EACH right[k][i] = madd(splat(AT(u_x, k)), y[i], splat(-AT(u_y, k)) * x[i]);
+    EACH right[row][i] = madd(splat(AT(u_x, row)), y[i], splat(-AT(u_y, row)) * x[i]);
   }
 }
 
@@ -178,106 +182,111 @@ always void split_shift(const carom_trajectory *path, const carom_point *start, 
   if (!(square > 0))
     return;
   EACH alpha[i] = (x * d[split][i] + y * d[split + 1][i]) / square;
-  for (int r = 0; r < CAROM_VARIED; r++)
-    EACH d[r][i] -= alpha[i] * rate[r];
+  for (int row = 0; row < CAROM_VARIED; row++)
+    EACH d[row][i] -= alpha[i] * rate[row];
 }
 
-always void take_rates(const carom_trajectory *path, bool driving_slips, step_rates *n) {
-  const carom_variation *g = path->variation;
-  const carom_kept_step *s = &g->record;
-  const carom_terms *k = &path->terms;
+always void take_rates(const carom_trajectory *path, bool driving_slips, step_rates *taken) {
+  const carom_variation *variation = path->variation;
+  const carom_kept_step *kept = &variation->record;
+  const carom_terms *terms = &path->terms;
   EACH {
-    n->z[i] = PART(s->z, i);
-    n->u_x[i] = PART(s->u_x, i);
-    n->u_y[i] = PART(s->u_y, i);
-    n->t_x[i] = PART(s->t_x, i);
-    n->t_y[i] = PART(s->t_y, i);
-    n->per[i] = 1 / (1 - k->w_t * n->t_y[i]);
-    n->w[i] = (k->w_0 + k->w_u * n->u_y[i]) * n->per[i];
+    taken->z[i] = PART(kept->z, i);
+    taken->u_x[i] = PART(kept->u_x, i);
+    taken->u_y[i] = PART(kept->u_y, i);
+    taken->t_x[i] = PART(kept->t_x, i);
+    taken->t_y[i] = PART(kept->t_y, i);
+    taken->per[i] = 1 / (1 - terms->w_t * taken->t_y[i]);
+    taken->w[i] = (terms->w_0 + terms->w_u * taken->u_y[i]) * taken->per[i];
   }
-  n->driving_slips = driving_slips;
-  n->loaded = path->regime.loaded;
-  n->parameters = (g->requests & CAROM_PARAMETERS) != 0;
-  node_derivatives(k, n->z, n->u_x, n->u_y, n->t_x, n->t_y, n->w, n->per, n->by_u, n->by_t);
-  if (n->parameters)
-    parameter_derivatives(k, g, n->z, n->u_x, n->u_y, n->t_x, n->t_y, n->w, n->per,
-                          n->by_parameters);
+  taken->driving_slips = driving_slips;
+  taken->loaded = path->regime.loaded;
+  taken->parameters = (variation->requests & CAROM_PARAMETERS) != 0;
+  node_derivatives(terms, taken->z, taken->u_x, taken->u_y, taken->t_x, taken->t_y, taken->w,
+                   taken->per, taken->by_u, taken->by_t);
+  if (taken->parameters)
+    parameter_derivatives(terms, variation, taken->z, taken->u_x, taken->u_y, taken->t_x,
+                          taken->t_y, taken->w, taken->per, taken->by_parameters);
 }
 
 /* The inverse of the block of u, and phi as far as it does not depend on psi. */
-always void solve_u(const carom_terms *k, const carom_point *start, step_rates *n, nodes *d,
+always void solve_u(const carom_terms *terms, const carom_point *start, step_rates *taken, nodes *d,
                     matrix of_u, table phi) {
   table right;
   nodes rate_x, rate_y, along;
   EACH { /* the rates of the slip, z a' */
-    rate_x[i] = n->z[i] * (k->S_x * n->u_x[i] - k->C_x * n->w[i] * n->t_x[i]);
-    rate_y[i] = n->z[i] * (k->A_0 + k->S_y * n->u_y[i] - k->C_y * n->w[i] * n->t_y[i]);
+    rate_x[i] =
+        taken->z[i] * (terms->S_x * taken->u_x[i] - terms->C_x * taken->w[i] * taken->t_x[i]);
+    rate_y[i] = taken->z[i] * (terms->A_0 + terms->S_y * taken->u_y[i] -
+                               terms->C_y * taken->w[i] * taken->t_y[i]);
   }
-  lengths(start->a_x, start->a_y, rate_x, rate_y, n->u_x, n->u_y, along);
-  block(n->u_x, n->u_y, n->by_u[OF_A_X], n->by_u[OF_A_Y], along, of_u);
+  lengths(start->a_x, start->a_y, rate_x, rate_y, taken->u_x, taken->u_y, along);
+  block(taken->u_x, taken->u_y, taken->by_u[OF_A_X], taken->by_u[OF_A_Y], along, of_u);
   invert(of_u);
-  right_sides(d, n->by_parameters, OF_A_X, n->parameters, n->u_x, n->u_y, right);
+  right_sides(d, taken->by_parameters, OF_A_X, taken->parameters, taken->u_x, taken->u_y, right);
   multiply(of_u, right, phi);
 }
 
 /* Takes from the block and the right sides of t what phi takes from them: the Schur complement is
  * what remains of the block. of_ut becomes the product of the inverse and its block. */
-always void eliminate_u(step_rates *n, matrix of_u, table phi, matrix of_ut, matrix of_t,
+always void eliminate_u(step_rates *taken, matrix of_u, table phi, matrix of_ut, matrix of_t,
                         table right) {
   matrix of_tu;
   table share;
-  block(n->u_x, n->u_y, n->by_t[OF_A_X], n->by_t[OF_A_Y], NULL, of_ut);
-  block(n->t_x, n->t_y, n->by_u[OF_B_X], n->by_u[OF_B_Y], NULL, of_tu);
+  block(taken->u_x, taken->u_y, taken->by_t[OF_A_X], taken->by_t[OF_A_Y], NULL, of_ut);
+  block(taken->t_x, taken->t_y, taken->by_u[OF_B_X], taken->by_u[OF_B_Y], NULL, of_tu);
 
   /* column by column */
-  for (int j = 0; j < NODES; j++) {
+  for (int node = 0; node < NODES; node++) {
     nodes column, product;
-    EACH column[i] = PART(of_ut[j], i);
+    EACH column[i] = PART(of_ut[node], i);
     apply((const double(*)[NODES])of_u, column, product);
-    EACH((part_of_row *)of_ut[j])[i] = (part_of_row)product[i];
+    EACH((part_of_row *)of_ut[node])[i] = (part_of_row)product[i];
     apply((const double(*)[NODES])of_tu, product, column);
-    EACH((part_of_row *)of_t[j])[i] -= (part_of_row)column[i];
+    EACH((part_of_row *)of_t[node])[i] -= (part_of_row)column[i];
   }
 
   /* likewise of the right sides */
   multiply(of_tu, phi, share);
-  for (int j = 0; j < NODES; j++)
-    EACH right[j][i] -= share[j][i];
+  for (int row = 0; row < NODES; row++)
+    EACH right[row][i] -= share[row][i];
 }
 
 /* psi by the Schur complement, and what psi takes from phi. */
-always void solve_t(const carom_terms *k, const carom_point *start, step_rates *n, nodes *d,
+always void solve_t(const carom_terms *terms, const carom_point *start, step_rates *taken, nodes *d,
                     matrix of_u, table phi, table psi) {
   matrix of_t, of_ut;
   table right;
   nodes rate_x, rate_y, along;
   EACH { /* the rates of the slip, z b' */
-    rate_x[i] = n->z[i] * (k->R_x * n->u_x[i] - k->H_x * n->w[i] * n->t_x[i]);
-    rate_y[i] = n->z[i] * (k->B_0 + k->R_y * n->u_y[i] - k->H_y * n->w[i] * n->t_y[i]);
+    rate_x[i] =
+        taken->z[i] * (terms->R_x * taken->u_x[i] - terms->H_x * taken->w[i] * taken->t_x[i]);
+    rate_y[i] = taken->z[i] * (terms->B_0 + terms->R_y * taken->u_y[i] -
+                               terms->H_y * taken->w[i] * taken->t_y[i]);
   }
-  lengths(start->b_x, start->b_y, rate_x, rate_y, n->t_x, n->t_y, along);
-  block(n->t_x, n->t_y, n->by_t[OF_B_X], n->by_t[OF_B_Y], along, of_t);
-  right_sides(d, n->by_parameters, OF_B_X, n->parameters, n->t_x, n->t_y, right);
-  if (n->driving_slips)
-    eliminate_u(n, of_u, phi, of_ut, of_t, right);
+  lengths(start->b_x, start->b_y, rate_x, rate_y, taken->t_x, taken->t_y, along);
+  block(taken->t_x, taken->t_y, taken->by_t[OF_B_X], taken->by_t[OF_B_Y], along, of_t);
+  right_sides(d, taken->by_parameters, OF_B_X, taken->parameters, taken->t_x, taken->t_y, right);
+  if (taken->driving_slips)
+    eliminate_u(taken, of_u, phi, of_ut, of_t, right);
   invert(of_t);
   multiply(of_t, right, psi);
-  if (!n->driving_slips)
+  if (!taken->driving_slips)
     return;
   multiply(of_ut, psi, right);
-  for (int j = 0; j < NODES; j++)
-    EACH phi[j][i] -= right[j][i];
+  for (int row = 0; row < NODES; row++)
+    EACH phi[row][i] -= right[row][i];
 }
 
 /* The changes of all rows over the step, by quadrature, where `end` of W begins as the change that
  * v brings about. Returns the estimate of the error, relative: that of the solver, the coefficient
  * of the highest Legendre polynomial of the rates. */
-always double integrate_rates(const carom_variation *g, step_rates *n, double length, table phi,
-                              table psi, nodes *end) {
+always double integrate_rates(const carom_variation *variation, step_rates *taken, double length,
+                              table phi, table psi, nodes *end) {
   /* weights of the integral of an integral, which W is */
   double to_end[NODES];
-  for (int j = 0; j < NODES; j++)
-    to_end[j] = WEIGHT[j] * (length - g->record.p[j]);
+  for (int node = 0; node < NODES; node++)
+    to_end[node] = WEIGHT[node] * (length - variation->record.p[node]);
   nodes size, error;
   EACH {
     size[i] = splat(1e-300);
@@ -285,31 +294,32 @@ always double integrate_rates(const carom_variation *g, step_rates *n, double le
   }
 
   /* each rate at the nodes, by all that it depends on: its sum, and its highest coefficient */
-  for (int r = 0; r < 5; r++) {
+  for (int row = 0; row < 5; row++) {
     nodes highest;
-    EACH end[r][i] = highest[i] = splat(0);
-    for (int j = 0; j < NODES; j++) {
-      nodes x;
-      EACH x[i] = splat(0);
-      if (n->parameters)
-        EACH_PARAMETER x[i] = n->by_parameters[r][j][i];
-      if (n->driving_slips)
-        EACH x[i] = madd(splat(AT(n->by_u[r], j)), phi[j][i], x[i]);
-      if (n->loaded)
-        EACH x[i] = madd(splat(AT(n->by_t[r], j)), psi[j][i], x[i]);
+    EACH end[row][i] = highest[i] = splat(0);
+    for (int node = 0; node < NODES; node++) {
+      nodes rate;
+      EACH rate[i] = splat(0);
+      if (taken->parameters)
+        EACH_PARAMETER rate[i] = taken->by_parameters[row][node][i];
+      if (taken->driving_slips)
+        EACH rate[i] = madd(splat(AT(taken->by_u[row], node)), phi[node][i], rate[i]);
+      if (taken->loaded)
+        EACH rate[i] = madd(splat(AT(taken->by_t[row], node)), psi[node][i], rate[i]);
 
       /* the sums, and for W that of v once more */
       EACH {
-        end[r][i] = madd(splat(WEIGHT[j]), x[i], end[r][i]);
-        highest[i] = madd(splat(HIGHEST[j]), x[i], highest[i]);
-        if (r == OF_V)
-          end[OF_W][i] = madd(splat(to_end[j]), x[i], end[OF_W][i]);
+        end[row][i] = madd(splat(WEIGHT[node]), rate[i], end[row][i]);
+        highest[i] = madd(splat(HIGHEST[node]), rate[i], highest[i]);
+        if (row == OF_V)
+          end[OF_W][i] = madd(splat(to_end[node]), rate[i], end[OF_W][i]);
       }
     }
 
     /* the largest derivative of all rows, and the largest coefficient */
     EACH {
-      size[i] = greater(greater(magnitude(PART(g->d[r], i)), magnitude(end[r][i])), size[i]);
+      size[i] =
+          greater(greater(magnitude(PART(variation->d[row], i)), magnitude(end[row][i])), size[i]);
       error[i] = greater(magnitude(highest[i]), error[i]);
     }
   }
@@ -326,26 +336,26 @@ always double limit_of_step(bool stiff, int vanishes) {
 
 /* The rates at the end, which the next step needs. The direction of a slip that is zero there is
  * that of the polynomial. */
-always void take_end_rates(carom_trajectory *path, const step_rates *n) {
-  carom_variation *g = path->variation;
-  const double last[4] = {dot(AT_END, n->u_x), dot(AT_END, n->u_y), dot(AT_END, n->t_x),
-                          dot(AT_END, n->t_y)};
-  carom_variation_leads(&path->point, last, g->lead);
-  carom_variation_rates(&path->terms, g->lead, path->point.v, g->rate);
+always void take_end_rates(carom_trajectory *path, const step_rates *taken) {
+  carom_variation *variation = path->variation;
+  const double last[4] = {dot(AT_END, taken->u_x), dot(AT_END, taken->u_y), dot(AT_END, taken->t_x),
+                          dot(AT_END, taken->t_y)};
+  carom_variation_leads(&path->point, last, variation->lead);
+  carom_variation_rates(&path->terms, variation->lead, path->point.v, variation->rate);
 }
 
 /* After a step from `start`: see variation.h. Vectors over the nodes, and those over the
  * variables, have eight numbers. */
 static double variation_step(carom_trajectory *path, const carom_point *start, bool driving_slips,
                              bool stiff, int vanishes) {
-  carom_variation *g = path->variation;
+  carom_variation *variation = path->variation;
   const double length = path->point.p - start->p;
   carom_variation_begin_regime(path);
 
   /* the derivatives at the start, without a shift along the motion */
   nodes alpha, d[CAROM_VARIED];
-  for (int r = 0; r < CAROM_VARIED; r++)
-    EACH d[r][i] = PART(g->d[r], i);
+  for (int row = 0; row < CAROM_VARIED; row++)
+    EACH d[row][i] = PART(variation->d[row], i);
   EACH alpha[i] = splat(0);
   const int split = split_slip(start, driving_slips, path->regime.loaded, vanishes);
   if (split >= 0)
@@ -353,34 +363,34 @@ static double variation_step(carom_trajectory *path, const carom_point *start, b
 
   /* the angles: of u as if t did not change, of t by the Schur complement, and the change of u
    * by t */
-  step_rates n;
+  step_rates taken;
   matrix of_u;
   table phi, psi;
-  take_rates(path, driving_slips, &n);
-  if (n.driving_slips)
-    solve_u(&path->terms, start, &n, d, of_u, phi);
-  if (n.loaded)
-    solve_t(&path->terms, start, &n, d, of_u, phi, psi);
+  take_rates(path, driving_slips, &taken);
+  if (taken.driving_slips)
+    solve_u(&path->terms, start, &taken, d, of_u, phi);
+  if (taken.loaded)
+    solve_t(&path->terms, start, &taken, d, of_u, phi, psi);
 
   /* refused where the estimate is too large, and the step can be shorter */
   nodes end[CAROM_VARIED];
   EACH end[OF_W][i] = length * d[OF_V][i];
-  const double error = integrate_rates(g, &n, length, phi, psi, end);
+  const double error = integrate_rates(variation, &taken, length, phi, psi, end);
   const double worst = error * error / limit_of_step(stiff, vanishes);
   if (worst > 1 && length > SHORTEST)
     return worst;
 
   /* the derivatives at the end, with the shift along the motion there */
-  take_end_rates(path, &n);
+  take_end_rates(path, &taken);
   double sum = 0;
-  for (int r = 0; r < CAROM_VARIED; r++) {
+  for (int row = 0; row < CAROM_VARIED; row++) {
     EACH {
-      d[r][i] += end[r][i] + alpha[i] * g->rate[r];
-      *(part_of_row *)&g->d[r][NODES / PARTS * i] = (part_of_row)d[r][i];
+      d[row][i] += end[row][i] + alpha[i] * variation->rate[row];
+      *(part_of_row *)&variation->d[row][NODES / PARTS * i] = (part_of_row)d[row][i];
     }
-    sum += dot(WEIGHT, d[r]);
+    sum += dot(WEIGHT, d[row]);
   }
-  g->lost |= !(fabs(sum) < INFINITY);
+  variation->lost |= !(fabs(sum) < INFINITY);
   return 0;
 }
 

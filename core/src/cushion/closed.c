@@ -33,31 +33,36 @@
 
 #include <stdbool.h>
 
-void carom_apply_han(carom_contact *c) {
-  const double v = c->v_y;
-  c->e = carom_limited(0.0, 0.39 + 0.257 * v - 0.044 * v * v);
-  c->mu_w = carom_limited(0.0, 0.471 - 0.241 * carom_atan(fabs(c->v_x) / v));
+void carom_apply_han(carom_contact *contact) {
+  /* fits by the speed into the cushion, m/s, and by the angle of incidence, rad */
+  const double speed = contact->v_y;
+  contact->e = carom_limited(0.0, 0.39 + 0.257 * speed - 0.044 * speed * speed);
+  const double angle = carom_atan(fabs(contact->v_x) / speed);
+  contact->mu_w = carom_limited(0.0, 0.471 - 0.241 * angle);
 }
 
-carom_status carom_han(carom_contact *c) {
-  const double s_x = carom_slip_x(c), s_t = carom_slip_t(c), slip = sqrt(s_x * s_x + s_t * s_t);
-  const double P = (1 + c->e) * (c->v_y * c->cosine), most = c->mu_w * P;
+carom_status carom_han(carom_contact *contact) {
+  /* friction stops the slip, or slides to the end */
+  const double s_x = carom_slip_x(contact), s_t = carom_slip_t(contact);
+  const double slip = sqrt(s_x * s_x + s_t * s_t);
+  const double P = (1 + contact->e) * (contact->v_y * contact->cosine), most = contact->mu_w * P;
   const double share = slip <= 3.5 * most ? 2.0 / 7.0 : most / slip;
-  const carom_impulse q = {.P = P, .f_x = -share * s_x, .f_t = -share * s_t};
-  carom_push(c, &q);
+  const carom_impulse impulse = {.P = P, .f_x = -share * s_x, .f_t = -share * s_t};
+  carom_push(contact, &impulse);
   return CAROM_OK;
 }
 
-void carom_apply_speed(carom_contact *c, const carom_cushion_options *opt) {
-  const double L = c->log_v;
+void carom_apply_speed(carom_contact *contact, const carom_cushion_options *opt) {
+  const double log_speed = contact->log_v;
   if (!carom_absent(opt->restitution_log) || !carom_absent(opt->restitution_log2))
-    c->e = carom_limited(c->e, c->e + opt->restitution_log * L +
-                                   opt->restitution_log2 * carom_lesser(L * L, 1));
+    contact->e = carom_limited(contact->e,
+                               contact->e + opt->restitution_log * log_speed +
+                                   opt->restitution_log2 * carom_lesser(log_speed * log_speed, 1));
   if (!carom_absent(opt->mu_log))
-    c->mu_w = carom_limited(c->mu_w, c->mu_w + opt->mu_log * L);
+    contact->mu_w = carom_limited(contact->mu_w, contact->mu_w + opt->mu_log * log_speed);
 }
 
-carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
+carom_status carom_smooth(carom_contact *contact, const carom_cushion_options *opt) {
   /* the constants of the caller, or those that were measured */
   const bool has_width = opt->smooth_q > 0;
 #define NUMBER(member, usual) const double member = opt->member + (has_width ? 0 : (usual));
@@ -67,13 +72,13 @@ carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
                g = smooth_g, g_log = smooth_g_log, e_d = smooth_e;
 
   /* the slips, and restitution by how far the surface moves down the nose, -1 to 1 */
-  const double s_x = carom_slip_x(c), s_t = carom_slip_t(c);
-  double e = c->e;
+  const double s_x = carom_slip_x(contact), s_t = carom_slip_t(contact);
+  double e = contact->e;
   if (!carom_absent(e_d))
-    e = carom_limited(e, e - e_d * s_t / sqrt(s_t * s_t + c->v_y * c->v_y));
+    e = carom_limited(e, e - e_d * s_t / sqrt(s_t * s_t + contact->v_y * contact->v_y));
 
   /* friction without a limit, and the limit */
-  const double once = c->v_y * c->cosine, P = (1 + e) * once, most = c->mu_w * P;
+  const double once = contact->v_y * contact->cosine, P = (1 + e) * once, most = contact->mu_w * P;
   const double F_x = 2.0 / 7.0 * C_x * s_x, F_t = 2.0 / 7.0 * C_t * s_t;
   const double across = F_t / (1 + a), square = F_x * F_x + across * across, limit = most * most;
 
@@ -95,7 +100,7 @@ carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
   if (!carom_absent(g) || !carom_absent(g_log)) {
     const double least = 4 * limit;
     const double slides = square + least > 0 ? square / (square + least) : 0;
-    more += P * (g + g_log * c->log_v) * slides;
+    more += P * (g + g_log * contact->log_v) * slides;
     if (more > 2 * once) {
       const double D_x = sigma * C_x, D_t = sigma * C_t;
       const double lost = (s_x * s_x * D_x * (2 - D_x) + s_t * s_t * D_t * (2 - D_t)) / 7;
@@ -104,11 +109,11 @@ carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
     more = carom_greater(more, 0);
   }
   const carom_impulse impulse = {.P = more, .f_x = -sigma * F_x, .f_t = -sigma * F_t};
-  carom_push(c, &impulse);
+  carom_push(contact, &impulse);
   return CAROM_OK;
 }
 
-carom_status carom_mirror(carom_contact *c) {
-  c->v_y *= -c->e;
+carom_status carom_mirror(carom_contact *contact) {
+  contact->v_y *= -contact->e;
   return CAROM_OK;
 }

@@ -1,10 +1,17 @@
 /* A ball at a cushion in the frame of the impact, for every model of core/src/cushion.
  *
- * x along the cushion, y horizontally into it, z up, right-handed. The nose touches the ball at
- * I, in the direction
- * n = (0, cos theta, sin theta) from its centre; t = (0, -sin theta, cos theta) points up along
- * the nose. C is the contact with the cloth. Spins are taken times the radius, so all six
- * numbers are speeds, m/s:
+ *      z
+ *      |           ___       ______
+ *      |         /     \   /           from the side: x points to the reader. The height of I above
+ *      |        |       | I  cushion   C is that of the nose, and sin theta = height / R - 1
+ *      |        |   o   |  \______
+ *      |         \     /
+ *      +--- y  ____\_C_/____________ cloth
+ *
+ * x along the cushion, y horizontally into it, z up, right-handed. The nose touches the ball at I,
+ * in the direction n = (0, cos theta, sin theta) from its centre; t = (0, -sin theta, cos theta)
+ * points up along the nose. C is the contact with the cloth. Spins are taken times the radius, so
+ * all six numbers are speeds, m/s:
  *
  *     slip at I:   s_x = v_x + W_y sin theta - W_z cos theta        s_t = W_x - v_y sin theta
  *     slip at C:   c_x = v_x - W_y                                  c_y = v_y + W_x
@@ -35,28 +42,35 @@ typedef struct carom_impulse {
   double P, f_x, f_t, F_x, F_y; /* over the mass, m/s */
 } carom_impulse;
 
-static inline void carom_push(carom_contact *c, const carom_impulse *q) {
-  c->v_x += q->f_x + q->F_x;
-  c->v_y += q->F_y - q->P * c->cosine - q->f_t * c->sine;
-  c->W_x += 2.5 * (q->f_t + q->F_y);
-  c->W_y += 2.5 * (q->f_x * c->sine - q->F_x);
-  c->W_z -= 2.5 * (q->f_x * c->cosine);
+/* R times the change of w by an impulse along the surface, over that of v: m R^2 / I of a solid
+ * ball. A macro, since the copy with derivatives would differentiate a variable. */
+#define CAROM_SPIN_PER_IMPULSE 2.5
+/* m: the distance that pooltool leaves between a ball and a nose that touch. */
+#define CAROM_POOLTOOL_GAP 1e-6
+
+/* Changes the motion by an impulse, by the equations of the head. */
+static inline void carom_push(carom_contact *contact, const carom_impulse *impulse) {
+  contact->v_x += impulse->f_x + impulse->F_x;
+  contact->v_y += impulse->F_y - impulse->P * contact->cosine - impulse->f_t * contact->sine;
+  contact->W_x += CAROM_SPIN_PER_IMPULSE * (impulse->f_t + impulse->F_y);
+  contact->W_y += CAROM_SPIN_PER_IMPULSE * (impulse->f_x * contact->sine - impulse->F_x);
+  contact->W_z -= CAROM_SPIN_PER_IMPULSE * (impulse->f_x * contact->cosine);
 }
 
-static inline double carom_slip_x(const carom_contact *c) {
-  return c->v_x + (c->W_y * c->sine - c->W_z * c->cosine);
+static inline double carom_slip_x(const carom_contact *contact) {
+  return contact->v_x + (contact->W_y * contact->sine - contact->W_z * contact->cosine);
 }
 
-static inline double carom_slip_t(const carom_contact *c) {
-  return c->W_x - c->v_y * c->sine;
+static inline double carom_slip_t(const carom_contact *contact) {
+  return contact->W_x - contact->v_y * contact->sine;
 }
 
-static inline double carom_cloth_x(const carom_contact *c) {
-  return c->v_x - c->W_y;
+static inline double carom_cloth_x(const carom_contact *contact) {
+  return contact->v_x - contact->W_y;
 }
 
-static inline double carom_cloth_y(const carom_contact *c) {
-  return c->v_y + c->W_x;
+static inline double carom_cloth_y(const carom_contact *contact) {
+  return contact->v_y + contact->W_x;
 }
 
 /* Coulomb's friction on a ball whose surface slips, for a normal impulse P: it stops the slip, or
@@ -85,31 +99,34 @@ static inline carom_cushion_frame carom_cushion_frame_of(const carom_cushion_imp
 static inline carom_contact carom_to_cushion(const carom_cushion_frame *frame,
                                              const carom_cushion_impact *in,
                                              const carom_cushion_options *opt) {
-  const double X = frame->y_y, Y = frame->y_x, R = in->radius;
-  carom_contact c = {.v_x = in->v[0] * X - in->v[1] * Y,
-                     .v_y = in->v[0] * Y + in->v[1] * X,
-                     .W_x = R * (in->w[0] * X - in->w[1] * Y),
-                     .W_y = R * (in->w[0] * Y + in->w[1] * X),
-                     .W_z = R * in->w[2],
-                     .sine = (in->height - R) / R,
-                     .mu_s = in->mu_slide,
-                     .mu_w = in->mu_cushion,
-                     .e = in->restitution};
-  c.cosine = sqrt((1 - c.sine) * (1 + c.sine));
+  const double y_y = frame->y_y, y_x = frame->y_x, radius = in->radius;
+  carom_contact contact = {.v_x = in->v[0] * y_y - in->v[1] * y_x,
+                           .v_y = in->v[0] * y_x + in->v[1] * y_y,
+                           .W_x = radius * (in->w[0] * y_y - in->w[1] * y_x),
+                           .W_y = radius * (in->w[0] * y_x + in->w[1] * y_y),
+                           .W_z = radius * in->w[2],
+                           .sine = (in->height - radius) / radius,
+                           .mu_s = in->mu_slide,
+                           .mu_w = in->mu_cushion,
+                           .e = in->restitution};
+  contact.cosine = sqrt((1 - contact.sine) * (1 + contact.sine));
   if (opt->model == CAROM_CUSHION_STRONGE && opt->convention == CAROM_CONVENTION_POOLTOOL) {
-    const double up = in->height - R, out = R + in->jaw_radius + 1e-6,
+    const double up = in->height - radius, out = radius + in->jaw_radius + CAROM_POOLTOOL_GAP,
                  length = sqrt(up * up + out * out);
-    c.sine = up / length;
-    c.cosine = out / length;
+    contact.sine = up / length;
+    contact.cosine = out / length;
   }
-  return c;
+  return contact;
 }
 
-static inline void carom_from_cushion(const carom_cushion_frame *frame, const carom_contact *c,
-                                      double R, carom_motion *out) {
-  const double X = frame->y_y, Y = frame->y_x, w_x = c->W_x / R, w_y = c->W_y / R;
-  *out = (carom_motion){.v = {c->v_x * X + c->v_y * Y, c->v_y * X - c->v_x * Y, 0},
-                        .w = {w_x * X + w_y * Y, w_y * X - w_x * Y, c->W_z / R}};
+static inline void carom_from_cushion(const carom_cushion_frame *frame,
+                                      const carom_contact *contact, double radius,
+                                      carom_motion *out) {
+  const double y_y = frame->y_y, y_x = frame->y_x;
+  const double w_x = contact->W_x / radius, w_y = contact->W_y / radius;
+  *out = (carom_motion){
+      .v = {contact->v_x * y_y + contact->v_y * y_x, contact->v_y * y_y - contact->v_x * y_x, 0},
+      .w = {w_x * y_y + w_y * y_x, w_y * y_y - w_x * y_x, contact->W_z / radius}};
 }
 
 #endif

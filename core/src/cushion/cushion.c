@@ -32,20 +32,22 @@ void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt) {
     carom_apply_speed(contact, opt);
 }
 
-void carom_lose_roll(const carom_cushion_options *opt, double R, const carom_cushion_frame *frame,
-                     double log_v, const double v[3], double w[3]) {
+void carom_lose_roll(const carom_cushion_options *opt, double radius,
+                     const carom_cushion_frame *frame, double log_v, const double v[3],
+                     double w[3]) {
   if (carom_absent(opt->roll_loss) && carom_absent(opt->roll_loss_log))
     return;
-  const double n[2] = {frame->y_x, frame->y_y};
-  const double v_t = v[0] * n[1] - v[1] * n[0], roll = R * carom_plane_dot(w, n);
+  const double normal[2] = {frame->y_x, frame->y_y};
+  const double v_t = v[0] * normal[1] - v[1] * normal[0],
+               roll = radius * carom_plane_dot(w, normal);
   const double share = carom_absent(opt->roll_loss_log)
                            ? opt->roll_loss
                            : opt->roll_loss + opt->roll_loss_log * log_v;
   /* a share of 0 has derivatives by the numbers that make it */
   const double pull = carom_limited(opt->roll_loss, share) * v_t;
   const double loss = share == 0.0 && v_t * roll > 0.0 ? pull : carom_minmod(pull, roll);
-  for (int k = 0; k < 2; k++)
-    w[k] -= loss / R * n[k] + 0.0; /* without a loss w keeps its bits */
+  for (int axis = 0; axis < 2; axis++)
+    w[axis] -= loss / radius * normal[axis] + 0.0; /* without a loss w keeps its bits */
 }
 
 carom_status carom_cushion_solve(const carom_cushion_impact *in, const carom_cushion_options *opt,
@@ -95,14 +97,14 @@ typedef struct batch {
 
 /* Rows from `first` on; returns the first in error, or `end`. */
 static size_t solve_rows(const void *context, size_t first, size_t end) {
-  const batch *b = (const batch *)context;
+  const batch *work = (const batch *)context;
   size_t first_bad = end;
-  for (size_t k = first; k < end; k++) {
-    const carom_status status = carom_cushion_solve(&b->in[k], b->opt, &b->out[k]);
-    if (b->status != NULL)
-      b->status[k] = (int8_t)status;
+  for (size_t row = first; row < end; row++) {
+    const carom_status status = carom_cushion_solve(&work->in[row], work->opt, &work->out[row]);
+    if (work->status != NULL)
+      work->status[row] = (int8_t)status;
     if (status < 0 && first_bad == end)
-      first_bad = k;
+      first_bad = row;
   }
   return first_bad;
 }

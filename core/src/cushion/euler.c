@@ -30,69 +30,72 @@ static void slip_direction(double x, double y, bool pooltool, double *to_x, doub
   }
 }
 
-static void euler_step(carom_contact *c, double P, bool pooltool) {
+static void euler_step(carom_contact *contact, double P, bool pooltool) {
   double at_x, at_t, over_x, over_y;
-  slip_direction(carom_slip_x(c), carom_slip_t(c), pooltool, &at_x, &at_t);
-  slip_direction(carom_cloth_x(c), carom_cloth_y(c), pooltool, &over_x, &over_y);
+  slip_direction(carom_slip_x(contact), carom_slip_t(contact), pooltool, &at_x, &at_t);
+  slip_direction(carom_cloth_x(contact), carom_cloth_y(contact), pooltool, &over_x, &over_y);
   /* the load on the cloth for each unit of P */
-  const double load = c->sine + c->mu_w * at_t * c->cosine, g = pooltool || load > 0 ? load : 0;
-  const carom_impulse q = {.P = P,
-                           .f_x = -c->mu_w * at_x * P,
-                           .f_t = -c->mu_w * at_t * P,
-                           .F_x = -c->mu_s * g * over_x * P,
-                           .F_y = -c->mu_s * g * over_y * P};
-  carom_push(c, &q);
+  const double load = contact->sine + contact->mu_w * at_t * contact->cosine;
+  const double borne = pooltool || load > 0 ? load : 0;
+  const carom_impulse impulse = {.P = P,
+                                 .f_x = -contact->mu_w * at_x * P,
+                                 .f_t = -contact->mu_w * at_t * P,
+                                 .F_x = -contact->mu_s * borne * over_x * P,
+                                 .F_y = -contact->mu_s * borne * over_y * P};
+  carom_push(contact, &impulse);
 }
 
 /* A step that counts. */
-static void take_euler_step(carom_contact *c, double P, bool pooltool, carom_cushion_run *run) {
-  euler_step(c, P, pooltool);
+static void take_euler_step(carom_contact *contact, double P, bool pooltool,
+                            carom_cushion_run *run) {
+  euler_step(contact, P, pooltool);
   run->impulse += P;
-  run->work += P * fabs(c->v_y) * c->cosine;
+  run->work += P * fabs(contact->v_y) * contact->cosine;
   run->steps++;
 }
 
-carom_status carom_cushion_euler(carom_contact *c, int N, double least, int pooltool, int64_t most,
-                                 carom_cushion_run *run) {
-  const double approach = c->v_y;
+carom_status carom_cushion_euler(carom_contact *contact, int N, double least, int pooltool,
+                                 int64_t most, carom_cushion_run *run) {
+  const double approach = contact->v_y;
   *run = (carom_cushion_run){.work_compression = NAN};
   /* compression */
   double P = fmax(approach / N, least);
-  for (int64_t k = 0; c->v_y > 0; k++) {
+  for (int64_t taken = 0; contact->v_y > 0; taken++) {
     if (run->steps >= most)
       return CAROM_OK;
-    if (k > (int64_t)MOST_TURNS * N)
+    if (taken > (int64_t)MOST_TURNS * N)
       return CAROM_ERROR_TOO_SLOW;
     /* a step that stays within compression is taken; the one that would end it is halved */
-    carom_contact next = *c;
+    carom_contact next = *contact;
     euler_step(&next, P, pooltool);
     if (next.v_y > 0) {
-      take_euler_step(c, P, pooltool, run);
+      take_euler_step(contact, P, pooltool, run);
       continue;
     }
     for (int halving = 0; halving < HALVINGS && run->steps < most; halving++) {
       P /= 2;
-      next = *c;
+      next = *contact;
       euler_step(&next, P, pooltool);
       if (next.v_y > 0)
-        take_euler_step(c, P, pooltool, run);
+        take_euler_step(contact, P, pooltool, run);
     }
     break;
   }
 
   /* restitution */
-  const double work_c = run->work_compression = run->work, target = c->e * c->e * work_c;
-  P = fmax(pooltool ? target / N : c->e * approach / N, least);
-  for (int64_t k = 0; run->work - work_c < target && run->steps < most; k++) {
-    if (k > (int64_t)MOST_TURNS * N)
+  const double work_c = run->work_compression = run->work,
+               target = contact->e * contact->e * work_c;
+  P = fmax(pooltool ? target / N : contact->e * approach / N, least);
+  for (int64_t taken = 0; run->work - work_c < target && run->steps < most; taken++) {
+    if (taken > (int64_t)MOST_TURNS * N)
       return CAROM_ERROR_TOO_SLOW;
     /* the last step does what is left of the work */
-    const double left = target - (run->work - work_c), speed = fabs(c->v_y) * c->cosine;
+    const double left = target - (run->work - work_c), speed = fabs(contact->v_y) * contact->cosine;
     if (speed * P > left) {
-      take_euler_step(c, left / speed, pooltool, run);
+      take_euler_step(contact, left / speed, pooltool, run);
       break;
     }
-    take_euler_step(c, P, pooltool, run);
+    take_euler_step(contact, P, pooltool, run);
   }
   return CAROM_OK;
 }

@@ -13,28 +13,32 @@
 
 #include "cushion/models.h"
 
-void carom_mathavan_begin(const carom_contact *c, double tolerance, int plain,
+void carom_mathavan_begin(const carom_contact *contact, double tolerance, int plain,
                           carom_trajectory *path) {
-  const double per = 1 / c->v_y;
-  const carom_law law = carom_mathavan_law(c);
-  carom_impact_begin(&law, tolerance, plain, per * carom_slip_x(c), per * carom_slip_t(c),
-                     per * carom_cloth_x(c), per * carom_cloth_y(c), 0, path);
+  const double per = 1 / contact->v_y;
+  const carom_law law = carom_mathavan_law(contact);
+  carom_impact_begin(&law, tolerance, plain, per * carom_slip_x(contact),
+                     per * carom_slip_t(contact), per * carom_cloth_x(contact),
+                     per * carom_cloth_y(contact), 0, path);
 }
 
-carom_impulse carom_mathavan_impulse(const carom_contact *c, const carom_trajectory *path) {
-  const carom_impulses q = carom_impact_impulses(path);
-  const double v = c->v_y;
-  return (carom_impulse){
-      .P = v * q.p, .f_x = v * q.f_x, .f_t = v * q.f_y, .F_x = v * q.F_x, .F_y = v * q.F_y};
+carom_impulse carom_mathavan_impulse(const carom_contact *contact, const carom_trajectory *path) {
+  const carom_impulses impulses = carom_impact_impulses(path);
+  const double approach = contact->v_y;
+  return (carom_impulse){.P = approach * impulses.p,
+                         .f_x = approach * impulses.f_x,
+                         .f_t = approach * impulses.f_y,
+                         .F_x = approach * impulses.F_x,
+                         .F_y = approach * impulses.F_y};
 }
 
-carom_status carom_mathavan(carom_contact *c, int plain) {
+carom_status carom_mathavan(carom_contact *contact, int plain) {
   carom_trajectory path;
-  carom_mathavan_begin(c, 1, plain, &path);
+  carom_mathavan_begin(contact, 1, plain, &path);
   const carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
   if (status == CAROM_OK) {
-    const carom_impulse impulse = carom_mathavan_impulse(c, &path);
-    carom_push(c, &impulse);
+    const carom_impulse impulse = carom_mathavan_impulse(contact, &path);
+    carom_push(contact, &impulse);
   }
   return status;
 }

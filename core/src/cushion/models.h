@@ -43,9 +43,12 @@ carom_status carom_smooth(carom_contact *contact, const carom_cushion_options *o
  * closed.c. */
 void carom_apply_speed(carom_contact *contact, const carom_cushion_options *opt);
 
+/* m/s: the speed below which restitution and friction change no more. */
+#define CAROM_LEAST_LOG_SPEED 0.1
+
 /* ln v_y, m/s; below 0.1 m/s as at 0.1. */
 static inline double carom_log_of_speed(double v_y) {
-  return carom_log(v_y > 0.1 ? v_y : (double)0.1);
+  return carom_log(v_y > CAROM_LEAST_LOG_SPEED ? v_y : CAROM_LEAST_LOG_SPEED);
 }
 
 /* Restitution and friction of a contact by the law of the options: Han's fits, or the changes by
@@ -57,8 +60,9 @@ carom_status carom_mirror(carom_contact *contact);
 /* Takes roll_loss, at 1 m/s across a cushion, of the speed v_t along it, before the impact, from
  * the roll along it, if the options have such a loss. Along t = (n_y, -n_x) a ball rolls at
  * R w . n. The roll does not change sign, so the energy falls. log_v: that of the contact. */
-void carom_lose_roll(const carom_cushion_options *opt, double R, const carom_cushion_frame *frame,
-                     double log_v, const double v[3], double w[3]);
+void carom_lose_roll(const carom_cushion_options *opt, double radius,
+                     const carom_cushion_frame *frame, double log_v, const double v[3],
+                     double w[3]);
 
 /* carom_cushion() with options that have been checked. See cushion.c. */
 carom_status carom_cushion_solve(const carom_cushion_impact *in, const carom_cushion_options *opt,
@@ -90,25 +94,25 @@ static inline carom_status carom_cushion_by_steps(carom_contact *contact,
 }
 
 /* The exact limit for the precise solver of core/src/contact_law. See mathavan.c. */
-static inline carom_law carom_mathavan_law(const carom_contact *c) {
-  const double sine = c->sine, cosine = c->cosine;
+static inline carom_law carom_mathavan_law(const carom_contact *contact) {
+  const double sine = contact->sine, cosine = contact->cosine;
   return (carom_law){.A_0 = sine * cosine,
                      .K_x = 3.5,
-                     .K_y = 2.5 + sine * sine,
-                     .C_x = 1 - 2.5 * sine,
-                     .C_y = 2.5 - sine,
+                     .K_y = CAROM_SPIN_PER_IMPULSE + sine * sine,
+                     .C_x = 1 - CAROM_SPIN_PER_IMPULSE * sine,
+                     .C_y = CAROM_SPIN_PER_IMPULSE - sine,
                      .B_0 = -cosine,
-                     .L_x = 1 - 2.5 * sine,
-                     .L_y = 2.5 - sine,
+                     .L_x = 1 - CAROM_SPIN_PER_IMPULSE * sine,
+                     .L_y = CAROM_SPIN_PER_IMPULSE - sine,
                      .H = 3.5,
                      .g_0 = sine,
                      .g_1 = -cosine,
                      .V_0 = -cosine,
                      .V_f = -sine,
                      .V_F = 1,
-                     .mu = c->mu_w,
-                     .mu_c = c->mu_s,
-                     .e = c->e};
+                     .mu = contact->mu_w,
+                     .mu_c = contact->mu_s,
+                     .e = contact->e};
 }
 
 /* Puts an impact at its start; tolerance: see impact.h. */

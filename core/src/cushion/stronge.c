@@ -41,113 +41,121 @@ static const double ROOT_WIDTH = 1e-10;
 static const double LIMIT_ABSOLUTE = 1e-8, LIMIT_RELATIVE = 1e-5;
 enum { MOST_TRIALS = 60, MOST_HALVINGS = 20 };
 
-typedef struct spring {
-  double mu, e, ratio, eta_squared, end;
-  double tau_k, U, V;
-} spring;
+/* The impact by its tangential spring, in the symbols of the head. */
+typedef struct tangential {
+  double mu, e, ratio, eta_squared;
+  double end;         /* tau at the end, (1 + e) pi/2 */
+  double tau_k, U, V; /* where it sticks: tau, and displacement and speed of the spring */
+} tangential;
 
 /* The phase of restitution. */
-static double phase(const spring *s, double tau) {
-  return s->e > 0 ? tau / s->e + HALF_PI * (1 - 1 / s->e) : 2 * HALF_PI;
+static double phase(const tangential *spring, double tau) {
+  return spring->e > 0 ? tau / spring->e + HALF_PI * (1 - 1 / spring->e) : 2 * HALF_PI;
 }
 
 /* By how much friction exceeds the force of the tangential spring: positive while it sticks. */
-static double hold(const spring *s, double tau) {
+static double hold(const tangential *spring, double tau) {
   double sine, cosine, sine_phase, unused;
-  carom_sincos(s->ratio * (tau - s->tau_k), &sine, &cosine);
-  carom_sincos(phase(s, tau), &sine_phase, &unused);
-  return s->mu * s->eta_squared * sine_phase - fabs(s->U * cosine - s->V / s->ratio * sine);
+  carom_sincos(spring->ratio * (tau - spring->tau_k), &sine, &cosine);
+  carom_sincos(phase(spring, tau), &sine_phase, &unused);
+  return spring->mu * spring->eta_squared * sine_phase -
+         fabs(spring->U * cosine - spring->V / spring->ratio * sine);
 }
 
 /* Where it slips again, in restitution: false position, with a bisection now and then. */
-static double slips_again(const spring *s) {
-  double low = fmax(s->tau_k, HALF_PI), high = s->end;
+static double slips_again(const tangential *spring) {
+  double low = fmax(spring->tau_k, HALF_PI), high = spring->end;
   /* if it has just stuck, `hold` is zero at `low` too, to rounding: go to where it is positive */
-  double g_low = s->tau_k >= HALF_PI ? 0 : hold(s, low);
-  for (int k = 1; s->tau_k >= HALF_PI && k < MOST_HALVINGS && !(g_low > 0); k++) {
-    low = s->tau_k + ldexp(high - s->tau_k, -k);
-    g_low = hold(s, low);
+  double hold_low = spring->tau_k >= HALF_PI ? 0 : hold(spring, low);
+  for (int halving = 1; spring->tau_k >= HALF_PI && halving < MOST_HALVINGS && !(hold_low > 0);
+       halving++) {
+    low = spring->tau_k + ldexp(high - spring->tau_k, -halving);
+    hold_low = hold(spring, low);
   }
-  double g_high = hold(s, high);
-  if (!(g_low > 0))
-    return fmax(s->tau_k, HALF_PI);
-  if (!(g_high < 0))
+  double hold_high = hold(spring, high);
+  if (!(hold_low > 0))
+    return fmax(spring->tau_k, HALF_PI);
+  if (!(hold_high < 0))
     return high;
-  for (int k = 0; k < MOST_TRIALS && high - low > ROOT_WIDTH; k++) {
-    const double tau = k % 3 == 2 ? 0.5 * (low + high)
-                                  : low + (high - low) * (g_low / (g_low - g_high)),
-                 g = hold(s, tau);
-    if (g == 0)
+  for (int trial = 0; trial < MOST_TRIALS && high - low > ROOT_WIDTH; trial++) {
+    const double tau = trial % 3 == 2 ? 0.5 * (low + high)
+                                      : low + (high - low) * (hold_low / (hold_low - hold_high)),
+                 hold_here = hold(spring, tau);
+    if (hold_here == 0)
       return tau;
-    *(g > 0 ? &low : &high) = tau;
-    *(g > 0 ? &g_low : &g_high) = g;
+    *(hold_here > 0 ? &low : &high) = tau;
+    *(hold_here > 0 ? &hold_low : &hold_high) = hold_here;
   }
-  return low + (high - low) * (g_low / (g_low - g_high));
+  return low + (high - low) * (hold_low / (hold_low - hold_high));
 }
 
 /* The state of the tangential spring where it sticks on the way. */
-static void stick(spring *s, double rho) {
-  const double x = rho / s->mu - BETA;
+static void stick(tangential *spring, double rho) {
+  const double beyond = rho / spring->mu - BETA;
   double sine, cosine;
-  if (x <= 0) { /* in compression */
-    s->tau_k = carom_acos(fmin(fmax(x / (s->eta_squared - BETA), -1), 1));
-    carom_sincos(s->tau_k, &sine, &cosine);
+  if (beyond <= 0) { /* in compression */
+    spring->tau_k = carom_acos(fmin(fmax(beyond / (spring->eta_squared - BETA), -1), 1));
+    carom_sincos(spring->tau_k, &sine, &cosine);
   } else {
-    const double angle = carom_acos(fmin(fmax(x / (s->eta_squared / s->e - s->e * BETA), -1), 1));
-    s->tau_k = s->e * (angle - HALF_PI * (1 - 1 / s->e));
+    const double angle = carom_acos(
+        fmin(fmax(beyond / (spring->eta_squared / spring->e - spring->e * BETA), -1), 1));
+    spring->tau_k = spring->e * (angle - HALF_PI * (1 - 1 / spring->e));
     carom_sincos(angle, &sine, &cosine);
-    cosine *= s->e;
+    cosine *= spring->e;
   }
-  s->U = -s->mu * s->eta_squared * sine;
-  s->V = rho - s->mu * BETA * (1 - cosine);
+  spring->U = -spring->mu * spring->eta_squared * sine;
+  spring->V = rho - spring->mu * BETA * (1 - cosine);
 }
 
 /* The slip after the impact, over v_n. */
 static double slip_after(double rho, double mu, double e, double ratio, bool pooltool) {
-  spring s = {.mu = mu,
-              .e = e,
-              .ratio = ratio,
-              .eta_squared = BETA / (ratio * ratio),
-              .end = HALF_PI * (1 + e),
-              .V = rho};
-  const double at_once = mu * s.eta_squared, to_the_end = mu * ((1 + e) * BETA - s.eta_squared / e);
+  tangential impact = {.mu = mu,
+                       .e = e,
+                       .ratio = ratio,
+                       .eta_squared = BETA / (ratio * ratio),
+                       .end = HALF_PI * (1 + e),
+                       .V = rho};
+  const double at_once = mu * impact.eta_squared,
+               to_the_end = mu * ((1 + e) * BETA - impact.eta_squared / e);
   if (!(mu > 0) || (rho > to_the_end && (pooltool || rho > mu * BETA)))
     return rho - mu * BETA * (1 + e);
   if (rho >= at_once)
-    stick(&s, rho);
+    stick(&impact, rho);
   double tau_s;
   if (fabs(rho - at_once) <= LIMIT_ABSOLUTE + LIMIT_RELATIVE * at_once)
     tau_s = HALF_PI;
   else if (rho <= LIMIT_ABSOLUTE ||
            (e > 0 && fabs(rho - to_the_end) <= LIMIT_ABSOLUTE + LIMIT_RELATIVE * to_the_end))
-    tau_s = s.end;
+    tau_s = impact.end;
   else
-    tau_s = slips_again(&s);
+    tau_s = slips_again(&impact);
   double sine, cosine, unused, cosine_phase;
-  carom_sincos(ratio * (tau_s - s.tau_k), &sine, &cosine);
-  carom_sincos(phase(&s, tau_s), &unused, &cosine_phase);
-  return ratio * s.U * sine + s.V * cosine + mu * BETA * e * (1 + cosine_phase);
+  carom_sincos(ratio * (tau_s - impact.tau_k), &sine, &cosine);
+  carom_sincos(phase(&impact, tau_s), &unused, &cosine_phase);
+  return ratio * impact.U * sine + impact.V * cosine + mu * BETA * e * (1 + cosine_phase);
 }
 
 /* The share of the slip that friction takes, over the mass. */
-static double friction_share(const carom_contact *c, double v_n, double slip,
+static double friction_share(const carom_contact *contact, double v_n, double slip,
                              const carom_cushion_options *opt) {
   const bool pooltool = opt->convention == CAROM_CONVENTION_POOLTOOL;
   const double ratio = carom_or_usual(opt->omega_ratio, CAROM_USUAL_OMEGA_RATIO);
   const double rho = slip / v_n;
-  return slip > 0 ? (1 - slip_after(rho, c->mu_w, c->e, ratio, pooltool) / rho) / BETA : 0;
+  return slip > 0 ? (1 - slip_after(rho, contact->mu_w, contact->e, ratio, pooltool) / rho) / BETA
+                  : 0;
 }
 
-double carom_stronge_friction(const carom_contact *c, double v_n, double slip,
+double carom_stronge_friction(const carom_contact *contact, double v_n, double slip,
                               const carom_cushion_options *opt) {
-  return friction_share(c, v_n, slip, opt) * slip;
+  return friction_share(contact, v_n, slip, opt) * slip;
 }
 
-carom_status carom_stronge(carom_contact *c, const carom_cushion_options *opt) {
-  const double s_x = carom_slip_x(c), s_t = carom_slip_t(c), slip = sqrt(s_x * s_x + s_t * s_t),
-               v_n = c->v_y * c->cosine;
-  const double share = friction_share(c, v_n, slip, opt);
-  const carom_impulse q = {.P = (1 + c->e) * v_n, .f_x = -share * s_x, .f_t = -share * s_t};
-  carom_push(c, &q);
+carom_status carom_stronge(carom_contact *contact, const carom_cushion_options *opt) {
+  const double s_x = carom_slip_x(contact), s_t = carom_slip_t(contact),
+               slip = sqrt(s_x * s_x + s_t * s_t), v_n = contact->v_y * contact->cosine;
+  const double share = friction_share(contact, v_n, slip, opt);
+  const carom_impulse impulse = {
+      .P = (1 + contact->e) * v_n, .f_x = -share * s_x, .f_t = -share * s_t};
+  carom_push(contact, &impulse);
   return CAROM_OK;
 }

@@ -6,7 +6,17 @@
  *
  * so the first zero of the parabola, s = 2 g / (-g' + sqrt(g'^2 - 4 m g)), is not behind that of
  * g, and where the parabola has no zero, g has none. As t rises, [t, T] and with it the bound
- * tighten; after some steps that were short the bound is taken on a short piece ahead only. */
+ * tighten; after some steps that were short the bound is taken on a short piece ahead only.
+ *
+ *     gap
+ *      |\
+ *      | \ .            . the parabola below g, which has its value and slope at t
+ *      |  \  .
+ *      |    \_ .  ____      its zero is before that of g, or at it
+ *      |      `-.'    \
+ *    --+---------.-----\----- time
+ *      t        t+s      zero of g
+ */
 #ifndef CAROM_SRC_MOTION_FIRST_ZERO_H
 #define CAROM_SRC_MOTION_FIRST_ZERO_H
 
@@ -14,15 +24,20 @@
 
 #include <math.h>
 
-/* The first s >= 0 at which y + y1 s + m s^2 is 0, for y > 0; infinite where it is not. Where
- * the usual form of the zero would lose half of its digits, or all of them, it has the other. */
-static inline double carom_first_fall(double y, double y1, double m) {
-  const double D = y1 * y1 - 4.0 * m * y;
-  if (!(D >= 0.0))
+/* The root of the discriminant is the slope but for this share of its square: then their
+ * difference has lost half of its digits. */
+#define CAROM_ROOT_IS_SLOPE 1e-8
+
+/* The first s >= 0 at which value + slope s + bend s^2 is 0, for value > 0; infinite where it is
+ * not. Where the usual form of the zero would lose half of its digits, or all of them, it has the
+ * other. */
+static inline double carom_first_fall(double value, double slope, double bend) {
+  const double discriminant = slope * slope - 4.0 * bend * value;
+  if (!(discriminant >= 0.0))
     return INFINITY;
-  if (!(y1 > 0.0 && D < y1 * y1 * (1.0 + 1e-8)))
-    return 2.0 * y / (-y1 + sqrt(D));
-  return m < 0.0 ? (y1 + sqrt(D)) / (-2.0 * m) : INFINITY;
+  if (!(slope > 0.0 && discriminant < slope * slope * (1.0 + CAROM_ROOT_IS_SLOPE)))
+    return 2.0 * value / (-slope + sqrt(discriminant));
+  return bend < 0.0 ? (slope + sqrt(discriminant)) / (-2.0 * bend) : INFINITY;
 }
 
 typedef struct carom_gap_at {
@@ -33,44 +48,51 @@ typedef struct carom_gap_at {
 typedef carom_gap_at carom_gap(const void *context, double t);
 typedef double carom_gap_bound(const void *context, double start, double end);
 
-/* The first zero of g + raise at or after t, where that is positive, up to T; or infinity.
- * `small`: a value that counts as none but for a last step, by the parabola that touches g
- * there. */
+/* The first zero of g + raise at or after `time`, where that is positive, up to `horizon`; or
+ * infinity. `small`: a value that counts as none but for a last step, by the parabola that touches
+ * g there. */
 static inline __attribute__((always_inline)) double
 carom_first_zero(carom_gap *gap, carom_gap_bound *bound, const void *context, double raise,
-                 double t, double T, double small) {
+                 double time, double horizon, double small) {
+  /* after LONG_STEPS the bound reaches AHEAD times as far as the last step, or as the last bound */
   enum { MOST_STEPS = 1000, LONG_STEPS = 8 };
-  double ahead = T; /* how far the bound reaches */
-  for (int k = 0; k < MOST_STEPS; k++) {
-    const carom_gap_at gap_here = gap(context, t);
-    const double y = gap_here.value + raise, y1 = gap_here.slope;
-    if (y <= small && y1 < 0.0) {
-      const double discriminant = y1 * y1 - 4.0 * bound(context, t, t) * y;
+#define AHEAD 4.0
+  double ahead = horizon; /* how far the bound reaches */
+  for (int steps = 0; steps < MOST_STEPS; steps++) {
+    const carom_gap_at gap_here = gap(context, time);
+    const double value = gap_here.value + raise, slope = gap_here.slope;
+
+    /* nearly at the zero: the last step */
+    if (value <= small && slope < 0.0) {
+      const double discriminant = slope * slope - 4.0 * bound(context, time, time) * value;
       if (discriminant >= 0.0) {
-        const double last = t + 2.0 * y / (-y1 + sqrt(discriminant));
-        return last <= T ? carom_greater(last, 0.0) : INFINITY;
+        const double last = time + 2.0 * value / (-slope + sqrt(discriminant));
+        return last <= horizon ? carom_greater(last, 0.0) : INFINITY;
       }
     }
 
-    const double s = carom_first_fall(y, y1, bound(context, t, ahead));
-    if (!(s > 0.0) || t + s > ahead) {
+    const double step = carom_first_fall(value, slope, bound(context, time, ahead));
+    if (!(step > 0.0) || time + step > ahead) {
       /* no zero up to `ahead` */
-      if (ahead >= T)
+      if (ahead >= horizon)
         return INFINITY;
       const double reached = ahead;
-      ahead = carom_lesser(T, reached + 4.0 * (reached - t));
-      t = reached;
-      if (gap(context, t).value + raise <= 0.0) /* by rounding it is here */
-        return t;
+      ahead = carom_lesser(horizon, reached + AHEAD * (reached - time));
+      time = reached;
+      if (gap(context, time).value + raise <= 0.0) /* by rounding it is here */
+        return time;
       continue;
     }
-    if (t + s == t)
-      return y1 < 0.0 ? t : INFINITY;
-    t += s;
-    if (k >= LONG_STEPS)
-      ahead = carom_lesser(T, t + 4.0 * s);
+
+    /* a step too short to count: at the zero, or where the gap rises from it */
+    if (time + step == time)
+      return slope < 0.0 ? time : INFINITY;
+    time += step;
+    if (steps >= LONG_STEPS)
+      ahead = carom_lesser(horizon, time + AHEAD * step);
   }
-  return t; /* not reached in practice: g has come as near to 0 as rounding lets it */
+#undef AHEAD
+  return time; /* not reached in practice: g has come as near to 0 as rounding lets it */
 }
 
 #endif

@@ -27,44 +27,50 @@ typedef struct carom_separation {
 /* The first time in [0, horizon] when |d(t)| = reach, or infinity: coming from outside, or, if
  * the start is inside, going out.
  */
-double carom_first_crossing(const carom_separation *d, double reach, double horizon);
+double carom_first_crossing(const carom_separation *separation, double reach, double horizon);
 
 /* The first time in [0, horizon] when |d(t)| <= reach and falling, or infinity. A start with a
  * gap up to CAROM_SLACK, closing, is a contact now; one that does not close is in contact where
  * the gap has fallen by that from its greatest. */
-double carom_first_contact(const carom_separation *d, double reach, double horizon);
+double carom_first_contact(const carom_separation *separation, double reach, double horizon);
 
 /* The same in space, with the third coordinate. */
-double carom_first_contact_in_space(const carom_separation *d, double reach, double horizon);
+double carom_first_contact_in_space(const carom_separation *separation, double reach,
+                                    double horizon);
 
-/* The same for a gap of g[0] + g[1] t + g[2] t^2, the first time when it is <= 0 and falling,
+/* The same for a gap of gap[0] + gap[1] t + gap[2] t^2, the first time when it is <= 0 and falling,
  * with `slack`, m, instead. */
-static inline double carom_first_touch(const double g[3], double slack, double horizon) {
-  if (g[0] <= slack && g[1] < -CAROM_NO_SPEED)
+static inline double carom_first_touch(const double gap[3], double slack, double horizon) {
+  const double distance = gap[0], speed = gap[1], bend = gap[2];
+  if (distance <= slack && speed < -CAROM_NO_SPEED)
     return 0.0;
   /* a gap that bends down and is open at the horizon has no zero before it */
-  if (g[2] <= 0.0 && g[0] + horizon * (g[1] + horizon * g[2]) > CAROM_SLACK)
+  if (bend <= 0.0 && distance + horizon * (speed + horizon * bend) > CAROM_SLACK)
     return INFINITY;
-  double t;
-  if (g[0] > slack) {
+
+  double time;
+  if (distance > slack) {
     /* of the two forms of this zero the one whose sum does not cancel: a gap of 2e-9 m that opens
        at 0.5 m/s and closes again was met 3e-9 s late by the other */
-    const double D = g[1] * g[1] - 4.0 * g[2] * g[0], root = sqrt(carom_greater(D, 0.0));
-    const double over = g[1] > 0.0 ? -g[1] - root : 2.0 * g[0],
-                 under = g[1] > 0.0 ? 2.0 * g[2] : root - g[1];
-    t = D >= 0.0 ? over / under : INFINITY;
-    return t >= 0.0 && t <= horizon ? t : INFINITY;
+    const double discriminant = speed * speed - 4.0 * bend * distance;
+    const double root = sqrt(carom_greater(discriminant, 0.0));
+    const double over = speed > 0.0 ? -speed - root : 2.0 * distance;
+    const double under = speed > 0.0 ? 2.0 * bend : root - speed;
+    time = discriminant >= 0.0 ? over / under : INFINITY;
+    return time >= 0.0 && time <= horizon ? time : INFINITY;
   }
-  if (!(g[2] < 0.0))
+  if (!(bend < 0.0))
     return INFINITY;
+
   /* touching and not closing: where it falls to 0 again; see PRESSED */
-  const double highest = g[1] > 0.0 ? g[0] - 0.25 * g[1] * g[1] / g[2] : g[0],
-               end = carom_lesser(highest - slack, 0.0);
-  t = (-g[1] - sqrt(carom_greater(g[1] * g[1] - 4.0 * g[2] * (g[0] - end), 0.0))) / (2.0 * g[2]);
-  return t <= horizon ? t : INFINITY;
+  const double highest = speed > 0.0 ? distance - 0.25 * speed * speed / bend : distance;
+  const double end = carom_lesser(highest - slack, 0.0);
+  const double square = carom_greater(speed * speed - 4.0 * bend * (distance - end), 0.0);
+  time = (-speed - sqrt(square)) / (2.0 * bend);
+  return time <= horizon ? time : INFINITY;
 }
 
-/* Both real zeros of a polynomial of degree 2 or less, the earlier first; the number of them. */
+/* Both real zeros of a t^2 + b t + c, the earlier first; the number of them. a may be 0. */
 int carom_quadratic_zeros(double a, double b, double c, double zero[2]);
 
 #endif

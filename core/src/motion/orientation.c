@@ -31,39 +31,46 @@ static const double most_turn = 0.5, most_bend = 0.02;
 /* rad, of an interval: a damaged state may have any spin. */
 static const double most_angle = 5e6;
 
-/* Turns q further, about the axes of the table, by the vector `by`. */
+/* Two spins have one axis if their product is below this share of the square of the larger one. */
+static const double one_direction = 1e-12;
+
+/* Turns the quaternion q (w, x, y, z) further, about the axes of the table, by a rotation vector:
+ * its product with (cos(angle/2), sin(angle/2) axis), made a unit quaternion again. */
 static void turn(double q[4], const double rotation[3]) {
   const double angle = carom_space_size(rotation);
   if (!(angle > 0.0))
     return;
-  double sine, cosine, p[4];
+  double sine, cosine, turned[4];
   carom_sincos(0.5 * angle, &sine, &cosine);
-  const double s = sine / angle, x = s * rotation[0], y = s * rotation[1], z = s * rotation[2];
-  p[0] = cosine * q[0] - x * q[1] - y * q[2] - z * q[3];
-  p[1] = cosine * q[1] + x * q[0] + y * q[3] - z * q[2];
-  p[2] = cosine * q[2] + y * q[0] + z * q[1] - x * q[3];
-  p[3] = cosine * q[3] + z * q[0] + x * q[2] - y * q[1];
-  const double size = sqrt(carom_space_dot(p, p) + p[3] * p[3]);
-  for (int k = 0; k < 4; k++)
-    q[k] = p[k] / size;
+  const double per_angle = sine / angle;
+  const double x = per_angle * rotation[0], y = per_angle * rotation[1],
+               z = per_angle * rotation[2];
+  turned[0] = cosine * q[0] - x * q[1] - y * q[2] - z * q[3];
+  turned[1] = cosine * q[1] + x * q[0] + y * q[3] - z * q[2];
+  turned[2] = cosine * q[2] + y * q[0] + z * q[1] - x * q[3];
+  turned[3] = cosine * q[3] + z * q[0] + x * q[2] - y * q[1];
+  const double size = sqrt(carom_space_dot(turned, turned) + turned[3] * turned[3]);
+  for (int part = 0; part < 4; part++)
+    q[part] = turned[part] / size;
 }
 
-/* The turn of a part of length h: see above. */
+/* The turn of a part of length h, by its Magnus expansion: A, B, C and D of the head. a: the spin
+ * in the middle, b: its change. */
 static void turn_part(double q[4], const double a[3], const double b[3], double h) {
-  double A[3], B[3], C[3], D[3], left[3], right[3], both[3], omega[3];
-  for (int k = 0; k < 3; k++) {
-    A[k] = h * a[k];
-    B[k] = h * h * b[k];
+  double A[3], B[3], C[3], D[3], factor_1[3], factor_2[3], product[3], omega[3];
+  for (int axis = 0; axis < 3; axis++) {
+    A[axis] = h * a[axis];
+    B[axis] = h * h * b[axis];
   }
   carom_cross(A, B, C);
   carom_cross(A, C, D);
-  for (int k = 0; k < 3; k++) {
-    left[k] = C[k] - 20.0 * A[k];
-    right[k] = B[k] - D[k] / 60.0;
+  for (int axis = 0; axis < 3; axis++) {
+    factor_1[axis] = C[axis] - 20.0 * A[axis];
+    factor_2[axis] = B[axis] - D[axis] / 60.0;
   }
-  carom_cross(left, right, both);
-  for (int k = 0; k < 3; k++)
-    omega[k] = A[k] + both[k] / 240.0;
+  carom_cross(factor_1, factor_2, product);
+  for (int axis = 0; axis < 3; axis++)
+    omega[axis] = A[axis] + product[axis] / 240.0;
   turn(q, omega);
 }
 
@@ -71,46 +78,52 @@ static void turn_part(double q[4], const double a[3], const double b[3], double 
  * side spin does, where that is earlier. In flight it is constant, as all spin is. */
 static void begin_interval(carom_turning *turning, const carom_path *path,
                            const carom_ball_rates *rates, double start) {
-  carom_ball_state a, b;
+  carom_ball_state first, last;
   const double kink = path->start + fabs(path->from.w[2]) / rates->spin;
   turning->start = start;
   turning->done = 0.0;
   turning->end = !carom_flies(&path->from) && kink > start && kink < path->end ? kink : path->end;
-  carom_path_at(path, rates, start, &a);
+
+  /* the spin at its start; behind the kink, the side spin is 0 exactly */
+  carom_path_at(path, rates, start, &first);
   if (start == kink)
-    a.w[2] = 0.0;
-  for (int k = 0; k < 3; k++) {
-    turning->w[k] = a.w[k];
-    turning->bend[k] = 0.0;
+    first.w[2] = 0.0;
+  for (int axis = 0; axis < 3; axis++) {
+    turning->w[axis] = first.w[axis];
+    turning->bend[axis] = 0.0;
   }
   turning->part = turning->parts = 0.0;
-  turning->fastest = carom_space_size(a.w);
+  turning->fastest = carom_space_size(first.w);
+
   /* nothing changes on a path without an end */
-  const double T = turning->end - start;
-  if (!(T < INFINITY && T > 0.0))
+  const double duration = turning->end - start;
+  if (!(duration < INFINITY && duration > 0.0))
     return;
 
-  double bent[3];
-  carom_path_at(path, rates, turning->end, &b);
-  for (int k = 0; k < 3; k++)
-    turning->bend[k] = (b.w[k] - a.w[k]) / T;
-  carom_cross(a.w, b.w, bent);
+  /* from the spin at its start to that at its end, linearly */
+  double product[3];
+  carom_path_at(path, rates, turning->end, &last);
+  for (int axis = 0; axis < 3; axis++)
+    turning->bend[axis] = (last.w[axis] - first.w[axis]) / duration;
+  carom_cross(first.w, last.w, product);
   const double fastest = turning->fastest =
-      carom_greater(carom_space_size(a.w), carom_space_size(b.w));
+      carom_greater(carom_space_size(first.w), carom_space_size(last.w));
+
   /* one turn about one axis, or parts */
-  const bool one_axis = carom_space_size(bent) <= 1e-12 * fastest * fastest;
-  const double length =
-      carom_greater(fastest * T / most_turn, T * sqrt(carom_space_size(turning->bend) / most_bend));
-  turning->parts = one_axis ? 1.0 : ceil(length);
-  turning->part = T / turning->parts;
+  const bool one_axis = carom_space_size(product) <= one_direction * fastest * fastest;
+  const double least_parts = carom_greater(
+      fastest * duration / most_turn, duration * sqrt(carom_space_size(turning->bend) / most_bend));
+  turning->parts = one_axis ? 1.0 : ceil(least_parts);
+  turning->part = duration / turning->parts;
 }
 
-/* The turn from the last whole part on, for a time h. */
-static void turn_on(double q[4], const carom_turning *turning, double h) {
-  double a[3];
-  for (int k = 0; k < 3; k++)
-    a[k] = turning->w[k] + (turning->done * turning->part + 0.5 * h) * turning->bend[k];
-  turn_part(q, a, turning->bend, h);
+/* The turn from the last whole part on, for a while. */
+static void turn_on(double q[4], const carom_turning *turning, double duration) {
+  double middle[3];
+  for (int axis = 0; axis < 3; axis++)
+    middle[axis] =
+        turning->w[axis] + (turning->done * turning->part + 0.5 * duration) * turning->bend[axis];
+  turn_part(q, middle, turning->bend, duration);
 }
 
 void carom_turning_begin(carom_turning *turning, const carom_path *path,
@@ -149,8 +162,8 @@ bool carom_turning_go_to(carom_turning *turning, carom_path *path, const carom_b
 
 void carom_turning_at(const carom_turning *turning, double time, double q[4]) {
   memcpy(q, turning->q, sizeof turning->q);
-  const double h =
+  const double begun =
       carom_lesser(time, turning->end) - (turning->start + turning->done * turning->part);
-  if (h > 0.0)
-    turn_on(q, turning, h);
+  if (begun > 0.0)
+    turn_on(q, turning, begun);
 }

@@ -1,5 +1,24 @@
 /* The motion of a ball between events, in closed form.
  *
+ *   symbol   meaning                                        unit
+ *   r, v     position and velocity of the centre            m, m/s
+ *   w        angular velocity                               rad/s
+ *   u        slip: the velocity of the ball's lowest point  m/s
+ *   R, g     radius, gravity                                m, m/s^2
+ *   mu       friction of the cloth: mu_s of a ball that slides, mu_r of one that rolls, mu_sp of
+ *            one that turns on the spot
+ *
+ *   sliding: a parabola, since     rolling: straight,        spinning: on the spot,
+ *   u keeps its direction          u = 0                     until w_z = 0; then at rest
+ *
+ *        u
+ *         \
+ *      v0 -o-----___
+ *                   ---__
+ *                        -_
+ *                          -o------------------------------o
+ *                           u = 0                          v = 0
+ *
  * With tau the time since the start of the path, u the slip at the start, e = u/|u|:
  *
  *   sliding    r = r0 + v0 tau - mu_s g/2 e tau^2,   v = v0 - mu_s g e tau,
@@ -29,6 +48,16 @@
  * v1:
  *
  *   a1 = 4 (v0 T - S) / T^2 - m,   a2 = 2 m - a1,   m = (v0 - v1) / T.
+ *
+ *   speed
+ *    v0 |\
+ *       | \  a1
+ *       |  \
+ *       |   \__                   The pieces are straight lines here. The exact speed bends between
+ *       |      ---___   a2        them, and has the same area below it, which is the way S.
+ *    v1 |            ---
+ *       +----+-------+--- time
+ *       0   T/2      T
  *
  * Errors do not accumulate from pair to pair. Within one, where J is v'' (J = 2 k v (A + k v^2),
  * largest at the start, and nearly constant), the place differs from the exact one by J T^3 /
@@ -137,15 +166,16 @@ int64_t carom_label_of(carom_ball_state *state, double radius);
  * cloth. A ball on the cloth that moves down or up by rounding, less than 1e-9 m/s, lies on it. */
 int64_t carom_label_in_space(carom_ball_state *state, double radius);
 
-static inline bool carom_flies(const carom_ball_state *s) {
-  return s->label == CAROM_BALL_AIRBORNE;
+static inline bool carom_flies(const carom_ball_state *state) {
+  return state->label == CAROM_BALL_AIRBORNE;
 }
 
 /* Whether a ball of a layout is airborne, unless it is out of play: by its label, or as it moves
  * up or down or is more than 1e-6 m above the cloth. */
-static inline bool carom_flies_in_layout(const carom_ball_state *s, double radius) {
+static inline bool carom_flies_in_layout(const carom_ball_state *state, double radius) {
   static const double on_cloth = 1e-6; /* m */
-  return s->label == CAROM_BALL_AIRBORNE || s->v[2] != 0.0 || s->r[2] - radius > on_cloth;
+  return state->label == CAROM_BALL_AIRBORNE || state->v[2] != 0.0 ||
+         state->r[2] - radius > on_cloth;
 }
 
 /* The phase of a ball of a layout. One that is out of play stays so. */

@@ -8,6 +8,14 @@
  *   tan(alpha) = -(5/2) a sqrt(1 - a^2) / (1 + m/m_e + 5/2 (1 - a^2))
  *   w = 5 V/(2R) (b, a sin(theta), -a cos(theta))     turned about z by phi + 90 degrees
  *
+ *      along the cue                     from the side, d to the left
+ *           ___                                ___
+ *         /  a  \                            /   \ ___
+ *        | *---+ |                          |  o  |   ---___
+ *        |     |b|     * the tip             \___/          ---___  cue, raised by theta
+ *        |     o |     o the centre    ______________________________---
+ *         \_____/
+ *
  * d is the horizontal direction of phi, l the horizontal to its left. In space this is the strike
  * alone, which drives the ball into the slate; shot/raised.c has what the slate does meanwhile. In
  * flat play the part of the strike that goes down is lost. pooltool turns what is left of it: v = V
@@ -21,6 +29,9 @@
 #include <math.h>
 #include <stddef.h>
 
+/* m R^2 / I of a solid ball, I = 2/5 m R^2. A macro for the same reason as those of path.c. */
+#define OVER_INERTIA 2.5
+
 carom_status carom_check_cue(const carom_cue *cue) {
   const carom_cue *k = cue;
   CAROM_CUE_NUMBERS(CAROM_CHECK_ROW, CAROM_NO_ROW)
@@ -31,36 +42,43 @@ carom_status carom_check_cue(const carom_cue *cue) {
 double carom_strike_speed(const carom_cue *cue, const carom_ball_kind *kind) {
   const double a = cue->a, b = cue->b;
   return (1.0 + carom_tip_of(cue)) * cue->speed /
-         (1.0 + kind->mass / cue->mass + 2.5 * (a * a + b * b));
+         (1.0 + kind->mass / cue->mass + OVER_INERTIA * (a * a + b * b));
 }
 
 carom_status carom_strike_motion(const carom_cue *cue, const carom_ball_kind *kind,
                                  carom_strike_kind how, carom_motion *out) {
   /* the directions of the cue, and the speed of the ball along it */
-  const double a = cue->a, b = cue->b, inside = 1.0 - a * a, V = carom_strike_speed(cue, kind);
+  const double a = cue->a, b = cue->b, inside = 1.0 - a * a;
+  const double speed = carom_strike_speed(cue, kind);
   double sin_phi, cos_phi, sin_theta, cos_theta;
   carom_sincos_degrees(cue->phi, &sin_phi, &cos_phi);
   carom_sincos_degrees(carom_above(cue->theta, CAROM_LEAST_ELEVATION), &sin_theta, &cos_theta);
 
   /* squirt as a turn of v, by its sine and cosine */
-  const double aside = -2.5 * a * sqrt(inside),
-               ahead = 1.0 + kind->mass / cue->end_mass + 2.5 * inside;
-  const double size = sqrt(aside * aside + ahead * ahead), s = aside / size, c = ahead / size;
+  const double aside = -OVER_INERTIA * a * sqrt(inside);
+  const double ahead = 1.0 + kind->mass / cue->end_mass + OVER_INERTIA * inside;
+  const double size = sqrt(aside * aside + ahead * ahead);
+  const double sin_squirt = aside / size, cos_squirt = ahead / size;
 
-  const double turn = 2.5 * V / kind->radius;
+  /* 5 V/(2R), by which the offset makes spin */
+  const double turn = OVER_INERTIA * speed / kind->radius;
   if (!(size < INFINITY && fabs(turn) < INFINITY))
     return CAROM_ERROR_OVERFLOW;
 
-  const double x = turn * b, y = turn * a * sin_theta;
-  *out = (carom_motion){
-      .v = {V * (c * cos_theta * cos_phi - s * sin_phi),
-            V * (c * cos_theta * sin_phi + s * cos_phi), 0.0},
-      .w = {-x * sin_phi - y * cos_phi, x * cos_phi - y * sin_phi, -turn * a * cos_theta}};
+  /* v and w along the cloth by their parts along d and l, which phi turns to the table's axes */
+  const double roll = turn * b, masse = turn * a * sin_theta;
+  *out =
+      (carom_motion){.v = {speed * (cos_squirt * cos_theta * cos_phi - sin_squirt * sin_phi),
+                           speed * (cos_squirt * cos_theta * sin_phi + sin_squirt * cos_phi), 0.0},
+                     .w = {-roll * sin_phi - masse * cos_phi, roll * cos_phi - masse * sin_phi,
+                           -turn * a * cos_theta}};
+
+  /* what becomes of the part that goes down: carom_strike_kind */
   if (how == CAROM_STRIKE_IN_SPACE && carom_is_raised(cue))
-    out->v[2] = -V * c * sin_theta;
+    out->v[2] = -speed * cos_squirt * sin_theta;
   if (how == CAROM_STRIKE_TURNED) {
-    out->v[0] = V * cos_theta * (cos_phi * c - sin_phi * s);
-    out->v[1] = V * cos_theta * (sin_phi * c + cos_phi * s);
+    out->v[0] = speed * cos_theta * (cos_phi * cos_squirt - sin_phi * sin_squirt);
+    out->v[1] = speed * cos_theta * (sin_phi * cos_squirt + cos_phi * sin_squirt);
   }
   return CAROM_OK;
 }

@@ -23,11 +23,18 @@ static inline double carom_tip_gain(const carom_cue *cue) {
   return 2.0 / (1.0 + carom_tip_of(cue));
 }
 
+/* The offset at which a chalked tip slips, in radii, and the largest with which the friction of a
+ * tip is computed: beyond, it would grow without a limit. */
+#define CAROM_CHALKED_OFFSET 0.55
+#define CAROM_MOST_SLIP_OFFSET 0.9
+
 /* The friction of the tip and a ball that it touches again, by the offset a at which the tip slips:
  * a/sqrt(1 - a^2). A cue without a miscue, up to 0.9, has the offset of a chalked tip. */
 static inline double carom_tip_friction(const carom_cue *cue) {
-  const double chalked = 0.55, a = cue->miscue > 0.0 && cue->miscue < 0.9 ? cue->miscue : chalked;
-  return a / sqrt(1.0 - a * a);
+  const double chalked = CAROM_CHALKED_OFFSET;
+  const double offset =
+      cue->miscue > 0.0 && cue->miscue < CAROM_MOST_SLIP_OFFSET ? cue->miscue : chalked;
+  return offset / sqrt(1.0 - offset * offset);
 }
 
 /* Whether a cue is raised, and not level. */

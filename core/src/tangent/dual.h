@@ -48,7 +48,8 @@ struct row {
     return reinterpret_cast<real *>(q)[k];
   }
 };
-/* Unrolled here, because core/src/CMakeLists.txt asks gcc for less than -O3, which would unroll it. */
+/* Unrolled here, because core/src/CMakeLists.txt asks gcc for less than -O3, which would unroll it.
+ * */
 #define CAROM_LANES(expression)                            \
   row r;                                                   \
   _Pragma("GCC unroll 16") for (int i = 0; i < LANES; i++) \
