@@ -50,9 +50,9 @@ typedef enum carom_record_kind {
 
 /* What the last shot of a recording waits for. */
 typedef enum carom_record_pending {
-  CAROM_PENDING_NONE = 0, /* nothing: it was played and written, or there was no shot */
-  CAROM_PENDING_SHOT = 1, /* its line was read: carom_record_play() plays it before the next line */
-  CAROM_PENDING_LINE = 2  /* it was played: carom_record_write() may write its line */
+  CAROM_PENDING_NONE = 0, /* no shot waits to be played or written */
+  CAROM_PENDING_SHOT = 1, /* the last line is a shot, which carom_record_play() has to play */
+  CAROM_PENDING_LINE = 2  /* the last shot was played; carom_record_write() may write its line */
 } carom_record_pending;
 
 /* The bytes that any line fits into, even that of 32 balls that have nothing in common. */

@@ -1,9 +1,9 @@
 /* Breaks of a rack: each has a rack of its own, and the errors of a player. */
 #include "carom_coach.h"
 #include "coach.h"
-#include "draws.h"
 #include "platform/ranges.h"
 #include "player.h"
+#include "random_draws.h"
 #include "rules.h"
 #include "stick.h"
 #include "table/marks.h"

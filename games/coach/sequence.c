@@ -14,9 +14,9 @@
  * which each stroke is planned anew. */
 #include "carom_coach.h"
 #include "coach.h"
-#include "draws.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
+#include "random_draws.h"
 #include "rules.h"
 #include "search.h"
 

@@ -5,11 +5,11 @@
  * degrees. */
 #include "carom_coach.h"
 #include "coach.h"
-#include "draws.h"
 #include "eye.h"
 #include "platform/ranges.h"
 #include "player.h"
 #include "pot_kind.h"
+#include "random_draws.h"
 #include "view.h"
 
 #include <math.h>

@@ -7,10 +7,10 @@
  * so the costs add up to that of all. */
 #include "carom_coach.h"
 #include "coach.h"
-#include "draws.h"
 #include "goals.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
+#include "random_draws.h"
 #include "ranking.h"
 #include "rows.h"
 #include "rules.h"

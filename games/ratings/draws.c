@@ -1,8 +1,8 @@
 /* Random numbers as a function of seed, stage, row and number, so that no order of computation
  * changes a draw; and a few functions by additions, multiplications, divisions and square roots
  * only, so that their bits are the same on every system. */
-#include "draws.h"
 #include "platform/elementary.h"
+#include "random_draws.h"
 #include "small_math.h"
 
 #include <math.h>

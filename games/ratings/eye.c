@@ -18,7 +18,7 @@
  * the bounds are about linear, for errors that are small against the balls. Where they do not
  * converge, errors of half the size are tried. */
 #include "eye.h"
-#include "draws.h"
+#include "random_draws.h"
 
 #include "rules.h"
 #include "table/table.h"

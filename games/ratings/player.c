@@ -1,7 +1,7 @@
 /* Players: how their strokes differ from those that they mean. */
 #include "player.h"
-#include "draws.h"
 #include "platform/elementary.h"
+#include "random_draws.h"
 #include "shot/shot.h"
 #include "small_math.h"
 

@@ -21,9 +21,9 @@
  * Where the other makes every ball, as in a plan to run out, the value is the share of the points
  * on the table, or of those needed, that the visit makes. The chance q of all points of a game is
  * too small to choose a stroke by. */
-#include "draws.h"
 #include "platform/elementary.h"
 #include "platform/promise.h"
+#include "random_draws.h"
 #include "rules.h"
 #include "table/marks.h"
 #include "view.h"

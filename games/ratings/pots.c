@@ -13,8 +13,8 @@
  * the ball's, to which the uncertainty of throw adds 1.5 degrees sqrt(1.2 - cos c). With e the
  * sum of both in squares the chance is erf(h / (e sqrt 2)). It is 0 where a ball is in either
  * way, where the ghost is in a cushion, or the cut is above 80 degrees. */
-#include "draws.h"
 #include "platform/elementary.h"
+#include "random_draws.h"
 #include "table/table.h"
 #include "view.h"
 

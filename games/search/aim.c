@@ -22,8 +22,8 @@
  *
  * A ball that runs along a rail, or is met right off one, has no root. Then directions are played,
  * and the middle of the widest range in which the ball falls is taken. */
-#include "draws.h"
 #include "platform/elementary.h"
+#include "random_draws.h"
 #include "stick.h"
 #include "table/table.h"
 #include "view.h"

@@ -3,11 +3,11 @@
  * first that is on. */
 #include "candidates.h"
 
-#include "draws.h"
 #include "miss.h"
 #include "places.h"
 #include "platform/elementary.h"
 #include "platform/promise.h"
+#include "random_draws.h"
 #include "ranking.h"
 #include "rows.h"
 #include "stick.h"

@@ -2,8 +2,8 @@
  * which the ball that is named falls. */
 #include "choice_kind.h"
 
-#include "draws.h"
 #include "pot_kind.h"
+#include "random_draws.h"
 #include "rows.h"
 
 /* On a table without pockets: the kind of a stroke that meets the ball first and scores, or -1. */

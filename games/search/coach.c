@@ -1,6 +1,6 @@
 /* Cuts, and strokes that are ruled. */
 #include "coach.h"
-#include "draws.h"
+#include "random_draws.h"
 #include "rules.h"
 #include "view.h"
 

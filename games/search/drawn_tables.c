@@ -14,8 +14,8 @@
  * of this table but that it is one. */
 #include "drawn_tables.h"
 
-#include "draws.h"
 #include "platform/elementary.h"
+#include "random_draws.h"
 
 #include <math.h>
 

@@ -16,7 +16,7 @@
  * than random ones. Chosen by value.c they were worth 0.034 +- 0.014 more. Of 750 against 600 it is
  * 0.051 +- 0.017, and 0.003 +- 0.020 by value.c. */
 #include "leaves.h"
-#include "draws.h"
+#include "random_draws.h"
 
 #include "coach.h"
 #include "listing.h"

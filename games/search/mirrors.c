@@ -5,7 +5,7 @@
  * to the ghost of the second one, which is a window for it. Each of these ways has the chance of a
  * direct pot of pots.c; the likeliest are tried. */
 #include "mirrors.h"
-#include "draws.h"
+#include "random_draws.h"
 
 #include "platform/elementary.h"
 #include "view.h"

@@ -12,7 +12,7 @@
  *
  * which a hundred shots with errors would show less well. */
 #include "miss.h"
-#include "draws.h"
+#include "random_draws.h"
 
 #include "platform/elementary.h"
 #include "player.h"

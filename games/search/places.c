@@ -1,6 +1,6 @@
 /* Places of a cue ball in hand. They and strokes are candidates of one race. */
 #include "places.h"
-#include "draws.h"
+#include "random_draws.h"
 
 #include "platform/elementary.h"
 #include "rows.h"

@@ -2,8 +2,8 @@
  * worth to the player. A row's errors are a function of seed, round and number. Rows are computed
  * by threads and added up in their order, so no bit of a sum depends on threads. */
 #include "rows.h"
-#include "draws.h"
 #include "player.h"
+#include "random_draws.h"
 
 #include "drawn_tables.h"
 #include "eye.h"

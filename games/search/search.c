@@ -1,7 +1,7 @@
 /* The choice: sequential halving (Z. Karnin, T. Koren, O. Somekh, ICML 2013) of the candidates. All
  * of a round have the same errors, so that luck counts less than what they are worth. */
 #include "search.h"
-#include "draws.h"
+#include "random_draws.h"
 
 #include "candidates.h"
 #include "leaves.h"

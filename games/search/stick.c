@@ -15,9 +15,9 @@
  * so that is a little behind the place below its axis, or far behind where the stick grows by more
  * than it rises. */
 #include "stick.h"
-#include "draws.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
+#include "random_draws.h"
 #include "small_math.h"
 
 #include <math.h>

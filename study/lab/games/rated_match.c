@@ -5,7 +5,6 @@
 #include "rated_match.h"
 
 #include "comparison.h"
-#include "draws.h"
 #include "eye.h"
 #include "platform/threads.h"
 #include "player.h"
@@ -14,6 +13,7 @@
 #include "program/message.h"
 #include "program/monotonic.h"
 #include "random.h"
+#include "random_draws.h"
 
 #include <math.h>
 #include <stdio.h>

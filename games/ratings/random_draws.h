@@ -1,7 +1,7 @@
 /* Random numbers that are a function of their position in a plan, so that they do not depend on
  * threads, and the elementary functions that platform/elementary.h does not have. */
-#ifndef CAROM_PLAN_DRAWS_H
-#define CAROM_PLAN_DRAWS_H
+#ifndef CAROM_PLAN_RANDOM_DRAWS_H
+#define CAROM_PLAN_RANDOM_DRAWS_H
 
 #include <stdint.h>
 
