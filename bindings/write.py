@@ -18,6 +18,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))  # tools/python leaves the script's folder out
 
 from api import TYPES, describe  # noqa: E402
+from getters import getters  # noqa: E402
 
 NOTE = "// Written by bindings/write.py from the headers of carom {version}.\n"
 
@@ -32,12 +33,16 @@ def type_name(name):
     return pascal(name.removeprefix("carom_"))
 
 
-def enumerators(enum):
-    """Names and values of an enumeration, without what all names begin with: (Pool9ft, about)."""
+def ends(enum):
+    """The names of an enumeration without what all of them begin with: POOL_9FT."""
     prefix = commonprefix([value["name"] for value in enum["values"]])
-    prefix = prefix[: prefix.rindex("_") + 1]
-    for value in enum["values"]:
-        name = pascal(value["name"].removeprefix(prefix))
+    return [value["name"][prefix.rindex("_") + 1 :] for value in enum["values"]]
+
+
+def enumerators(enum):
+    """Names and values of an enumeration: (Pool9ft, about)."""
+    for value, end in zip(enum["values"], ends(enum)):
+        name = pascal(end)
         yield ("_" if name[0].isdigit() else "") + name, value
 
 
@@ -102,7 +107,11 @@ def roles_of(function, structs):
 
 def called_by(folder, pattern):
     """The functions of C that the sources of a layer call."""
-    text = "\n".join(path.read_text(encoding="utf-8") for path in sorted(HERE.parent.glob(folder)))
+    text = "\n".join(
+        path.read_text(encoding="utf-8")
+        for path in sorted(HERE.parent.glob(folder))
+        if path.name != "_described.py"  # which is made
+    )
     return set(re.findall(pattern, re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.S)))
 
 
@@ -148,9 +157,23 @@ class Layer:
             found += self.function(entry, roles, of_match)
         return found[1:]
 
+    def getter_lines(self):
+        """The getters of a match for whose forms the language has a template."""
+        lines = []
+        for getter in getters(self.api):
+            if getter.form in self.GETTERS:
+                type_, value, *remark = self.GETTERS[getter.form]
+                about = " ".join([getter.comment[:1].upper() + getter.comment[1:], *remark])
+                lines += ["", *self.getter(getter, self.about(about, "    "), type_, value)]
+        return lines
+
+    def match_lines(self):
+        """What the class of a match gets."""
+        return self.lines(of_match=True) + self.getter_lines()
+
     def calls(self):
         """The functions as a file."""
-        parts = ("\n".join(self.lines(of_match)) for of_match in (False, True))
+        parts = ("\n".join(lines) for lines in (self.lines(of_match=False), self.match_lines()))
         return NOTE.format(version=self.api["version"]) + self.CALLS.format(*parts)
 
     def called(self):
@@ -217,6 +240,16 @@ class CSharp(Layer):
         "room": ("", "room"),
     }
     MEMBER, INDENT = "{0} = {0}", "    "
+    # The type of a getter of a match, its value, of which {at} is the member, and what else is to be
+    # said, by its form.
+    GETTERS = {
+        "index": ("int", "(int)Open->{at}"),
+        "count": ("long", "Open->{at}"),
+        "word": ("{type}", "({type})Open->{at}"),
+        "side": ("int", "Drawn ? -1 : Open->{at} - 1", "-1: none has."),
+        "drawn": ("bool", "Open->{at} == Native.CAROM_DRAWN"),
+        "struct": ("{type}", "Open->{at}"),
+    }
     PASSED_MOST = 8000  # bytes of a struct
     FIXED = {"changed": "&{name}", "list": "{name}", "changed list": "{name}"}
 
@@ -398,6 +431,18 @@ namespace Carom {"""
         head = f"    public {static}{result} {name}({', '.join(parameters)}) {{"
         return [head, *(f"      {line}" for line in lines), "    }"]
 
+    def getter(self, getter, about, type_, value):
+        given = {
+            "type": self.type_name(getter.type),
+            "at": ".".join(map(self.name, getter.path)),
+        }
+        return [
+            *about,
+            f"    public {type_.format(**given)} {pascal(getter.name)} {{",
+            f"      get {{ return {value.format(**given)}; }}",
+            "    }",
+        ]
+
     CALLS = """using System;
 
 namespace Carom {{
@@ -460,6 +505,18 @@ class Rust(Layer):
         "room": ("", "room"),
     }
     MEMBER, INDENT = "{0}", ""
+    # The type of a getter of a match and its value, by its form; {at} is the member.
+    GETTERS = {
+        "index": ("usize", "self.of.{at} as usize"),
+        "count": ("u64", "self.of.{at} as u64"),
+        "word": ("{type}", '{type}::try_from(self.of.{at}).expect("a value of carom_match.h")'),
+        "side": (
+            "Option<usize>",
+            "(!self.is_drawn()).then(|| usize::try_from(self.of.{at} - 1).ok()).flatten()",
+        ),
+        "drawn": ("bool", "self.of.{at} == sys::CAROM_DRAWN"),
+        "struct": ("sys::{type}", "self.of.{at}"),
+    }
 
     BASE = {c: rust for c, _, _, rust in TYPES}
     KEYWORDS = set("final type in where box match move ref loop use".split())
@@ -602,6 +659,20 @@ impl Default for {0} {{
             if returned["type"] == "void"
             else (self.value_type(returned), [call])
         )
+
+    def getter(self, getter, about, type_, value):
+        enum = getter.type in self.enums
+        given = {
+            "type": type_name(getter.type) if enum else getter.type,
+            "at": ".".join(map(self.name, getter.path)),
+        }
+        name = f"is_{getter.name}" if type_ == "bool" else self.name(getter.name)
+        return [
+            *about,
+            f"    pub fn {name}(&self) -> {type_.format(**given)} {{",
+            f"        {value.format(**given)}",
+            "    }",
+        ]
 
     CALLS = """//! Functions of C without pointers, by their names in C.
 use crate::sys::words::*;

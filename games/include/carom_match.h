@@ -121,14 +121,16 @@ typedef struct carom_match {
                                   whether the cue ball is to be placed. Its final states and facts
                                   are of the last shot. */
   carom_plan_rules rules; /* their state is that of the player at the table. */
-  int32_t phase;          /* a carom_match_phase. */
+  int32_t phase;          /* what the match waits for: a carom_match_phase. */
   int32_t seat;           /* the seat at the table. */
   int32_t winner;         /* 1 + the side that has won; CAROM_DRAWN; 0: none yet. */
-  int32_t may;            /* the choices: the sum of the carom_choice for carom_match_choose(). */
-  int32_t cue_ball;       /* of the player at the table. */
-  carom_cue cue;         /* of the seat at the table, for the cue ball; the stroke is the usual one,
-                             as of carom_cue_of(). */
-  carom_seating seating; /* who plays, and the limits of strokes. */
+  int32_t may;            /* the choices for carom_match_choose(), as a set: a sum of carom_choice.
+                             CAROM_CHOICE_FREE_BALL is named by a call, and with CAROM_CHOICE_PLACE
+                             the cue ball is in hand. */
+  int32_t cue_ball;       /* the ball that the player at the table strikes. */
+  carom_cue cue; /* the cue of the seat at the table, for the cue ball: aim it. Its stroke is
+                             the usual one of the game. */
+  carom_seating seating;                /* who plays, and the limits of strokes. */
   int32_t turns[CAROM_SEATS_MOST];      /* of each side: whose turn it is, of its seats from 0. */
   int32_t extensions[CAROM_SEATS_MOST]; /* of each side: how many it has taken in this match. */
   int32_t timeouts[CAROM_SEATS_MOST];   /* of each side: how many it has taken in the set. */
@@ -141,8 +143,8 @@ typedef struct carom_match {
   double log_likelihood[CAROM_SEATS_MOST][CAROM_MATCH_ERRORS]; /* of each seat: how likely these
                                   strokes are for a player whose error of aim, at 2 m/s, is 0.0125
                                   degrees times sqrt(2) to the power of 0, 1, 2 ... */
-  uint32_t on;                 /* balls that may be met first in the next stroke, as a set. */
-  uint32_t touching;           /* balls that touch the cue ball, as a set. */
+  uint32_t on;                 /* the balls that may be met first in the next stroke, as a set. */
+  uint32_t touching;           /* the balls that touch the cue ball, as a set. */
   carom_bounds bounds;         /* of a cue ball in hand, until the stroke. */
   int32_t leave;               /* the carom_leave of these bounds. */
   int32_t refusal;             /* of the last act: a carom_refusal. */
@@ -209,7 +211,7 @@ typedef struct carom_match_setup {
  * CAROM_ERROR_ACT also for seats or a set that cannot be; a set needs a rack. */
 CAROM_API carom_status carom_match_begin_with(carom_match *match, const carom_match_setup *setup);
 
-/* Begins the next match of the set, with the same seats; match->text has the end of this one,
+/* Begins the next match of the set, with the same seats. match->text has the end of this one,
  * unless that was written, and the beginning. CAROM_ERROR_ACT where the match is not over, belongs
  * to no set, or where the set is over. */
 CAROM_API carom_status carom_match_next(carom_match *match);
@@ -232,13 +234,14 @@ CAROM_API size_t carom_match_string(const carom_match *match, char *text, size_t
 
 /* ---- Acts ------------------------------------------------------------------------------------ */
 
-/* All return CAROM_OK, CAROM_ERROR_NULL or CAROM_ERROR_ACT. `player` is the seat that acts.
- *
- * carom_match_choose: one of match->may: PUSH for the next stroke, the others instead of it. */
+/* All return CAROM_OK, CAROM_ERROR_NULL or CAROM_ERROR_ACT. `player` is the seat that acts. */
+
+/* Takes one of the choices match->may: CAROM_CHOICE_PUSH for the next stroke, the others instead of
+ * it. */
 CAROM_API carom_status carom_match_choose(carom_match *match, int player, carom_choice choice);
 
-/* Puts the cue ball in hand, m; until the stroke it may be put elsewhere. The choice to leave it
- * where it lies is then gone. */
+/* Puts the cue ball in hand to a place within match->bounds, m. Until the stroke it may be put
+ * elsewhere. The choice to leave it where it lies is then gone. */
 CAROM_API carom_status carom_match_place(carom_match *match, int player, double x, double y);
 
 /* Calls the ball and the pocket of the next stroke; ball -1: a safety. In snooker it names a colour
@@ -270,16 +273,20 @@ CAROM_API carom_status carom_match_continue(carom_match *match, const carom_shot
  * carom_shoot(); CAROM_ERROR_STATE before the first stroke. */
 CAROM_API carom_status carom_match_replay(carom_match *match, carom_shot *shot);
 
-/* An extension of the time for this stroke, or a timeout: the caller measures, the match counts.
- * Refused where none is left. */
+/* Takes an extension of the time for this stroke: the caller measures the time, and the match counts
+ * the extensions. The act is refused where none is left. */
 CAROM_API carom_status carom_match_extend(carom_match *match, int player);
+
+/* Takes a timeout: the caller measures the time, and the match counts the timeouts. The act is
+ * refused where none is left. */
 CAROM_API carom_status carom_match_timeout(carom_match *match, int player);
 
-/* The player gives the game to the other side, or leaves a game that each plays for itself, at any
- * time. */
+/* Gives the game to the other side. A seat that plays for itself leaves the game. Any seat may do
+ * this at any time. */
 CAROM_API carom_status carom_match_concede(carom_match *match, int player);
 
-/* The time of the player at the table is over: ruled as a stroke that met no ball. */
+/* Ends the time of the player at the table: the match rules this as a stroke that met no ball, which
+ * is a foul. */
 CAROM_API carom_status carom_match_clock(carom_match *match, int player);
 
 /* Ends the recording: match->text is its last line. Nothing follows it. */

@@ -148,31 +148,6 @@ namespace Carom {
     public Match State {
       get { return *Open; }
     }
-    /// <summary>The side at the table, 0 or 1; in games that each plays for itself, the
-    /// seat.</summary>
-    public int Player {
-      get { return (int)Open->record.player; }
-    }
-    /// <summary>The seat at the table.</summary>
-    public int Seat {
-      get { return Open->seat; }
-    }
-    /// <summary>The cue of the seat at the table, for the cue ball: aim it.</summary>
-    public Cue Cue {
-      get { return Open->cue; }
-    }
-    /// <summary>The side that has won; -1: none.</summary>
-    public int Winner {
-      get { return Drawn ? -1 : Open->winner - 1; }
-    }
-    /// <summary>Whether the match is over without a winner.</summary>
-    public bool Drawn {
-      get { return Open->winner == Native.CAROM_DRAWN; }
-    }
-    /// <summary>How many strokes were played.</summary>
-    public long Shots {
-      get { return Open->record.shots; }
-    }
     /// <summary>Whether the match is over.</summary>
     public bool Over {
       get { return Open->phase == (int)MatchPhase.Over; }

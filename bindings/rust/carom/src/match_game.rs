@@ -243,43 +243,6 @@ impl Match {
         &self.of
     }
 
-    /// The side at the table, 0 or 1; in games that each plays for itself, the seat.
-    pub fn player(&self) -> usize {
-        self.of.record.player as usize
-    }
-
-    /// The seat at the table.
-    pub fn seat(&self) -> usize {
-        self.of.seat as usize
-    }
-
-    /// The cue of the seat at the table, for the cue ball: aim it.
-    pub fn cue(&self) -> Cue {
-        self.of.cue
-    }
-
-    /// The side that has won.
-    pub fn winner(&self) -> Option<usize> {
-        usize::try_from(self.of.winner - 1)
-            .ok()
-            .filter(|_| !self.is_drawn())
-    }
-
-    /// Whether the match is over without a winner.
-    pub fn is_drawn(&self) -> bool {
-        self.of.winner == sys::CAROM_DRAWN as i32
-    }
-
-    /// How many strokes were played.
-    pub fn shots(&self) -> u64 {
-        self.of.record.shots as u64
-    }
-
-    /// What the match waits for.
-    pub fn phase(&self) -> MatchPhase {
-        MatchPhase::try_from(self.of.phase).expect("a phase of carom_match.h")
-    }
-
     /// Whether the match is over.
     pub fn is_over(&self) -> bool {
         self.phase() == MatchPhase::Over
