@@ -306,7 +306,7 @@ def main():
     layers = {"typescript": TypeScript, "python": Python}
     if sys.argv[1:] not in [[name] for name in layers]:
         raise SystemExit(f"{' '.join(sys.argv[1:])}: must be one of {', '.join(layers)}")
-    sys.stdout.write(layers[sys.argv[1]](describe(HERE.parent / "include")).text())
+    sys.stdout.write(layers[sys.argv[1]](describe(HERE.parent / "core/include")).text())
 
 
 if __name__ == "__main__":
