@@ -684,7 +684,18 @@ def judged(row):
 
 def main(path, as_csv):
     out, code = csv.writer(sys.stdout, lineterminator="\n"), 0
-    heads = "quantity,published,low,high,unit,carom,error,verdict,conditions,source".split(",")
+    heads = [
+        "quantity",
+        "published",
+        "low",
+        "high",
+        "unit",
+        "carom",
+        "error",
+        "verdict",
+        "conditions",
+        "source",
+    ]
     line = "{:<42.42} {:>9} {:>7} {:>7} {:>9} {:<7} {:<6} {:<4}  {}"
     print(
         ",".join(heads)

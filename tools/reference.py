@@ -123,9 +123,17 @@ def of_c(source):
 
 
 # Modules of the package whose names stand in `carom` itself.
-WITHIN_CAROM = set(
-    "collisions cushions derivatives layouts plans results rules shots status".split()
-)
+WITHIN_CAROM = {
+    "collisions",
+    "cushions",
+    "derivatives",
+    "layouts",
+    "plans",
+    "results",
+    "rules",
+    "shots",
+    "status",
+}
 
 
 def of_python(source):

@@ -31,7 +31,7 @@ GROUPS = {
 CONTRIBUTE = ["CONTRIBUTING.md", "docs/contributing/extending.md", "CHANGELOG.md"]
 ROOMS = sorted(
     str(page.relative_to(SOURCE))
-    for room in "cli data lab plan python src tests web".split()
+    for room in ["cli", "data", "lab", "plan", "python", "src", "tests", "web"]
     for page in (*SOURCE.glob(f"{room}/README.md"), *SOURCE.glob(f"{room}/*/README.md"))
 )
 # Pages that a search shows before others: manuals before mentions, and the study for its words.

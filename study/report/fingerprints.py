@@ -16,10 +16,14 @@ from study.report.sheets import ROOT, Sheet
 
 # The sources of each solver of the library, those that its calls are linked with; what these files
 # include belongs to it too.
-SHARED = (
-    "src/ball_ball/arguments.c src/ball_ball/batch.c src/ball_ball/collide.c "
-    "src/ball_ball/kernels.c src/platform/elementary.c src/platform/threads.c"
-).split()
+SHARED = [
+    "src/ball_ball/arguments.c",
+    "src/ball_ball/batch.c",
+    "src/ball_ball/collide.c",
+    "src/ball_ball/kernels.c",
+    "src/platform/elementary.c",
+    "src/platform/threads.c",
+]
 COLLOCATION = (
     *SHARED,
     "src/ball_ball/collocate.c",

@@ -5,15 +5,44 @@ import sys
 from pathlib import Path
 
 ROOT = Path(sys.argv[1]).resolve()
-ROOMS = (
-    "include src plan cli lab study tests examples python web/npm/src web/npm/test "
-    "web/page/src web/page/test web/player tools cmake"
-).split()
+ROOMS = [
+    "include",
+    "src",
+    "plan",
+    "cli",
+    "lab",
+    "study",
+    "tests",
+    "examples",
+    "python",
+    "web/npm/src",
+    "web/npm/test",
+    "web/page/src",
+    "web/page/test",
+    "web/player",
+    "tools",
+    "cmake",
+]
 # Functions of the C library, of compilers and of the sources of papers and other programs that
 # comments may name.
-ELSEWHERE = set(
-    """fmin fmax memcpy strtod exp cos sin atan2 pow sqrt printf fopen dup any abort mkstemp""".split()
-)
+ELSEWHERE = {
+    "fmin",
+    "fmax",
+    "memcpy",
+    "strtod",
+    "exp",
+    "cos",
+    "sin",
+    "atan2",
+    "pow",
+    "sqrt",
+    "printf",
+    "fopen",
+    "dup",
+    "any",
+    "abort",
+    "mkstemp",
+}
 SOURCES = {
     path
     for room in ROOMS

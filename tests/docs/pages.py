@@ -50,7 +50,7 @@ def start(line, folder):
 run = started = 0
 with tempfile.TemporaryDirectory() as work:
     folder = Path(work)
-    for part in "bindings data tools docs cli lab".split():
+    for part in ["bindings", "data", "tools", "docs", "cli", "lab"]:
         (folder / part).symlink_to(SOURCE / part)
     shutil.copytree(
         SOURCE / "study", folder / "study"

@@ -156,7 +156,8 @@ def test_impacts_broadcast_and_have_their_places_and_defaults():
         0.95,
     ]
     vectors = {
-        name: np.arange(3) + 3 * k for k, name in enumerate("r_a v_a w_a r_b v_b w_b".split())
+        name: np.arange(3) + 3 * k
+        for k, name in enumerate(["r_a", "v_a", "w_a", "r_b", "v_b", "w_b"])
     }
     built = carom.impacts(
         **vectors,
@@ -206,7 +207,7 @@ def test_impacts_broadcast_and_have_their_places_and_defaults():
     assert (carom.cushion(snooker, model="smooth", game="snooker").motion != lossless).any()
     small = carom.cushion_impacts(v=(1, 2, 0), game="blackball", model="smooth")
     assert small["radius"] == carom.balls([[0, 0]], game="blackball")["kind"]["radius"][0]
-    names = "height radius mass mu_slide mu_cushion restitution jaw_radius".split()
+    names = ["height", "radius", "mass", "mu_slide", "mu_cushion", "restitution", "jaw_radius"]
     built = carom.cushion_impacts(
         v=(0, 1, 2), w=(3, 4, 5), normal=(6, 7), **{name: 8 + k for k, name in enumerate(names)}
     )

@@ -41,8 +41,33 @@ _SYNONYMS = {
     "state": "state status visible visibility hidden occluded pocketed potted",
 }
 _UNSEEN = {"", "nan", "na", "n/a", "null", "none", "-", "?"}
-_ABSENT = set("hidden occluded lost missing invisible pocketed potted out false no 0".split())
-_PRESENT = set("visible seen moving rolling sliding still rest stationary true yes 1 ok".split())
+_ABSENT = {
+    "hidden",
+    "occluded",
+    "lost",
+    "missing",
+    "invisible",
+    "pocketed",
+    "potted",
+    "out",
+    "false",
+    "no",
+    "0",
+}
+_PRESENT = {
+    "visible",
+    "seen",
+    "moving",
+    "rolling",
+    "sliding",
+    "still",
+    "rest",
+    "stationary",
+    "true",
+    "yes",
+    "1",
+    "ok",
+}
 _WIDE = 0.3  # share of an extent that places of a right unit reach, at least
 _RADIUS = 0.028  # m: of a ball where none is given
 _ORDERED = 0.8  # share of a ball's rows in order, below which all are sorted
