@@ -100,61 +100,68 @@ WRONG = [
     np.datetime64(0, "s"),
     len,
 ]
-TEXT = "game world ball_model cushion_model friction space simultaneous stop_at records rules group ball_set solver slip model convention law"
+# Arguments that take a name, so that "x" may be one.
+NAMES = {
+    "game",
+    "world",
+    "ball_model",
+    "cushion_model",
+    "friction",
+    "space",
+    "simultaneous",
+    "stop_at",
+    "records",
+    "rules",
+    "group",
+    "ball_set",
+    "solver",
+    "slip",
+    "model",
+    "convention",
+    "law",
+}
 
 
-def pytest_generate_tests(metafunc):
-    """A test of a `refusal` runs for each row of the text beside its module: a call, and indented
-    below it the class of its error and the pattern that its message begins with. A test of an
-    `argument_row` runs for those with "each of", and the names of arguments.
-    """
-    for name, of_arguments in (("refusal", False), ("argument_row", True)):
-        if (
-            name in metafunc.fixturenames
-            and metafunc.definition.get_closest_marker("parametrize") is None
-        ):
-            text = Path(metafunc.module.__file__).with_suffix(".txt").read_text(encoding="utf-8")
-            rows = re.findall(r"^([^#\s].*)\n +(\w[\w ]*): ?(.*)$", text, re.M)
-            lines = re.findall(r"^[^#\n].*$", text, re.M)
-            assert len(lines) == 2 * len(rows), "a row is two lines: a call, and its error"
-            chosen = [row for row in rows if (row[1] == "each of") == of_arguments]
-            metafunc.parametrize(name, chosen, ids=[row[0] for row in chosen])
+def by_line(rows):
+    """Rows that begin with a function written in place, for pytest: each is named by its line."""
+    return [pytest.param(*row, id=f"line {row[0].__code__.co_firstlineno}") for row in rows]
 
 
-def refused(refusal, names):
+def name_of(value):
+    """The name of a function, for a row that pytest names; of other values none."""
+    return getattr(value, "__qualname__", "")
+
+
+def refused(call, error, message):
     """The call raises the error, with a short text of public names and without a warning; a
     CaromError has the field that its text names.
     """
-    call, kind, message = refusal
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        with pytest.raises(Exception, match=f"^{message}") as caught:
-            eval(call, names)
-    error = caught.value
-    assert type(error).__name__ == kind and len(str(error)) < 410
-    assert not re.search(r"offsets|options\.", str(error))
-    if kind == "CaromError":
-        assert error.field == re.split(" = |: ", str(error))[0] and error.status < 0
+        with pytest.raises(error, match=f"^{message}") as caught:
+            call()
+    raised = caught.value
+    assert type(raised) is error and len(str(raised)) < 410
+    assert not re.search(r"offsets|options\.", str(raised))
+    if error is carom.CaromError:
+        assert raised.field == re.split(" = |: ", str(raised))[0] and raised.status < 0
 
 
-def refused_by_name(argument_row, names):
+def refused_by_name(function, good, names):
     """A value of another kind in place of each argument in turn is refused, by the name of the
     argument.
     """
-    call, _, arguments = argument_row
-    function, _, good = call.partition("(")
-    if "frame" in function:
-        pytest.importorskip("pandas")
-    for name in arguments.split():
+    for name in names:
         for wrong in WRONG:
             try:
-                eval(function, names)(**{**eval(f"dict({good}", names), name: wrong})
+                function(**{**good, name: wrong})
             except carom.CaromError as error:
                 assert error.field, (name, wrong)  # whose numbers C refused
             except (TypeError, ValueError) as error:
                 assert re.search(rf"\b{name}\b", str(error)), (name, wrong, error)
             else:
                 # of text and bytes none is read as a number
-                assert not isinstance(wrong, (str, bytes)) or (
-                    name in TEXT.split() and wrong == "x"
-                ), (name, wrong)
+                assert not isinstance(wrong, (str, bytes)) or (name in NAMES and wrong == "x"), (
+                    name,
+                    wrong,
+                )
