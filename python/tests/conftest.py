@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -20,12 +21,10 @@ pytest.register_assert_rewrite("gradient_cases")
 DATA = Path(__file__).parents[2] / "data"
 
 
-def columns(name: str, names: str) -> np.ndarray:
+def columns(name: str, names: Sequence[str]) -> np.ndarray:
     """Columns of a file of data/, in the order wanted, as an array of rows."""
     with open(DATA / name, newline="", encoding="utf-8") as file:
-        return np.array(
-            [[float(row[key]) for key in names.split()] for row in csv.DictReader(file)]
-        )
+        return np.array([[float(row[key]) for key in names] for row in csv.DictReader(file)])
 
 
 def same_bits(a: np.ndarray, b: np.ndarray) -> bool:
@@ -33,14 +32,19 @@ def same_bits(a: np.ndarray, b: np.ndarray) -> bool:
     return a.tobytes() == b.tobytes()
 
 
-BALL = "r{0}x r{0}y r{0}z v{0}x v{0}y v{0}z w{0}x w{0}y w{0}z R M u_s{0} "
-MOTION = "v1x v1y v1z w1x w1y w1z v2x v2y v2z w2x w2y w2z"
+def of_ball(ball: int) -> list[str]:
+    """The columns of a ball before a collision."""
+    motion = [f"{vector}{ball}{axis}" for vector in "rvw" for axis in "xyz"]
+    return [*motion, "R", "M", f"u_s{ball}"]
+
+
+MOTION = [f"{vector}{ball}{axis}" for ball in (1, 2) for vector in "vw" for axis in "xyz"]
 
 
 @pytest.fixture(scope="session")
 def impacts() -> np.ndarray:
     """The 204 recorded collisions, (204, 26)."""
-    return columns("collisions-204.csv", BALL.format(1) + BALL.format(2) + "u_b e_b")
+    return columns("collisions-204.csv", [*of_ball(1), *of_ball(2), "u_b", "e_b"])
 
 
 @pytest.fixture(scope="session")

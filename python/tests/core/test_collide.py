@@ -15,7 +15,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 import carom
 from carom.cushions import NUMBERS
 
-IMPACT = "vx vy vz wx wy wz nx ny h R M mu_s mu_w e rho"
+MOTION = ["vx", "vy", "vz", "wx", "wy", "wz"]
+IMPACT = [*MOTION, "nx", "ny", "h", "R", "M", "mu_s", "mu_w", "e", "rho"]
 SCALE = np.repeat([1.0, 0.028575], 3)
 
 
@@ -46,7 +47,7 @@ def test_pooltools_bits(impacts, reference):
 def test_cushions():
     """Recorded impacts of pooltool; a mirror by hand."""
     impacts, expected = (
-        columns("cushion-stronge.csv", names) for names in (IMPACT, "avx avy avz awx awy awz")
+        columns("cushion-stronge.csv", names) for names in (IMPACT, [f"a{name}" for name in MOTION])
     )
     motion, status = carom.cushion(impacts, model="stronge", convention="pooltool")
     assert motion.shape == (479, 6) and not status.any()
