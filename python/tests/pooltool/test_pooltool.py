@@ -545,10 +545,7 @@ def test_installed_wherever_it_was_imported(played, monkeypatch):
     """
     defining = importlib.import_module("pooltool.evolution.event_based.simulate")
     original, user = pt.simulate, types.ModuleType("a_users_module")
-    exec(
-        "from pooltool.evolution.event_based.simulate import simulate\nfrom pooltool import simulate as play",
-        vars(user),
-    )
+    user.simulate, user.play = defining.simulate, pt.simulate
     monkeypatch.setitem(sys.modules, user.__name__, user)
     names = [
         (name, key, value)
@@ -565,7 +562,7 @@ def test_installed_wherever_it_was_imported(played, monkeypatch):
             ), (name, key)
         for simulate in (defining.simulate, user.simulate, user.play):
             simulate(pt.System.example())
-        exec("from pooltool.evolution.event_based.simulate import simulate as late", vars(user))
+        user.late = defining.simulate
         user.late(pt.System.example())
         assert len(played) == 4 and {"pooltool", "pooltool.evolution", defining.__name__} <= {
             name for name, _ in holders
