@@ -21,6 +21,21 @@ pytest.register_assert_rewrite("gradient_cases")
 DATA = Path(__file__).parents[2] / "data"
 
 
+# Whether the tests with the mark `release` run too, as they do before a release.
+RELEASE = bool(os.environ.get("CAROM_RELEASE"))
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "release: takes long, and needs CAROM_RELEASE=1 to run")
+
+
+def pytest_collection_modifyitems(config, items):
+    later = [item for item in items if item.get_closest_marker("release") and not RELEASE]
+    if later:
+        config.hook.pytest_deselected(items=later)
+        items[:] = [item for item in items if item not in later]
+
+
 def columns(name: str, names: Sequence[str]) -> np.ndarray:
     """Columns of a file of data/, in the order wanted, as an array of rows."""
     with open(DATA / name, newline="", encoding="utf-8") as file:

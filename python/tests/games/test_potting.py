@@ -508,6 +508,7 @@ def test_reset_options(gymnasium):
         envs.step(np.zeros((3, 4)))
 
 
+@pytest.mark.release  # which installs MoviePy, for one film
 def test_a_film_is_recorded(gymnasium, tmp_path):
     pytest.importorskip("moviepy")
     from gymnasium.wrappers import RecordVideo
