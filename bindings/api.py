@@ -18,9 +18,15 @@ from pathlib import Path
 
 from pycparser import c_ast, c_parser
 
-HEADERS = (
-    "carom.h carom_shot.h carom_tangent.h carom_record.h carom_plan.h carom_match.h carom_coach.h"
-).split()
+HEADERS = [
+    "carom.h",
+    "carom_shot.h",
+    "carom_tangent.h",
+    "carom_record.h",
+    "carom_plan.h",
+    "carom_match.h",
+    "carom_coach.h",
+]
 # Each type of C, its bytes ("-": none of its own), and what C# and Rust call it.
 TYPES = [
     row.split()

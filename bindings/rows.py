@@ -269,10 +269,27 @@ def options():
     return found
 
 
-OF_PYTHON = (
-    "WORLD BALL_MODEL SHOT_CUSHION BALL_FRICTION SPACE SIMULTANEOUS CUSHION_MODEL "
-    "CUSHION_CONVENTION CUSHION_LAW GAME SOLVER SLIP RULES CONDITION TURN LEAVE CHOICE PHASE GOAL"
-).split()
+OF_PYTHON = [
+    "WORLD",
+    "BALL_MODEL",
+    "SHOT_CUSHION",
+    "BALL_FRICTION",
+    "SPACE",
+    "SIMULTANEOUS",
+    "CUSHION_MODEL",
+    "CUSHION_CONVENTION",
+    "CUSHION_LAW",
+    "GAME",
+    "SOLVER",
+    "SLIP",
+    "RULES",
+    "CONDITION",
+    "TURN",
+    "LEAVE",
+    "CHOICE",
+    "PHASE",
+    "GOAL",
+]
 # Options of shots that Python has in another form: their types, defaults, texts.
 OWN = [
     (

@@ -264,7 +264,19 @@ class CSharp(Layer):
         "Space": "ShotSpace",
         "Type": "NumberType",
     }
-    KEYWORDS = set("is in out event fixed params ref base lock object operator".split())
+    KEYWORDS = {
+        "is",
+        "in",
+        "out",
+        "event",
+        "fixed",
+        "params",
+        "ref",
+        "base",
+        "lock",
+        "object",
+        "operator",
+    }
 
     def __init__(self, api):
         super().__init__(api)
@@ -519,7 +531,7 @@ class Rust(Layer):
     }
 
     BASE = {c: rust for c, _, _, rust in TYPES}
-    KEYWORDS = set("final type in where box match move ref loop use".split())
+    KEYWORDS = {"final", "type", "in", "where", "box", "match", "move", "ref", "loop", "use"}
 
     def name(self, words):
         return f"r#{words}" if words in self.KEYWORDS else words

@@ -18,7 +18,7 @@ from study.report.sheets import ROOT, Sheet
 MACHINES = ROOT / "study" / "machines.csv"
 PAGE = ROOT / "docs" / "study" / "paper.md"
 BEGIN, END = "<!-- machines.csv, as a table -->\n", "<!-- end of the table -->\n"
-ABOUT = "machine processor compiler date commit source".split()
+ABOUT = ["machine", "processor", "compiler", "date", "commit", "source"]
 CONFIG = "clang-default"
 BEST = "float@archnative"
 NOTES = ("processor", "processor family", "commit", "date", CONFIG)

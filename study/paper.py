@@ -44,9 +44,18 @@ CLAIM_WIDTH = 58
 NORMAL = 1.4826 * 1.2533  # standard error of a median, in median absolute deviations over sqrt(n)
 
 
-NEEDED = (
-    "kernels experiments verify growth-5000 ladder steps configs cycles bounds operations"
-).split()
+NEEDED = [
+    "kernels",
+    "experiments",
+    "verify",
+    "growth-5000",
+    "ladder",
+    "steps",
+    "configs",
+    "cycles",
+    "bounds",
+    "operations",
+]
 
 
 class Missing(Exception):

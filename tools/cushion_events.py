@@ -89,7 +89,32 @@ def rows(lines):
 
 def main():
     out = csv.writer(sys.stdout, lineterminator="\n")
-    out.writerow("id vx vy vz wx wy wz nx ny h R M mu_s mu_w e rho avx avy avz awx awy awz".split())
+    out.writerow(
+        [
+            "id",
+            "vx",
+            "vy",
+            "vz",
+            "wx",
+            "wy",
+            "wz",
+            "nx",
+            "ny",
+            "h",
+            "R",
+            "M",
+            "mu_s",
+            "mu_w",
+            "e",
+            "rho",
+            "avx",
+            "avy",
+            "avz",
+            "awx",
+            "awy",
+            "awz",
+        ]
+    )
     with open(sys.argv[1], encoding="utf-8") as lines:
         out.writerows(rows(lines))
 

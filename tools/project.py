@@ -32,7 +32,7 @@ def read(root):
 def missing(project):
     return [
         name
-        for name in "address tracker contact copyright authors year".split()
+        for name in ["address", "tracker", "contact", "copyright", "authors", "year"]
         if not project[name]
     ]
 

@@ -123,9 +123,17 @@ def of_c(source):
 
 
 # Modules of the package whose names stand in `carom` itself.
-WITHIN_CAROM = set(
-    "collisions cushions derivatives layouts plans results rules shots status".split()
-)
+WITHIN_CAROM = {
+    "collisions",
+    "cushions",
+    "derivatives",
+    "layouts",
+    "plans",
+    "results",
+    "rules",
+    "shots",
+    "status",
+}
 
 
 def of_python(source):
@@ -156,7 +164,7 @@ def names_of_python(source):
     """What `carom` offers, without its modules."""
     package = source / "python/src/carom"
     offered = next(
-        ast.literal_eval(node.value.func.value).split()
+        ast.literal_eval(node.value)
         for node in ast.parse((package / "__init__.py").read_text(encoding="utf-8")).body
         if isinstance(node, ast.Assign) and node.targets[0].id == "_OFFERED"
     )

@@ -4,7 +4,7 @@ import sys
 
 import carom
 
-MAY = "pass push free_ball place rack other_rack stay spot".split()
+MAY = ["pass", "push", "free_ball", "place", "rack", "other_rack", "stay", "spot"]
 PHASES = ("none", "stroke", "place", "moving", "over")
 
 

@@ -58,7 +58,7 @@ KINDS = {
 }
 KINDS |= {
     f"python {need}"
-    for need in "pooltool jax torch gymnasium pettingzoo scale sb3 elsewhere".split()
+    for need in ["pooltool", "jax", "torch", "gymnasium", "pettingzoo", "scale", "sb3", "elsewhere"]
 }
 
 # Blocks that no test of docs/ runs, by page: a new one needs a good reason and a line here.

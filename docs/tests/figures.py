@@ -17,7 +17,7 @@ import tempfile
 from fnmatch import fnmatchcase
 from pathlib import Path
 
-COMPARED = set("carom study lab python notebook node page hand".split())
+COMPARED = {"carom", "study", "lab", "python", "notebook", "node", "page", "hand"}
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 
 

@@ -25,9 +25,24 @@ ROOMS = (
 )
 # Functions of the C library, of compilers and of the sources of papers and other programs that
 # comments may name.
-ELSEWHERE = set(
-    """fmin fmax memcpy strtod exp cos sin atan2 pow sqrt printf fopen dup any abort mkstemp""".split()
-)
+ELSEWHERE = {
+    "fmin",
+    "fmax",
+    "memcpy",
+    "strtod",
+    "exp",
+    "cos",
+    "sin",
+    "atan2",
+    "pow",
+    "sqrt",
+    "printf",
+    "fopen",
+    "dup",
+    "any",
+    "abort",
+    "mkstemp",
+}
 SOURCES = {
     path
     for room in ROOMS

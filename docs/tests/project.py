@@ -44,18 +44,37 @@ def toml(path):
 run(sys.executable, SOURCE / "tools/project.py", "--check")
 with tempfile.TemporaryDirectory() as work:
     work = Path(work)
-    for part in (
-        "CMakeLists.txt LICENSE NOTICE README.md CHANGELOG.md SECURITY.md CITATION.cff cmake "
-        "core games command data packaging tools"
-    ).split():
+    for part in [
+        "CMakeLists.txt",
+        "LICENSE",
+        "NOTICE",
+        "README.md",
+        "CHANGELOG.md",
+        "SECURITY.md",
+        "CITATION.cff",
+        "cmake",
+        "core",
+        "games",
+        "command",
+        "data",
+        "packaging",
+        "tools",
+    ]:
         (shutil.copytree if (SOURCE / part).is_dir() else shutil.copy)(SOURCE / part, work / part)
-    for part in (
-        "python/pyproject.toml web/npm/package.json web/page/package.json "
-        "web/package-lock.json docs/using/building.md docs/reference/compatibility.md "
-        "packaging/tests/plain packaging/tests/consumer-cmake/CMakeLists.txt "
-        "packaging/tests/consumer-cmake/consumer.c bindings/csharp/package.json "
-        "bindings/rust/carom/Cargo.toml bindings/rust/carom-sys/Cargo.toml"
-    ).split():
+    for part in [
+        "python/pyproject.toml",
+        "web/npm/package.json",
+        "web/page/package.json",
+        "web/package-lock.json",
+        "docs/using/building.md",
+        "docs/reference/compatibility.md",
+        "packaging/tests/plain",
+        "packaging/tests/consumer-cmake/CMakeLists.txt",
+        "packaging/tests/consumer-cmake/consumer.c",
+        "bindings/csharp/package.json",
+        "bindings/rust/carom/Cargo.toml",
+        "bindings/rust/carom-sys/Cargo.toml",
+    ]:
         (work / part).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(SOURCE / part, work / part)
     shutil.copytree(SOURCE / "web/player", work / "web/player")

@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -20,12 +21,25 @@ pytest.register_assert_rewrite("gradient_cases")
 DATA = Path(__file__).parents[2] / "data"
 
 
-def columns(name: str, names: str) -> np.ndarray:
+# Whether the tests with the mark `release` run too, as they do before a release.
+RELEASE = bool(os.environ.get("CAROM_RELEASE"))
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "release: takes long, and needs CAROM_RELEASE=1 to run")
+
+
+def pytest_collection_modifyitems(config, items):
+    later = [item for item in items if item.get_closest_marker("release") and not RELEASE]
+    if later:
+        config.hook.pytest_deselected(items=later)
+        items[:] = [item for item in items if item not in later]
+
+
+def columns(name: str, names: Sequence[str]) -> np.ndarray:
     """Columns of a file of data/, in the order wanted, as an array of rows."""
     with open(DATA / name, newline="", encoding="utf-8") as file:
-        return np.array(
-            [[float(row[key]) for key in names.split()] for row in csv.DictReader(file)]
-        )
+        return np.array([[float(row[key]) for key in names] for row in csv.DictReader(file)])
 
 
 def same_bits(a: np.ndarray, b: np.ndarray) -> bool:
@@ -33,14 +47,19 @@ def same_bits(a: np.ndarray, b: np.ndarray) -> bool:
     return a.tobytes() == b.tobytes()
 
 
-BALL = "r{0}x r{0}y r{0}z v{0}x v{0}y v{0}z w{0}x w{0}y w{0}z R M u_s{0} "
-MOTION = "v1x v1y v1z w1x w1y w1z v2x v2y v2z w2x w2y w2z"
+def of_ball(ball: int) -> list[str]:
+    """The columns of a ball before a collision."""
+    motion = [f"{vector}{ball}{axis}" for vector in "rvw" for axis in "xyz"]
+    return [*motion, "R", "M", f"u_s{ball}"]
+
+
+MOTION = [f"{vector}{ball}{axis}" for ball in (1, 2) for vector in "vw" for axis in "xyz"]
 
 
 @pytest.fixture(scope="session")
 def impacts() -> np.ndarray:
     """The 204 recorded collisions, (204, 26)."""
-    return columns("collisions-204.csv", BALL.format(1) + BALL.format(2) + "u_b e_b")
+    return columns("collisions-204.csv", [*of_ball(1), *of_ball(2), "u_b", "e_b"])
 
 
 @pytest.fixture(scope="session")
@@ -100,61 +119,68 @@ WRONG = [
     np.datetime64(0, "s"),
     len,
 ]
-TEXT = "game world ball_model cushion_model friction space simultaneous stop_at records rules group ball_set solver slip model convention law"
+# Arguments that take a name, so that "x" may be one.
+NAMES = {
+    "game",
+    "world",
+    "ball_model",
+    "cushion_model",
+    "friction",
+    "space",
+    "simultaneous",
+    "stop_at",
+    "records",
+    "rules",
+    "group",
+    "ball_set",
+    "solver",
+    "slip",
+    "model",
+    "convention",
+    "law",
+}
 
 
-def pytest_generate_tests(metafunc):
-    """A test of a `refusal` runs for each row of the text beside its module: a call, and indented
-    below it the class of its error and the pattern that its message begins with. A test of an
-    `argument_row` runs for those with "each of", and the names of arguments.
-    """
-    for name, of_arguments in (("refusal", False), ("argument_row", True)):
-        if (
-            name in metafunc.fixturenames
-            and metafunc.definition.get_closest_marker("parametrize") is None
-        ):
-            text = Path(metafunc.module.__file__).with_suffix(".txt").read_text(encoding="utf-8")
-            rows = re.findall(r"^([^#\s].*)\n +(\w[\w ]*): ?(.*)$", text, re.M)
-            lines = re.findall(r"^[^#\n].*$", text, re.M)
-            assert len(lines) == 2 * len(rows), "a row is two lines: a call, and its error"
-            chosen = [row for row in rows if (row[1] == "each of") == of_arguments]
-            metafunc.parametrize(name, chosen, ids=[row[0] for row in chosen])
+def by_line(rows):
+    """Rows that begin with a function written in place, for pytest: each is named by its line."""
+    return [pytest.param(*row, id=f"line {row[0].__code__.co_firstlineno}") for row in rows]
 
 
-def refused(refusal, names):
+def name_of(value):
+    """The name of a function, for a row that pytest names; of other values none."""
+    return getattr(value, "__qualname__", "")
+
+
+def refused(call, error, message):
     """The call raises the error, with a short text of public names and without a warning; a
     CaromError has the field that its text names.
     """
-    call, kind, message = refusal
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        with pytest.raises(Exception, match=f"^{message}") as caught:
-            eval(call, names)
-    error = caught.value
-    assert type(error).__name__ == kind and len(str(error)) < 410
-    assert not re.search(r"offsets|options\.", str(error))
-    if kind == "CaromError":
-        assert error.field == re.split(" = |: ", str(error))[0] and error.status < 0
+        with pytest.raises(error, match=f"^{message}") as caught:
+            call()
+    raised = caught.value
+    assert type(raised) is error and len(str(raised)) < 410
+    assert not re.search(r"offsets|options\.", str(raised))
+    if error is carom.CaromError:
+        assert raised.field == re.split(" = |: ", str(raised))[0] and raised.status < 0
 
 
-def refused_by_name(argument_row, names):
+def refused_by_name(function, good, names):
     """A value of another kind in place of each argument in turn is refused, by the name of the
     argument.
     """
-    call, _, arguments = argument_row
-    function, _, good = call.partition("(")
-    if "frame" in function:
-        pytest.importorskip("pandas")
-    for name in arguments.split():
+    for name in names:
         for wrong in WRONG:
             try:
-                eval(function, names)(**{**eval(f"dict({good}", names), name: wrong})
+                function(**{**good, name: wrong})
             except carom.CaromError as error:
                 assert error.field, (name, wrong)  # whose numbers C refused
             except (TypeError, ValueError) as error:
                 assert re.search(rf"\b{name}\b", str(error)), (name, wrong, error)
             else:
                 # of text and bytes none is read as a number
-                assert not isinstance(wrong, (str, bytes)) or (
-                    name in TEXT.split() and wrong == "x"
-                ), (name, wrong)
+                assert not isinstance(wrong, (str, bytes)) or (name in NAMES and wrong == "x"), (
+                    name,
+                    wrong,
+                )

@@ -2,8 +2,6 @@
 
 import copy
 import pickle
-import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -61,10 +59,78 @@ def planned(**how):
     return carom.plan(TABLE, TWO, rules="potting", shots=100, best=1, **how)
 
 
-# A name, what makes an object, and below it what a call reads of `it`.
-ROWS = Path(__file__).with_suffix(".txt").read_text(encoding="utf-8")
-OBJECTS = {name: rest for name, *rest in re.findall(r"^(\w.*?): (.*)\n +(.*)$", ROWS, re.M)}
-assert 2 * len(OBJECTS) == len(ROWS.splitlines())
+# A name, what makes an object, and what a call reads of it.
+OBJECTS = {
+    "impact": (lambda: HIT, lambda it: carom.collide(it).motion),
+    "cushion impact": (lambda: WALL, lambda it: carom.cushion(it).motion),
+    "trace": (lambda: carom.trace(HIT, 5), lambda it: it),
+    "cushion trace": (lambda: carom.cushion_trace(WALL, 5), lambda it: it),
+    "cue": (lambda: CUE, lambda it: carom.simulate(TABLE, RACK, it).final),
+    "balls": (lambda: RACK, lambda it: carom.simulate(TABLE, it, CUE).final),
+    "kinds": (
+        lambda: RACK["kind"],
+        lambda it: carom.simulate_batch(TABLE, RACK["state"], CUE, kinds=it).final,
+    ),
+    "states": (
+        lambda: RACK["state"],
+        lambda it: carom.simulate_batch(TABLE, it, CUE, kinds=RACK["kind"]).final,
+    ),
+    "table": (lambda: TABLE, lambda it: carom.simulate(it, RACK, CUE).final),
+    "record of a table": (
+        lambda: TABLE.record,
+        lambda it: carom.simulate(carom.Table.from_record(it), RACK, CUE).final,
+    ),
+    "parts of a table": (
+        lambda: (TABLE.rails, TABLE.jaws, TABLE.pockets),
+        lambda it: carom.simulate(
+            carom.Table(1.27, 2.54, rails=it[0], jaws=it[1], pockets=it[2]), TWO, STROKE
+        ).final,
+    ),
+    "options": (
+        lambda: carom.Options(cushion_model="stronge"),
+        lambda it: carom.simulate(TABLE, OF_STRONGE, STROKE, options=it).final,
+    ),
+    "shot": (
+        lambda: two(t_final=1.0),
+        lambda it: (
+            carom.resume(it).final,
+            carom.tangents(it, ["cue.phi"]).states,
+            it.positions(0.5),
+        ),
+    ),
+    "shots": (
+        lambda: carom.simulate_batch(
+            TABLE, TWO, STROKE[np.newaxis], features=True, room=64, records="brief"
+        ),
+        lambda it: (it.events, it.features.contact, it.positions(0.5)),
+    ),
+    "shot of a batch": (
+        lambda: carom.simulate_batch(TABLE, TWO, STROKE[np.newaxis], room=64)[0],
+        lambda it: carom.tangents(it, ["cue.phi"]).states,
+    ),
+    "tangents": (lambda: carom.tangents(two(), ["cue.phi"]), lambda it: it.states),
+    "match": (match, lambda it: it.end()),
+    "player": (
+        lambda: carom.player(),
+        lambda it: (planned(player=it, opponent=it), carom.with_errors(CUE, it, 1)),
+    ),
+    "choices": (lambda: planned(), lambda it: it),
+    "ruling": (
+        lambda: RULING,
+        lambda it: (
+            carom.referee(TABLE, it.balls, CUE, rules="nineball", state=it.state).balls,
+            it.facts.foul({1}),
+        ),
+    ),
+    "position": (lambda: POOL.begin(1), lambda it: POOL.play(it, np.zeros(6))[0].balls),
+    "game": (lambda: POOL, lambda it: it.play(it.begin(1), np.zeros(6))[0].balls),
+    "potting": (
+        lambda: carom.potting.Potting(noise=(0.1, 0.1, 0.1)),
+        lambda it: it.cues(np.zeros(4), np.ones((), np.uint64)),
+    ),
+    "recordings": (lambda: MADE.recordings, lambda it: fitted(it).strikes),
+    "fit": (lambda: fitted(), lambda it: (it.positions(0, 0.5), it.kicks().rmse)),
+}
 
 
 def bits(value):
@@ -117,10 +183,10 @@ def test_calls_take_copies(name):
     make, read = OBJECTS[name]
 
     def use(it):
-        return bits(eval(read, {**globals(), "it": it}))
+        return bits(read(it))
 
-    original = eval(make, globals())
-    expected = use(eval(make, globals()))
+    original = make()
+    expected = use(make())
     for kind, copied in {**COPIES, **(ARRAYS if isinstance(original, np.ndarray) else {})}.items():
         dirty = [np.full(size, 1.5) for size in (4, 12, 26, 60) for _ in range(500)]
         del dirty

@@ -75,7 +75,7 @@ def test_without_what_is_optional(package):
 
 
 def test_tab_completion_shows_what_a_module_of_a_folder_offers():
-    private = set("Made judge of_record check_table np ffi lib Any pointer".split())
+    private = {"Made", "judge", "of_record", "check_table", "np", "ffi", "lib", "Any", "pointer"}
     for module in map(importlib.import_module, ["carom.tracks", *SHORT]):
         shown = set(dir(module))
         assert shown and not private & shown, module

@@ -33,10 +33,16 @@ from pathlib import Path
 from . import machine_code
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-BALL = "r{0}x r{0}y r{0}z v{0}x v{0}y v{0}z w{0}x w{0}y w{0}z R M u_s{0}"
-FIELDS = (
-    BALL.format(1) + " " + BALL.format(2) + " u_b e_b"
-).split()  # carom_impact, as data/README.md names its numbers
+
+
+def fields_of_ball(ball):
+    """The columns of a ball's motion and constants."""
+    motion = [f"{vector}{ball}{axis}" for vector in "rvw" for axis in "xyz"]
+    return [*motion, "R", "M", f"u_s{ball}"]
+
+
+# carom_impact, as data/README.md names its numbers
+FIELDS = [*fields_of_ball(1), *fields_of_ball(2), "u_b", "e_b"]
 CASE = "pooltool-002"  # friction at the cloth in every step: the case whose path through the loop is bounded
 FIVE = ["base", "double", "float", "double_vec", "float_vec"]  # the kernels of the paper's figures
 MODELS = {"zen2": "znver2", "native": "native"}  # what llvm-mca calls them

@@ -15,8 +15,31 @@ from collections import namedtuple
 from functools import cache
 from pathlib import Path
 
-FLOATING_POINT = "add mul div sqrt fma rsqrt rcp convert compare minmax".split()
-PREFIXES = set("data16 cs ds notrack bnd lock rep repz repnz {vex} {evex}".split())
+FLOATING_POINT = [
+    "add",
+    "mul",
+    "div",
+    "sqrt",
+    "fma",
+    "rsqrt",
+    "rcp",
+    "convert",
+    "compare",
+    "minmax",
+]
+PREFIXES = {
+    "data16",
+    "cs",
+    "ds",
+    "notrack",
+    "bnd",
+    "lock",
+    "rep",
+    "repz",
+    "repnz",
+    "{vex}",
+    "{evex}",
+}
 
 
 class UnknownInstruction(Exception):

@@ -1,16 +1,15 @@
 """published.py LIBRARY MEASURED.csv [csv], which `carom-lab published` runs: values that others
 measured or stated, beside those that carom computes.
 
-The columns of a row end with the verdict that is wanted, and with what computes carom's value: an
-expression of Python over the functions of this file, such as rebound(1, 1.5); "-" where nothing of
-carom can be compared, which the conditions explain. A row without bounds is printed and not judged.
-Games, tables and racks are the numbers of carom_shot.h: 0 is pool, the 7 ft table, nine-ball.
+The columns of a row end with the verdict that is wanted, and with the name in COMPUTED of the
+function that computes carom's value; "-" where nothing of carom can be compared, which the
+conditions explain. A row without bounds is printed and not judged.
 """
 
 import csv
 import ctypes
 import sys
-from functools import cache
+from functools import cache, partial
 from math import atan2, cos, degrees, exp, hypot, inf, isnan, nan, radians, sin, sqrt, tan
 from pathlib import Path
 from random import Random
@@ -658,6 +657,185 @@ def median_of(name, *numbers):
     return m, 1.86 * median(abs(x - m) for x in sample) / sqrt(len(sample))
 
 
+# ---- What computes the value of a row of measured.csv, by the name in its column `computed`
+
+POOL, SNOOKER, BILLIARD = GAME_POOL, GAME_SNOOKER, GAME_BILLIARD
+
+
+def bank_by_diamonds(origin, beyond):
+    """The diamonds to where a bank comes back, aimed so many half diamonds beyond its origin."""
+    return origin - diamond(TABLE_POOL_9FT, POOL, origin, origin - 0.5 * beyond, 1.5, 0, 2)
+
+
+def third_rail(origin, aim, **numbers):
+    """Where the corner-five system arrives on the third rail; 3 m/s, side spin R w_z / v of 0.6."""
+    start = 2 * (origin - 1)
+    return diamond(TABLE_THREECUSHION, BILLIARD, start, aim, 3, 0.6, 3, **numbers)
+
+
+def rolling_deceleration(game, speed):
+    return ball(game).mu_roll * ball(game).gravity + ball(game).drag * speed**2
+
+
+def sliding_deceleration(game):
+    return ball(game).mu_slide * ball(game).gravity
+
+
+def share_of_tangent_line(cut):
+    """The deflection of a rolling ball over that of a sliding one."""
+    return deflection(cut, 1, 1) / (90 - cut)
+
+
+def most_side():
+    """R w_z / v of a ball that is struck half a radius beside its centre."""
+    motion = struck(0.5, 0)
+    return ball().radius * abs(motion.w[2]) / hypot(*motion.v[:2])
+
+
+def roll_at_once():
+    """R w / v of a ball that is struck 2/5 of a radius above its centre."""
+    motion = struck(0, 0.4)
+    return -ball().radius * motion.w[0] / motion.v[1]
+
+
+def of_constants_and_strikes():
+    """{name: function} of rows that stand alone."""
+    stun_45 = cache(lambda: speeds(45, 1, 0))
+    cue_speed, object_speed = (lambda: stun_45()[0]), (lambda: stun_45()[1])
+    jump_cue = {"mass": 0.28, "tip_time": 0.0008, "tip_restitution": 0.85}
+    return {
+        "pool ball-ball friction": lambda: ball(POOL).mu_ball,
+        "pool ball-ball restitution": lambda: ball(POOL).restitution,
+        "billiard ball-ball restitution": lambda: ball(BILLIARD).restitution,
+        "pool rolling resistance": lambda: ball(POOL).mu_roll,
+        "pool sliding friction": lambda: ball(POOL).mu_slide,
+        "pool spin deceleration": lambda: (
+            2.5 * ball(POOL).mu_spin * ball(POOL).gravity / ball(POOL).radius
+        ),
+        "pool tip restitution": lambda: cue(POOL).tip_restitution,
+        "snooker rolling deceleration": lambda: rolling_deceleration(SNOOKER, 0.5),
+        "snooker sliding deceleration": lambda: sliding_deceleration(SNOOKER),
+        "billiard sliding deceleration": lambda: sliding_deceleration(BILLIARD),
+        "billiard nose height": lambda: 1000 * table(TABLE_THREECUSHION).rail[0].height,
+        "length of the 9 ft table": lambda: table(TABLE_POOL_9FT).length,
+        "length of the 8 ft table": lambda: table(TABLE_POOL_8FT).length,
+        "pool ball diameter": lambda: 2000 * ball(POOL).radius,
+        "pool ball mass": lambda: ball(POOL).mass,
+        "pool rebound at 1 m/s": lambda: rebound(POOL, 1),
+        "twice across": lambda: max(abs(angle) for angle in twice_across()),
+        "all systems": systems,
+        "bounce": lambda: bounce(0.1),
+        "speeds of object and cue ball": lambda: object_speed() / cue_speed(),
+        "speed of the object ball": object_speed,
+        "distance of the object ball": lambda: object_speed() ** 2,
+        "distances of a full rolling hit": lambda: distance_ratio(0, 1, 1),
+        "distances of a rolling hit of 32 degrees": lambda: distance_ratio(32, 1, 1),
+        "distances of a stun hit of 45 degrees": lambda: distance_ratio(45, 1, 0),
+        "cut of the greatest throw": lambda: throw_most(1),
+        "share of a frozen kiss": lambda: kiss_share(60, 2),
+        "hop": lambda: rise(0, 10, 3),
+        "rise at 30 degrees": lambda: rise(0.28, 30, 4),
+        "rise by a jump cue": lambda: rise(0.28, 45, 4, **jump_cue),
+        "break in the air": lambda: in_the_air(5, 9, (0, 0.1)),
+        "inside english": lambda: inside(18.435, 0.5, 2),
+        "ball speed over cue speed": lambda: struck(0, 0).v[1] / cue().speed,
+        "squirt": lambda: abs(angle(struck(0.25, 0).v)),
+        "most side spin": most_side,
+        "roll at once": roll_at_once,
+    }
+
+
+def of_cushions_and_pockets():
+    found = {}
+    for speed in (2, 0.6):
+        found[f"billiard rebound at {speed} m/s"] = partial(rebound, BILLIARD, speed)
+    for speed in (0.55, 0.9, 1.6):
+        found[f"rebound of 2017 at {speed} m/s"] = partial(rebound, BILLIARD, speed, **MATCH_2017)
+    for speed in (0.5, 1, 1.5, 2, 2.5):
+        found[f"snooker rebound at {speed} m/s"] = partial(rebound, SNOOKER, speed)
+    for speed in (4.5, 7):
+        found[f"lengths of travel at {speed} m/s"] = partial(lengths_of_travel, speed)
+    for origin, beyond in ((7, 1), (7, 2), (7.5, 3)):
+        found[f"bank from {origin} by {beyond}"] = partial(bank_by_diamonds, origin, beyond)
+    for origin, aim in ((4.5, 2), (5, 1), (5, 2), (5, 3), (4, 1)):
+        found[f"third rail of {origin} - {aim}"] = partial(third_rail, origin, aim)
+    for aim in (1, 2, 3):
+        found[f"third rail of 5 - {aim} in 2017"] = partial(third_rail, 5, aim, **MATCH_2017)
+    for of_set in "PGVCF":
+        found[f"system {of_set}"] = partial(system, of_set)
+    for angle_to_rail in (45, 35, 25, 20, 15, 10, 6):
+        found[f"corner pocket at {angle_to_rail} degrees"] = partial(
+            size, False, angle_to_rail, 1.5
+        )
+    for angle_to_rail in (0, 20, 40, 50):
+        found[f"side pocket at {angle_to_rail} degrees"] = partial(size, True, angle_to_rail, 1.5)
+    return found
+
+
+def of_two_balls():
+    found = {"throw": partial(throw, 45, 0.45, 0)}
+    for friction in (0.06, 0.2, 0.5):
+        found[f"throw with friction {friction}"] = partial(throw, 45, 0.45, 0, friction)
+    for speed in (0.1, 1, 10):
+        found[f"friction by Marlow at {speed} m/s"] = partial(marlow, speed * sin(radians(45)))
+    for slip in (1.85, 2.6, 3.5):
+        found[f"billiard friction at a slip of {slip} m/s"] = partial(friction_of, BILLIARD, slip)
+    for cut in (48.59, 30, 14.48):
+        found[f"deflection at {cut} degrees"] = partial(deflection, cut, 1, 1)
+    for cut in (61.04, 53.13):
+        found[f"share of the tangent line at {cut} degrees"] = partial(share_of_tangent_line, cut)
+    for cut in (5, 10):
+        found[f"deflection over the cut of {cut} degrees"] = partial(
+            lambda cut: deflection(cut, 1, 1) / cut, cut
+        )
+    for cut in (10, 15, 20):
+        found[f"draw at {cut} degrees"] = partial(draw_angle, cut, 1)
+    for cut in (30, 45, 60):
+        found[f"gearing at {cut} degrees"] = partial(gearing, cut, 1, 0)
+    return found
+
+
+def of_breaks():
+    """A break has a rack, a table, the gaps in mm, the offset of the cue ball in m, its speed in m/s."""
+    found = {}
+    for gap in (0, 0.05, 0.1, 0.3):
+        nine = (RACK_NINEBALL, TABLE_POOL_9FT, gap, 0.45, 9)
+        found[f"nine-ball break succeeds with gaps of {gap} mm"] = partial(share, "success", *nine)
+        found[f"nine-ball break scratches with gaps of {gap} mm"] = partial(share, "scratch", *nine)
+        found[f"nine-ball break's wing ball with gaps of {gap} mm"] = partial(wings, *nine)
+        found[f"nine-ball break's 1 ball with gaps of {gap} mm"] = partial(
+            share, "front_in_side", *nine
+        )
+        eight = (RACK_EIGHTBALL, TABLE_POOL_7FT, gap, 0.2, 9)
+        found[f"eight-ball break succeeds with gaps of {gap} mm"] = partial(
+            share, "success", *eight
+        )
+        found[f"eight on the break with gaps of {gap} mm"] = partial(share, "eight", *eight)
+        ten = (RACK_TENBALL, TABLE_POOL_9FT, gap, 0.3, 10)
+        found[f"ten-ball break makes a ball with gaps of {gap} mm"] = partial(
+            share, "success", *ten
+        )
+        found[f"balls of a ten-ball break with gaps of {gap} mm"] = partial(balls_of_a_break, *ten)
+    for game, rack in (("nine-ball", RACK_NINEBALL), ("eight-ball", RACK_EIGHTBALL)):
+        for gap in (0, 0.1):
+            found[f"cue ball back after the {game} break with gaps of {gap} mm"] = partial(
+                median_of, "back", rack, TABLE_POOL_9FT, gap, 0, 9, 0
+            )
+    for above in (0, 0.1, 0.2):
+        found[f"cue ball's rest with the tip {above} R above"] = partial(
+            median_of, "rest", RACK_EIGHTBALL, TABLE_POOL_9FT, 0, 0, 9, above
+        )
+    return found
+
+
+COMPUTED = {
+    **of_constants_and_strikes(),
+    **of_cushions_and_pockets(),
+    **of_two_balls(),
+    **of_breaks(),
+}
+
+
 # ---- The table
 
 
@@ -666,7 +844,7 @@ def judged(row):
     low, high = float(row["low"] or -inf), float(row["high"] or inf)
     if row["computed"] == "-":
         return "-", "", "-"
-    value = eval(row["computed"], globals())
+    value = COMPUTED[row["computed"]]()
     value, error = value if isinstance(value, tuple) else (value, 0)
     if isnan(value):
         raise ValueError
@@ -684,7 +862,18 @@ def judged(row):
 
 def main(path, as_csv):
     out, code = csv.writer(sys.stdout, lineterminator="\n"), 0
-    heads = "quantity,published,low,high,unit,carom,error,verdict,conditions,source".split(",")
+    heads = [
+        "quantity",
+        "published",
+        "low",
+        "high",
+        "unit",
+        "carom",
+        "error",
+        "verdict",
+        "conditions",
+        "source",
+    ]
     line = "{:<42.42} {:>9} {:>7} {:>7} {:>9} {:<7} {:<6} {:<4}  {}"
     print(
         ",".join(heads)
@@ -697,7 +886,7 @@ def main(path, as_csv):
                 continue
             try:
                 value, error, verdict = judged(row)
-            except (ValueError, TypeError, AttributeError, NameError, SyntaxError):
+            except (ValueError, TypeError, KeyError):
                 print(
                     f"carom-lab: {path}:{rows.line_num}: not a row of {len(rows.fieldnames)} columns with bounds and a function",
                     file=sys.stderr,

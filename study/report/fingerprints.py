@@ -16,10 +16,14 @@ from study.report.sheets import ROOT, Sheet
 
 # The sources of each solver of the library, those that its calls are linked with; what these files
 # include belongs to it too.
-SHARED = (
-    "core/src/ball_ball/arguments.c core/src/ball_ball/batch.c core/src/ball_ball/collide.c "
-    "core/src/ball_ball/kernels.c core/src/platform/elementary.c core/src/platform/threads.c"
-).split()
+SHARED = [
+    "core/src/ball_ball/arguments.c",
+    "core/src/ball_ball/batch.c",
+    "core/src/ball_ball/collide.c",
+    "core/src/ball_ball/kernels.c",
+    "core/src/platform/elementary.c",
+    "core/src/platform/threads.c",
+]
 COLLOCATION = (
     *SHARED,
     "core/src/ball_ball/collocate.c",

@@ -122,28 +122,134 @@ if _TYPE_CHECKING:
 
 # What the package gives, as dir(carom) shows it. It has no __all__, since help(carom) would print the
 # whole of every name there.
-_OFFERED = (
-    "ALL_THREADS Calibration CaromError Drill EventType Facts Features Flag Foul Goal Hessian "
-    "Label Match Odds Options Outcome Pot Rating Review Rules Ruling RunOut Shot Shots Status "
-    "Table Tangents Turn aim aim_slope alciatore balls best_breaks by_number calibrate chances "
-    "cite collide cue cushion cushion_impacts cushion_trace dtypes hessian impacts isa_in_force "
-    "jacobian mu_ball odds physics_revision place_ball plan player racks rating referee resume review "
-    "sequence simulate simulate_arrow simulate_batch struck tables tangents trace value "
-    "with_errors"
-).split()
+_OFFERED = [
+    "ALL_THREADS",
+    "Calibration",
+    "CaromError",
+    "Drill",
+    "EventType",
+    "Facts",
+    "Features",
+    "Flag",
+    "Foul",
+    "Goal",
+    "Hessian",
+    "Label",
+    "Match",
+    "Odds",
+    "Options",
+    "Outcome",
+    "Pot",
+    "Rating",
+    "Review",
+    "Rules",
+    "Ruling",
+    "RunOut",
+    "Shot",
+    "Shots",
+    "Status",
+    "Table",
+    "Tangents",
+    "Turn",
+    "aim",
+    "aim_slope",
+    "alciatore",
+    "balls",
+    "best_breaks",
+    "by_number",
+    "calibrate",
+    "chances",
+    "cite",
+    "collide",
+    "cue",
+    "cushion",
+    "cushion_impacts",
+    "cushion_trace",
+    "dtypes",
+    "hessian",
+    "impacts",
+    "isa_in_force",
+    "jacobian",
+    "mu_ball",
+    "odds",
+    "physics_revision",
+    "place_ball",
+    "plan",
+    "player",
+    "racks",
+    "rating",
+    "referee",
+    "resume",
+    "review",
+    "sequence",
+    "simulate",
+    "simulate_arrow",
+    "simulate_batch",
+    "struck",
+    "tables",
+    "tangents",
+    "trace",
+    "value",
+    "with_errors",
+]
 
 # Names of the folder games, and modules of folders, which are loaded when they are asked for.
 _OF_GAMES = frozenset(
-    "Drill Facts Foul Goal Match Odds Pot Rating Review Rules Ruling RunOut Turn aim best_breaks "
-    "chances odds plan player rating referee review sequence value with_errors".split()
+    [
+        "Drill",
+        "Facts",
+        "Foul",
+        "Goal",
+        "Match",
+        "Odds",
+        "Pot",
+        "Rating",
+        "Review",
+        "Rules",
+        "Ruling",
+        "RunOut",
+        "Turn",
+        "aim",
+        "best_breaks",
+        "chances",
+        "odds",
+        "plan",
+        "player",
+        "rating",
+        "referee",
+        "review",
+        "sequence",
+        "value",
+        "with_errors",
+    ]
 )
 _MODULES_OF_FOLDERS = frozenset(
-    "drills fit gymnasium matches pettingzoo plans pool potting rules sb3".split()
+    [
+        "drills",
+        "fit",
+        "gymnasium",
+        "matches",
+        "pettingzoo",
+        "plans",
+        "pool",
+        "potting",
+        "rules",
+        "sb3",
+    ]
 )
 
-_MODULES_OF_LISTINGS = (
-    "collisions cushions derivatives dtypes layouts racks results shots status tables".split()
-)
+_MODULES_OF_LISTINGS = [
+    "collisions",
+    "cushions",
+    "derivatives",
+    "dtypes",
+    "layouts",
+    "racks",
+    "results",
+    "shots",
+    "status",
+    "tables",
+]
 for _name in _MODULES_OF_LISTINGS:
     setattr(_sys.modules[f"carom.{_name}"], "__dir__", _listing(f"carom.{_name}"))  # noqa: B010
 

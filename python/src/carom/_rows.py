@@ -431,11 +431,6 @@ def choice(names: dict[str, int], value: str, option: str) -> int:
         ) from None
 
 
-def record_of(fields: str) -> np.dtype[Any]:
-    """A structured dtype by its fields, such as "shot:i8 time:f8 r:2f8"."""
-    return np.dtype([tuple(field.split(":")) for field in fields.split()])
-
-
 def broadcast(shapes: dict[str, tuple[int, ...]]) -> tuple[int, ...]:
     """The shape to which leading dimensions of arguments are broadcast."""
     unlike = set(shapes.values()) - {()}

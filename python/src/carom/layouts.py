@@ -258,9 +258,15 @@ def check_table(table: object) -> None:
 
 
 _RADII = {lib.carom_ball_kind_of(number).radius: name for name, number in reversed(GAMES.items())}
-_CUSHION = (
-    "mu_cushion restitution_cushion nose_height roll_loss restitution_log mu_log smooth_q"
-).split()
+_CUSHION = [
+    "mu_cushion",
+    "restitution_cushion",
+    "nose_height",
+    "roll_loss",
+    "restitution_log",
+    "mu_log",
+    "smooth_q",
+]
 
 
 def radius_on(kind: int) -> float:

@@ -25,10 +25,32 @@ _MARGIN = 0.12  # m around the cushions, for pockets and the frame
 _CLOTH, _CUSHION, _WOOD, _POCKET, _MARK = "#2e7d5b", "#1b5e42", "#6d4c33", "#111111", "#ffd166"
 # The balls in the order of the layout: the cue ball, then 1 to 15 in the colours of pool, and
 # again.
-_COLOURS = (
-    "#ffffff #f2c200 #1f4fd8 #d32f2f #6a1b9a #ef6c00 #2e9b3a #7b1c1c #222222 #f7dc6f #7fa3f5 #ef8a8a #b58ad4 #f7b27a #8fd19a #c58a8a"
-).split()
-_DARK = set("#1f4fd8 #d32f2f #6a1b9a #2e9b3a #7b1c1c #222222".split())  # balls with a white number
+_COLOURS = [
+    "#ffffff",
+    "#f2c200",
+    "#1f4fd8",
+    "#d32f2f",
+    "#6a1b9a",
+    "#ef6c00",
+    "#2e9b3a",
+    "#7b1c1c",
+    "#222222",
+    "#f7dc6f",
+    "#7fa3f5",
+    "#ef8a8a",
+    "#b58ad4",
+    "#f7b27a",
+    "#8fd19a",
+    "#c58a8a",
+]
+_DARK = {
+    "#1f4fd8",
+    "#d32f2f",
+    "#6a1b9a",
+    "#2e9b3a",
+    "#7b1c1c",
+    "#222222",
+}  # balls with a white number
 _PATH_POINTS = 400
 _DOT = 0.005  # m: radius of a place seen
 _FRAMES_A_SECOND = 25
@@ -281,7 +303,18 @@ def plot(table: Any, shot: Any, ax: Any) -> Any:
 # The digits of the balls, 3 pixels wide and 5 high: a row of each is a number of three bits.
 _DIGITS = [
     [int(row) for row in digit]
-    for digit in "75557 26227 71747 71717 55711 74717 74757 71111 75757 75717".split()
+    for digit in [
+        "75557",
+        "26227",
+        "71747",
+        "71717",
+        "55711",
+        "74717",
+        "74757",
+        "71111",
+        "75757",
+        "75717",
+    ]
 ]
 
 

@@ -31,10 +31,13 @@ BAD = carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0), mass=-1.0)
 # --------------------------------------------------------------------------------------------------------------
 
 PLAYS = """
-import numpy as np, sys
+import json
+import sys
+
+import numpy as np
 import carom
 
-plain, fast = eval(sys.argv[1])
+plain, fast = json.loads(sys.argv[1])
 angles = np.linspace(-1.2, 1.2, 101)
 pairs = carom.impacts(v_a=(1.5, 0, 0), w_a=(3.0, 10.0, 5.0), r_b=np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=-1))
 into = carom.cushion_impacts(v=np.stack([np.sin(angles), np.cos(angles), 0 * angles], axis=-1), w=(3.0, 10.0, 5.0))
@@ -57,8 +60,8 @@ bits = {name: array.tobytes().hex() for name, array in bits.items()}
 
 def test_plain_has_the_bits_of_a_process_limited_to_plain():
     def bits(plain, isa):
-        program = PLAYS + "import json; print(json.dumps(bits))"
-        return json.loads(run_python("-c", program, repr(plain), CAROM_ISA=isa).stdout)
+        program = PLAYS + "print(json.dumps(bits))"
+        return json.loads(run_python("-c", program, json.dumps(plain), CAROM_ISA=isa).stdout)
 
     limited, request = (
         bits(({}, {"fast": True}), "plain"),

@@ -15,7 +15,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 import carom
 from carom.cushions import NUMBERS
 
-IMPACT = "vx vy vz wx wy wz nx ny h R M mu_s mu_w e rho"
+MOTION = ["vx", "vy", "vz", "wx", "wy", "wz"]
+IMPACT = [*MOTION, "nx", "ny", "h", "R", "M", "mu_s", "mu_w", "e", "rho"]
 SCALE = np.repeat([1.0, 0.028575], 3)
 
 
@@ -46,7 +47,7 @@ def test_pooltools_bits(impacts, reference):
 def test_cushions():
     """Recorded impacts of pooltool; a mirror by hand."""
     impacts, expected = (
-        columns("cushion-stronge.csv", names) for names in (IMPACT, "avx avy avz awx awy awz")
+        columns("cushion-stronge.csv", names) for names in (IMPACT, [f"a{name}" for name in MOTION])
     )
     motion, status = carom.cushion(impacts, model="stronge", convention="pooltool")
     assert motion.shape == (479, 6) and not status.any()
@@ -156,7 +157,8 @@ def test_impacts_broadcast_and_have_their_places_and_defaults():
         0.95,
     ]
     vectors = {
-        name: np.arange(3) + 3 * k for k, name in enumerate("r_a v_a w_a r_b v_b w_b".split())
+        name: np.arange(3) + 3 * k
+        for k, name in enumerate(["r_a", "v_a", "w_a", "r_b", "v_b", "w_b"])
     }
     built = carom.impacts(
         **vectors,
@@ -206,7 +208,7 @@ def test_impacts_broadcast_and_have_their_places_and_defaults():
     assert (carom.cushion(snooker, model="smooth", game="snooker").motion != lossless).any()
     small = carom.cushion_impacts(v=(1, 2, 0), game="blackball", model="smooth")
     assert small["radius"] == carom.balls([[0, 0]], game="blackball")["kind"]["radius"][0]
-    names = "height radius mass mu_slide mu_cushion restitution jaw_radius".split()
+    names = ["height", "radius", "mass", "mu_slide", "mu_cushion", "restitution", "jaw_radius"]
     built = carom.cushion_impacts(
         v=(0, 1, 2), w=(3, 4, 5), normal=(6, 7), **{name: 8 + k for k, name in enumerate(names)}
     )

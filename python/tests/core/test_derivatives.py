@@ -4,7 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
-from conftest import refused, same_bits
+from conftest import by_line, refused, same_bits
 from numpy.testing import assert_allclose, assert_array_equal
 
 import carom
@@ -370,5 +370,40 @@ def test_what_is_not_known():
     assert error.value.status is carom.Status.ERROR_TANGENT
 
 
-def test_refusals(refusal):
-    refused(refusal, globals())
+def hessian_of_one(wrt, **how):
+    shot = carom.simulate(TABLE, carom.balls([[0.6, 0.3]]), carom.cue(speed=0.5, b=0.4), **CLOSED)
+    return carom.hessian(shot, wrt, **how)
+
+
+def tangents_of_brief_records():
+    cues = carom.cue(speed=[1.5, 1.5, 3.0], phi=79.0, b=[0.1, 2.0, 0.1])
+    shots = carom.simulate_batch(TABLE, layout()[0], cues, room=99, records="brief")
+    return carom.tangents(shots, ["cue.phi"])
+
+
+# A call, the class of its error, and a pattern with which its message begins.
+REFUSALS = [
+    (
+        lambda: hessian_of_one(["table.nose_height"], along=None),
+        ValueError,
+        "wrt: table.nose_height has no second",
+    ),
+    (lambda: hessian_of_one([], along=None), ValueError, "wrt: name at least one"),
+    (
+        lambda: hessian_of_one(["cue.phi"], along=[1.0, 2.0]),
+        ValueError,
+        r"along: the shape must be \(1,\)",
+    ),
+    (lambda: hessian_of_one(["cue.phi"], along=[[1.0]]), ValueError, "along: the shape"),
+    (lambda: tangents_of_brief_records(), ValueError, '.*records="full"'),
+    (
+        lambda: carom.tangents(carom.simulate(TABLE, *layout()), ["cue.phi"], times=[1.0, 0.5]),
+        ValueError,
+        "times",
+    ),
+]
+
+
+@pytest.mark.parametrize(("call", "error", "message"), by_line(REFUSALS))
+def test_refusals(call, error, message):
+    refused(call, error, message)

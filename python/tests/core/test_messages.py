@@ -9,8 +9,7 @@ from typing import get_args
 
 import numpy as np
 import pytest
-from conftest import refused, refused_by_name
-from numpy import inf, nan  # noqa: F401
+from conftest import by_line, name_of, refused, refused_by_name
 
 import carom
 import carom.record
@@ -62,6 +61,17 @@ def spoiled():
     return table.changed(rails=rails)
 
 
+SHOT, BATCH = (
+    carom.simulate(TABLE, RACK, CUE),
+    carom.simulate_batch(TABLE, RACK, carom.cue(speed=[1.0, 2.0])),
+)
+STOPPED, PAIR = (
+    carom.simulate(TABLE, RACK, CUE, t_final=0.1),
+    carom.balls([[0.6, 0.8], [0.75, 1.6]]),
+)
+CORNERS = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+
+
 def rows_of(part):
     """The numbers of a part: name, range, error."""
     k, text = 0, ffi.new("char[]", 100)
@@ -72,27 +82,561 @@ def rows_of(part):
 
 
 def numbers_in_error():
-    """Refusals by the ranges in the library, in the form of the rows of test_messages.txt."""
+    """Refusals of numbers outside the ranges in the library."""
     for name, allowed, error in rows_of(lib.CAROM_PART_CUE):
-        for value in ("99", "-1") if name == "ball" else ("nan", "inf", "-2000000000.0"):
+        for value in (99, -1) if name == "ball" else (np.nan, np.inf, -2000000000.0):
             message = rf"cue\.{name} = {value}: it must be {allowed}$"
-            if (name, value) != ("theta", "nan"):
-                yield f"carom.cue({name}={value})", "CaromError", message
-            if error not in (0, lib.CAROM_ERROR_MISCUE) and value in ("99", "-1", "nan"):
-                yield f"shot({name}={value})", "CaromError", message
+            if name != "theta" or not np.isnan(value):
+                yield pytest.param(
+                    lambda name=name, value=value: carom.cue(**{name: value}),
+                    message,
+                    id=f"cue {name}={value}",
+                )
+            if error not in (0, lib.CAROM_ERROR_MISCUE) and (name == "ball" or np.isnan(value)):
+                yield pytest.param(
+                    lambda name=name, value=value: shot(**{name: value}),
+                    message,
+                    id=f"shot {name}={value}",
+                )
     for name, allowed, _ in rows_of(lib.CAROM_PART_BALL):
         message = rf"balls\[1\]\.kind\.{name} = nan: it must be {allowed}$"
-        call = f"balls({name}=[RACK[0]['kind']['{name}'], nan])"
-        yield call, "CaromError", message
+        good = RACK[0]["kind"][name]
+        yield pytest.param(
+            lambda name=name, good=good: balls(**{name: [good, np.nan]}),
+            message,
+            id=f"balls {name}",
+        )
 
 
-def test_message(refusal):
-    refused(refusal, globals())
+# A call, the class of its error, and a pattern with which its message begins.
+REFUSALS = [
+    (
+        lambda: carom.collide(ROWS, solver="exakt"),
+        ValueError,
+        "solver: must be one of 'exact', 'euler', 'fast', not 'exakt'",
+    ),
+    (
+        lambda: carom.collide(GOOD, threads=-7),
+        ValueError,
+        "threads: it must be a whole number from -1 to .*, not -7",
+    ),
+    (lambda: carom.cushion(WALL, threads=-2), ValueError, "threads: .* from -1 to .*, not -2"),
+    (lambda: carom.cushion(WALL, threads=10**30), ValueError, "threads: .* whole number"),
+    (
+        lambda: carom.collide(GOOD, solver="euler", steps=-1),
+        ValueError,
+        "steps: .* from 0 to .*, not -1",
+    ),
+    (lambda: carom.collide(GOOD, steps=2**31), ValueError, "steps: .* whole number"),
+    (
+        lambda: carom.collide(np.zeros((4, 25))),
+        ValueError,
+        r"impacts: the shape must be \(\.\.\., 26\)",
+    ),
+    (
+        lambda: carom.impacts(v_a=(1, 0), r_b=(1, 0, 0)),
+        ValueError,
+        r"(a\.)?v(_a)?: the shape must be",
+    ),
+    (
+        lambda: carom.trace(GOOD, 1),
+        ValueError,
+        "points: it must be a whole number from 2 to .*, not 1",
+    ),
+    (lambda: carom.cushion_trace(WALL, 1), ValueError, "points: .* from 2 to .*, not 1"),
+    (lambda: carom.trace(ROWS), ValueError, r"impact: a trace is of one impact, of shape \(26,\)"),
+    (
+        lambda: carom.cushion(WALL, least_step=-1.0),
+        ValueError,
+        "least_step: it must be 0 or more .*, not -1.0",
+    ),
+    (
+        lambda: carom.cushion_trace(WALL, least_step=np.nan),
+        ValueError,
+        "least_step: it must be 0 or more .*, not nan",
+    ),
+    (
+        lambda: carom.cushion(WALL, model="stronge", omega_ratio=2.0),
+        ValueError,
+        "omega_ratio: it must be 0, or between 1 and 2, not 2.0",
+    ),
+    (
+        lambda: carom.cushion(WALL, model="smooth", smooth_q=0.2),
+        ValueError,
+        "smooth_x: it must be above 0 where smooth_q is, not 0.0",
+    ),
+    (lambda: carom.cushion(WALL, model="mirrored"), ValueError, "model: must be one of"),
+    (
+        lambda: carom.cushion_trace(WALL, model="han"),
+        ValueError,
+        "model: must be 'mathavan' or 'euler', .* not 'han'",
+    ),
+    (lambda: carom.racks.nineball(TABLE, seed=-1), ValueError, "seed: it must be a whole number"),
+    (
+        lambda: carom.racks.nineball(TABLE, seed=2**64),
+        ValueError,
+        "seed: it must be a whole number from 0",
+    ),
+    (lambda: carom.racks.nineball(TABLE, seed=1.5), ValueError, "seed: it must be a whole number"),
+    (
+        lambda: carom.racks.nineball(TABLE, gap=-1),
+        carom.CaromError,
+        r"gap = -1\.0: it must be 0 m to the radius",
+    ),
+    (lambda: carom.Table(0.0, 1.0, rails=TABLE.rails), ValueError, "width: it must be positive"),
+    (lambda: carom.Table(1.0, 2.0, rails=[[0.0, 1.0]]), ValueError, "rails: "),
+    (
+        lambda: carom.Table(1.0, 2.0, rails=np.zeros(33, carom.dtypes.rail)),
+        ValueError,
+        r"rails: .* \(up to 32,\)",
+    ),
+    (
+        lambda: carom.cue(speed=1.0, ball_speed=1.0),
+        ValueError,
+        "cue: speed is that of the cue, ball_speed",
+    ),
+    (lambda: carom.cue(tip=(0.1, 0.1), b=0.1), ValueError, "cue: tip says what a and b say"),
+    (lambda: carom.cue(tip=0.1), ValueError, "tip: the shape must be"),
+    (lambda: carom.cue(ball_speed=1.0, theta=5.0), ValueError, "ball_speed: .* a level cue"),
+    (lambda: carom.cue(ball=[0, np.nan]), ValueError, "ball: .* a whole number, not nan"),
+    (lambda: carom.cue(ball=1.7), ValueError, r"ball: .* a whole number, not 1\.7"),
+    (lambda: carom.cue(ball=1e30), ValueError, r"ball: .* a whole number, not 1e\+30"),
+    (
+        lambda: carom.place_ball(TABLE, RACK, 10, 0.4, 0.5),
+        ValueError,
+        "ball: it must be a whole number from 0 to 9",
+    ),
+    (lambda: carom.balls([[1.0, 2.0], [3.0]]), ValueError, "r: setting an array element"),
+    (lambda: carom.balls([1.0, 2.0]), ValueError, "r: the shape must be"),
+    (
+        lambda: carom.cue(speed=[1, 2], phi=[1, 2, 3]),
+        ValueError,
+        r"leading dimensions .* but are speed \(2,\), phi \(3,\)",
+    ),
+    (
+        lambda: carom.balls([[0.5, 0.5]] * 2, radius=[0.03] * 3),
+        ValueError,
+        r"leading dimensions .* but are radius \(3,\), r \(2,\)",
+    ),
+    (
+        lambda: carom.simulate(TABLE, np.stack([RACK] * 2)),
+        ValueError,
+        r"balls: the shape must be \(balls,\)",
+    ),
+    (lambda: carom.simulate_batch(TABLE, RACK[0]), ValueError, "layouts: the shape"),
+    (
+        lambda: carom.simulate_batch(TABLE, RACK["state"], kinds=RACK["kind"][:3]),
+        ValueError,
+        r"kinds: the shape must be \(\) or \(10,\)",
+    ),
+    (
+        lambda: carom.simulate(TABLE, RACK, carom.cue(speed=[1, 2])),
+        ValueError,
+        "cue: one is needed, not 2",
+    ),
+    (
+        lambda: carom.simulate(TABLE, RACK, CUE, steps=1.5),
+        ValueError,
+        "steps: it must be a whole number",
+    ),
+    (
+        lambda: carom.simulate_batch(TABLE, RACK, CUE, steps=-3),
+        ValueError,
+        "steps: it must be a whole number",
+    ),
+    (
+        lambda: carom.simulate(TABLE, RACK, CUE, events_most=-1),
+        ValueError,
+        "events_most: it must be a whole number",
+    ),
+    (
+        lambda: carom.simulate(TABLE, RACK, CUE, t_final=np.nan),
+        ValueError,
+        "t_final: it must be positive and finite",
+    ),
+    (
+        lambda: carom.simulate_batch(TABLE, RACK, CUE, t_final=0.0),
+        ValueError,
+        "t_final: it must be positive and finite",
+    ),
+    (
+        lambda: carom.simulate(TABLE, RACK, CUE, stop_at="goal"),
+        ValueError,
+        "stop_at: must be one of 'contact', 'strike'",
+    ),
+    (
+        lambda: carom.simulate(TABLE, RACK, CUE, cushion_model="rubber"),
+        ValueError,
+        "cushion_model: must be one of",
+    ),
+    (
+        lambda: carom.simulate(TABLE, RACK, CUE, options=carom.Options(space="2d")),
+        ValueError,
+        "space: must be one of",
+    ),
+    (
+        lambda: carom.simulate_batch(TABLE, RACK, CUE, records="some"),
+        ValueError,
+        "records: must be one of 'full', 'brief', not 'some'",
+    ),
+    (
+        lambda: carom.simulate_batch(TABLE, RACK, CUE, threads=-7),
+        ValueError,
+        "threads: it must be a whole number from -1",
+    ),
+    (
+        lambda: carom.simulate_batch(TABLE, RACK, CUE, room=-1),
+        ValueError,
+        "room: it must be a whole number",
+    ),
+    (
+        lambda: carom.resume(carom.simulate(TABLE, RACK, CUE)),
+        ValueError,
+        "shot: only what simulate",
+    ),
+    (lambda: carom.resume(None), ValueError, "shot: "),
+    (
+        lambda: carom.tangents(shot(), ["cue.phi"], times=[-1.0]),
+        ValueError,
+        "times: .* from the beginning",
+    ),
+    (
+        lambda: carom.jacobian(TABLE, RACK, CUE, ["cue.phi"], of="at.r", times=[-1.0, 1.0]),
+        ValueError,
+        "times: .* from the beginning",
+    ),
+    (lambda: carom.jacobian(TABLE, RACK, CUE, ["cue.phi"], of=None), ValueError, "of: .* not None"),
+    (
+        lambda: carom.cushion(WALL, smooth_z=1.0),
+        TypeError,
+        r"cushion\(\) has no argument 'smooth_z'; numbers .* smooth_q, smooth_x",
+    ),
+    (lambda: carom.cue(speed="fast"), TypeError, "speed: real numbers are needed, not 'fast'"),
+    (
+        lambda: carom.place_ball(TABLE, [1.0, 2.0], 0, 0.5, 0.5),
+        TypeError,
+        r"balls: .* carom\.balls\(\)",
+    ),
+    (lambda: carom.simulate(TABLE, np.zeros((2, 20))), TypeError, r"balls: .* carom\.balls\(\)"),
+    (lambda: carom.simulate(TABLE, CUE), TypeError, r"balls: .* not of carom\.dtypes\.cue$"),
+    (
+        lambda: carom.simulate_batch(TABLE, RACK["state"]),
+        TypeError,
+        r"layouts: .* or kinds= beside states, is needed, not of carom\.dtypes\.ball_state$",
+    ),
+    (
+        lambda: carom.simulate_batch(TABLE, RACK, kinds=RACK["kind"]),
+        TypeError,
+        r'layouts: .* carom\.balls\(\)\["state"\], beside kinds, is needed, not of carom\.dtypes\.shot_ball$',
+    ),
+    (
+        lambda: carom.simulate_batch(TABLE, RACK["state"], kinds=RACK),
+        TypeError,
+        r'kinds: .* carom\.balls\(\)\["kind"\] is needed, not of carom\.dtypes\.shot_ball$',
+    ),
+    (
+        lambda: carom.balls([[0.5, 0.5]], mu=0.2),
+        TypeError,
+        "balls: there is no field 'mu'; known are mass, radius",
+    ),
+    (lambda: carom.place_ball(None, RACK, 0, 0.5, 0.5), TypeError, "table: .* not NoneType"),
+    (lambda: carom.racks.nineball("9ft"), TypeError, "table: .* not str"),
+    (lambda: carom.simulate("pool", RACK, CUE), TypeError, "table: a carom.Table is needed"),
+    (lambda: carom.struck(10**30, RACK[0]["kind"]), TypeError, r"cue: .* carom\.cue\(\)"),
+    (lambda: carom.struck(CUE, [np.inf]), TypeError, "kind: "),
+    (lambda: carom.cue(speed=[1j]), TypeError, "speed: real numbers"),
+    (lambda: carom.collide(np.zeros((3, 26), np.complex128)), TypeError, "impacts: real numbers"),
+    (
+        lambda: carom.collide(RACK),
+        TypeError,
+        r"impacts: .* carom\.dtypes\.impact, not carom\.dtypes\.shot_ball$",
+    ),
+    (
+        lambda: carom.collide(RACK["kind"][["mass", "radius"]]),
+        TypeError,
+        "impacts: .* not a structured dtype of mass, radius$",
+    ),
+    (lambda: carom.collide(GOOD, out=("motion", "status")), TypeError, r"out\[0\]: .* not str"),
+    (
+        lambda: carom.dtypes.columns(RACK.reshape(2, 5)),
+        TypeError,
+        r"records: .* of carom\.dtypes\.shot_ball and shape",
+    ),
+    (lambda: carom.dtypes.columns(np.zeros(3)), TypeError, "records: "),
+    (lambda: carom.tangents("shot", ["cue.phi"]), TypeError, "shot: .* not str"),
+    (
+        lambda: carom.Options(cushon_model="han"),
+        TypeError,
+        "options: there is no 'cushon_model'; known are world, ball_model",
+    ),
+    (
+        lambda: carom.simulate(TABLE, RACK, CUE, cushion="han"),
+        TypeError,
+        "options: there is no 'cushion'; known are world, ball_model",
+    ),
+    (
+        lambda: carom.collide(carom.impacts(v_a=(1, 0, 0), r_b=(1, 0, 0), mass=-1.0)),
+        carom.CaromError,
+        r"a\.mass = -1\.0: a mass must be positive and finite",
+    ),
+    (
+        lambda: carom.collide(np.where(np.arange(26) == 10, -1.0, ROWS[0]).astype(np.float32)),
+        carom.CaromError,
+        r"a\.mass = -1\.0: a mass must be",
+    ),
+    (
+        lambda: carom.trace(carom.impacts(v_a=(1, 0, 0), r_b=(1, 0, 0), mass=-1.0)),
+        carom.CaromError,
+        r"a\.mass = -1\.0: a mass must be",
+    ),
+    (
+        lambda: carom.collide(carom.impacts(v_a=(1, 0, 0), r_b=(0.05715, 0, 0), mu_ball=2.0)),
+        carom.CaromError,
+        r"mu_ball = 2\.0",
+    ),
+    (
+        lambda: carom.cushion(carom.cushion_impacts(v=(0, 1, 0), mu_cushion=3.0)),
+        carom.CaromError,
+        r"mu_cushion = 3\.0",
+    ),
+    (
+        lambda: carom.cushion_trace(carom.cushion_impacts(v=(0, 1, 0), mu_cushion=3.0)),
+        carom.CaromError,
+        r"mu_cushion = 3\.0",
+    ),
+    (lambda: carom.cue(speed=np.array(np.nan)), carom.CaromError, r"cue\.speed = nan"),
+    (lambda: carom.cue(ball_speed=-1.0), carom.CaromError, r"cue\.speed = -"),
+    (lambda: shot(ball=3), carom.CaromError, r"cue\.ball = 3: it must be in play"),
+    (
+        lambda: shot(a=0.8, b=0.8),
+        carom.CaromError,
+        r"cue\.a, cue\.b = 0\.8, 0\.8: the tip misses the ball: .* must be below",
+    ),
+    (
+        lambda: shot(a=0.3, b=0.4, miscue=0.5),
+        carom.CaromError,
+        r"cue\.a, cue\.b = 0\.3, 0\.4: .*miscue",
+    ),
+    (
+        lambda: carom.struck(changed_cue(phi=1e308), RACK[0]["kind"]),
+        carom.CaromError,
+        r"cue\.phi = 1e\+308: ",
+    ),
+    (
+        lambda: carom.struck(changed_cue(speed=np.nan), RACK[0]["kind"]),
+        carom.CaromError,
+        r"cue\.speed = nan: it must be 0",
+    ),
+    (
+        lambda: carom.struck(carom.cue(a=0.8, b=0.8), RACK[0]["kind"]),
+        carom.CaromError,
+        r"cue\.a, cue\.b = 0\.8, 0\.8: ",
+    ),
+    (
+        lambda: carom.struck(CUE, carom.balls([[0, 0]], mass=-1.0)["kind"][0]),
+        carom.CaromError,
+        r"kind\.mass = -1\.0: it must be above 0 and finite, in kg",
+    ),
+    (
+        lambda: carom.simulate(TABLE, np.repeat(RACK, 4)),
+        carom.CaromError,
+        "balls = 40: the count of balls must be 1 to 32",
+    ),
+    (
+        lambda: carom.simulate_batch(TABLE, np.repeat(RACK, 4)),
+        carom.CaromError,
+        "layouts = 40: the count of balls must be 1 to 32",
+    ),
+    (
+        lambda: carom.place_ball(TABLE, RACK, 0, np.nan, 0.5),
+        carom.CaromError,
+        r"x, y = nan, 0\.5: a position must be finite",
+    ),
+    (
+        lambda: carom.simulate(TABLE, unknown_motion(), CUE),
+        carom.CaromError,
+        r"balls\[1\]\.state\.v = \[ ?0\. nan ",
+    ),
+    (
+        lambda: balls(r=[[0.5, 0.5], [-0.5, 0.5]]),
+        carom.CaromError,
+        r"balls\[1\]\.state\.r = \[-0\.5",
+    ),
+    (
+        lambda: billiard(nose_height=0.07),
+        carom.CaromError,
+        r"balls\[0\]\.kind\.nose_height = 0\.07: it must be below 2 R",
+    ),
+    (
+        lambda: carom.simulate(spoiled(), RACK, CUE),
+        carom.CaromError,
+        r"table\.rails\[3\]\.restitution = nan: it must be 0 to 1",
+    ),
+    (lambda: carom.collide(MASKED), TypeError, "impacts: masks are not read"),
+    (lambda: carom.cushion(np.ma.masked_array(WALL)), TypeError, "impacts: masks are not read"),
+    (lambda: carom.mu_ball(MASKED), TypeError, "impacts: masks are not read"),
+    (lambda: carom.trace(MASKED[0]), TypeError, "impact: masks are not read"),
+    (
+        lambda: carom.collide(ROWS, out=(np.ma.zeros((4, 12)), np.zeros(4, np.int8))),
+        TypeError,
+        r"out\[0\]: masks are not read",
+    ),
+    (
+        lambda: carom.impacts(
+            v_a=(1, 0, 0), r_b=(1, 0, 0), restitution=np.ma.masked_array([0.9], mask=[True])
+        ),
+        TypeError,
+        "restitution: masks are not read",
+    ),
+    (
+        lambda: carom.simulate_batch(TABLE, np.ma.masked_array(RACK)),
+        TypeError,
+        "layouts: masks are not read",
+    ),
+    (
+        lambda: carom.simulate(TABLE, RACK, CUE).positions(np.ma.masked_array([0.1], mask=[True])),
+        TypeError,
+        "times: masks are not read",
+    ),
+    (lambda: carom.balls(np.ma.zeros((3, 2))), TypeError, "r: masks are not read"),
+    (lambda: carom.balls([[0.5, 0.5]], conditions=("felt",)), ValueError, ".*fast_cloth"),
+    (
+        lambda: carom.balls([[0.5, 0.5]], game="snooker", conditions=("fast_cloth",)),
+        ValueError,
+        ".*tables of pool, not of snooker",
+    ),
+    (lambda: carom.calibrate([4.7, 5.6]), ValueError, ".*of shape"),
+    (lambda: carom.calibrate([4.7, 5.6, 8.5]), ValueError, ".*below 8, not"),
+    (lambda: carom.dtypes.plain(np.zeros((2, 26))), TypeError, ".*a structured array is needed"),
+    (lambda: carom.cite(cushion_model="none"), ValueError, "cushion_model"),
+    (
+        lambda: carom.cushion_impacts(v=(1, 2, 0), game="snooker", model="stronge"),
+        ValueError,
+        ".*snooker has no constants for 'stronge'",
+    ),
+    (lambda: carom.hessian(TABLE, ["cue.phi"]), TypeError, "shot: "),
+    (
+        lambda: carom.balls(r=[[np.nan, 0.8]]),
+        ValueError,
+        "r: finite numbers are needed, not (nan|inf)$",
+    ),
+    (
+        lambda: carom.balls(r=[[0.6, 0.8]], v=np.inf),
+        ValueError,
+        "v: finite numbers are needed, not (nan|inf)$",
+    ),
+    (
+        lambda: carom.racks.nineball(TABLE, seed=0.5),
+        ValueError,
+        "seed: it must be a whole number .*Generator will do",
+    ),
+    (lambda: carom.cue(phi="90"), TypeError, "phi: real numbers are needed, not '90'"),
+    (
+        lambda: carom.cue(speed=[None, 1.0]),
+        TypeError,
+        r"speed: real numbers are needed, not \[None, 1\.0\]",
+    ),
+    (
+        lambda: carom.simulate(TABLE, PAIR, CUE, t_final="1"),
+        TypeError,
+        "t_final: a time in s is needed, or None, not '1'",
+    ),
+    (
+        lambda: carom.simulate(TABLE, PAIR, CUE, options={}),
+        TypeError,
+        r"options: a carom\.Options is needed, such as",
+    ),
+    (
+        lambda: carom.balls([[0.5, 0.5]], cushion_model="rubber"),
+        ValueError,
+        "cushion_model: must be one of 'default', 'mathavan'",
+    ),
+    (
+        lambda: BATCH.features,
+        AttributeError,
+        r"features: simulate_batch\(features=True\) tells them",
+    ),
+    (lambda: carom.tables.pool_9ft(corner=2.0), carom.CaromError, ".*it must be 0.01 to 1, in m"),
+    (
+        lambda: carom.tables.pool_9ft(width=0.17),
+        carom.CaromError,
+        ".*must be below .* with this width",
+    ),
+    (lambda: carom.tables.pool_9ft(side_hole=0.01), carom.CaromError, ".*can leave"),
+    (lambda: carom.tables.pool_9ft(mouth=1.0), TypeError, ".*there are width, length"),
+    (
+        lambda: carom.tables.polygon([(0, 0), (1, 0, 0.1, 2), (0, 1)]),
+        ValueError,
+        r"corners\[1\]: x, y and perhaps the mouth are needed, not 4",
+    ),
+]
+REFUSALS += [
+    (call, ValueError, f"{name}: it must be a whole number from 0 to 1")
+    for wrong in (2, -1, "yes", None)
+    for name, call in (
+        ("plain", lambda wrong=wrong: carom.collide(GOOD, plain=wrong)),
+        ("plain", lambda wrong=wrong: carom.cushion(WALL, plain=wrong)),
+        ("fast", lambda wrong=wrong: carom.simulate(TABLE, RACK, CUE, fast=wrong)),
+    )
+]
+REFUSALS += [
+    (lambda read=read, wrong=wrong: read([0.1, wrong]), ValueError, f"times: .* not {wrong}")
+    for read, times in (
+        (SHOT.positions, (np.nan, np.inf, -5.0)),
+        (SHOT.states, (np.nan, np.inf, -5.0)),
+        (SHOT.orientations, (np.nan, np.inf, -5.0)),
+        (BATCH.positions, (np.nan, -1.0)),
+    )
+    for wrong in times
+]
+REFUSALS += [
+    (lambda play=play, ball=ball: play(TABLE, RACK, CUE, first_of=ball), ValueError, message)
+    for play in (carom.simulate, carom.simulate_batch)
+    for ball, message in (
+        (0, "first_of: ball 0 is the cue ball"),
+        (10, "first_of: ball 10 is none of 10"),
+    )
+]
+REFUSALS += [
+    (lambda name=name: carom.tangents(shot(), [name]), ValueError, "wrt: ")
+    for name in (
+        "phi",
+        "cue.mu",
+        "balls[17].r",
+        "balls[0].r[3]",
+        "kind",
+        "balls[0].kind.radius",
+        "cue.phi[0]",
+    )
+]
+REFUSALS += [
+    (
+        lambda dtype=dtype: carom.dtypes.plain(np.zeros(2, dtype)),
+        TypeError,
+        f"records: .*{field}.* integers.* by their names",
+    )
+    for dtype, field in (
+        (carom.dtypes.ball_state, "label"),
+        (carom.dtypes.shot_ball, r"state\.label"),
+        (carom.dtypes.event, r"type and \d+ more"),
+        (carom.dtypes.trace_point, "phase"),
+        (carom.dtypes.cushion_point, "phase"),
+        (carom.dtypes.cue, "ball"),
+        (carom.dtypes.rail, "side"),
+        (carom.dtypes.table, ""),
+        (carom.dtypes.shot, ""),
+    )
+]
 
 
-@pytest.mark.parametrize("refusal", list(numbers_in_error()), ids=lambda row: row[0])
-def test_number_in_error(refusal):
-    refused(refusal, globals())
+@pytest.mark.parametrize(("call", "error", "message"), by_line(REFUSALS))
+def test_message(call, error, message):
+    refused(call, error, message)
+
+
+@pytest.mark.parametrize(("call", "message"), list(numbers_in_error()))
+def test_number_in_error(call, message):
+    refused(call, carom.CaromError, message)
 
 
 def test_what_is_wrong_is_refused_when_it_is_made():
@@ -115,19 +659,147 @@ def test_a_generator_is_a_seed():
     assert first == second and first[0] != first[1]
 
 
-SHOT, BATCH = (
-    carom.simulate(TABLE, RACK, CUE),
-    carom.simulate_batch(TABLE, RACK, carom.cue(speed=[1.0, 2.0])),
-)
-STOPPED, PAIR = (
-    carom.simulate(TABLE, RACK, CUE, t_final=0.1),
-    carom.balls([[0.6, 0.8], [0.75, 1.6]]),
-)
-CORNERS = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+# A call, arguments that it takes, and the arguments in whose place it gets values of another kind.
+ARGUMENTS = [
+    (
+        carom.cue,
+        {},
+        [
+            "speed",
+            "phi",
+            "theta",
+            "a",
+            "b",
+            "ball",
+            "game",
+            "mass",
+            "end_mass",
+            "tip_radius",
+            "miscue",
+            "tip_time",
+            "tip_restitution",
+            "ball_speed",
+            "tip",
+            "follow",
+        ],
+    ),
+    (carom.balls, {"r": [[0.6, 0.8]]}, ["r", "v", "w", "game", "mass", "mu_slide", "nose_height"]),
+    (
+        carom.simulate,
+        {"table": TABLE, "balls": PAIR},
+        [
+            "table",
+            "balls",
+            "options",
+            "world",
+            "ball_model",
+            "cushion_model",
+            "friction",
+            "space",
+            "simultaneous",
+            "cluster_steps",
+            "steps",
+            "events_most",
+            "plain",
+            "t_final",
+            "stop_at",
+            "first_of",
+        ],
+    ),
+    (
+        carom.simulate_batch,
+        {"table": TABLE, "layouts": PAIR},
+        [
+            "table",
+            "layouts",
+            "room",
+            "kinds",
+            "records",
+            "threads",
+            "out",
+            "options",
+            "t_final",
+            "stop_at",
+        ],
+    ),
+    (carom.resume, {"shot": STOPPED}, ["shot", "t_final", "stop_at"]),
+    (carom.cite, {}, ["options", "world"]),
+    (carom.tangents, {"shot": SHOT, "wrt": ["cue.phi"]}, ["shot", "wrt", "times", "threads"]),
+    (
+        carom.jacobian,
+        {"table": TABLE, "layouts": PAIR, "cues": CUE, "wrt": ["cue.phi"]},
+        ["table", "layouts", "wrt", "of", "times", "room", "threads", "options"],
+    ),
+    (
+        carom.place_ball,
+        {"table": TABLE, "balls": PAIR, "ball": 0, "x": 0.5, "y": 0.5},
+        ["table", "balls", "ball", "x", "y"],
+    ),
+    (
+        carom.by_number,
+        {"balls": PAIR, "ids": ["cue", 1], "rules": "nineball"},
+        ["balls", "ids", "rules", "cue"],
+    ),
+    (carom.struck, {"cue": CUE, "kind": PAIR[0]["kind"]}, ["cue", "kind"]),
+    (
+        carom.impacts,
+        {"v_a": (1.0, 0.0, 0.0), "r_b": (0.05715, 0.0, 0.0)},
+        ["v_a", "r_b", "w_a", "radius", "mass", "mass_b", "mu_ball"],
+    ),
+    (
+        carom.collide,
+        {"impacts": GOOD},
+        ["impacts", "solver", "slip", "steps", "threads", "plain", "out"],
+    ),
+    (carom.mu_ball, {"impacts": GOOD}, ["impacts", "law"]),
+    (carom.trace, {"impact": GOOD}, ["impact", "points", "solver"]),
+    (
+        carom.cushion_impacts,
+        {"v": (0.0, 1.0, 0.0)},
+        ["v", "w", "normal", "height", "radius", "jaw_radius"],
+    ),
+    (
+        carom.cushion,
+        {"impacts": WALL},
+        [
+            "impacts",
+            "model",
+            "convention",
+            "law",
+            "steps",
+            "least_step",
+            "omega_ratio",
+            "plain",
+            "threads",
+            "out",
+        ],
+    ),
+    (carom.cushion_trace, {"impact": WALL}, ["impact", "points", "model", "least_step"]),
+    (carom.racks.nineball, {"table": TABLE}, ["table", "gap", "seed"]),
+    (
+        carom.tables.polygon,
+        {"corners": CORNERS},
+        ["corners", "nose_height", "jaw_radius", "ball_radius"],
+    ),
+    (
+        carom.Table,
+        {"width": 1.0, "length": 2.0, "rails": TABLE.rails},
+        ["width", "length", "rails", "jaws", "pockets", "ball_radius", "rail_width", "pocket_back"],
+    ),
+    (SHOT.positions, {"times": 0.1}, ["times"]),
+    (SHOT.animate, {}, ["speed"]),
+    (BATCH.positions, {"times": 0.1}, ["times", "threads"]),
+]
 
 
-def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(argument_row):
-    refused_by_name(argument_row, globals())
+@pytest.mark.parametrize(("function", "good", "names"), ARGUMENTS, ids=name_of)
+def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(function, good, names):
+    refused_by_name(function, good, names)
+
+
+def test_a_value_of_another_kind_in_a_data_frame():
+    pytest.importorskip("pandas")
+    refused_by_name(BATCH.to_dataframe, {}, ["dims"])
 
 
 PRIVATE = re.compile(r"(?<![\w.])_[a-z]\w*|\._[a-z]\w*|ShotOptions")

@@ -20,7 +20,9 @@ INKS = {
     "pink": (165, 135, 230),
     "black": (28, 26, 25),
 }
-for number, ink in enumerate("yellow blue red purple orange green maroon black".split(), 1):
+for number, ink in enumerate(
+    ["yellow", "blue", "red", "purple", "orange", "green", "maroon", "black"], 1
+):
     other = {"purple": (120, 30, 80), "orange": (30, 105, 230), "maroon": (25, 20, 95)}
     INKS[str(number)] = other.get(ink) or INKS[ink]
     if number < 8:

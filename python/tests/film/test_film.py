@@ -98,7 +98,7 @@ def pool(tmp_path_factory):
         POOL,
         "9ft",
         scene,
-        "cue 1 2 3 4 5 7 8 9 10 11 12".split(),
+        ["cue", "1", "2", "3", "4", "5", "7", "8", "9", "10", "11", "12"],
         [(0.635, 0.55), *near, *wide],
         carom.cue(speed=4.0, phi=90.6),
         (30, 60),

@@ -4,7 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
-from conftest import refused, same_bits
+from conftest import by_line, refused, same_bits
 
 import carom
 from carom.games.rules import GAMES
@@ -223,8 +223,64 @@ def test_partners_play_a_set_with_handicaps_limits_and_time():
     assert carom.Match.load(match.end()).lines == match.lines
 
 
-def test_beginnings_that_are_refused(refusal):
-    refused(refusal, globals())
+# A call, the class of its error, and a pattern with which its message begins.
+REFUSALS = [
+    (
+        lambda: carom.Match("eightball", TABLE, seats=1),
+        ValueError,
+        "seats: this game is not played by 1",
+    ),
+    (
+        lambda: carom.Match("eightball", TABLE, seats="Ann"),
+        TypeError,
+        "seats: a number is needed, or names",
+    ),
+    (
+        lambda: carom.Match("eightball", TABLE, seats=[{"nam": "Ann"}, "Bo"]),
+        TypeError,
+        r"seats\[0\]: there is no 'nam'; there are name, side",
+    ),
+    (
+        lambda: carom.Match("eightball", TABLE, seats=[{"side": 1}, {"side": 3}]),
+        carom.CaromError,
+        "begin: seats: side must be 0, 1 and so on",
+    ),
+    (
+        lambda: carom.Match("eightball", TABLE, limits={"speeds": 1}),
+        TypeError,
+        "limits: there is no 'speeds'",
+    ),
+    (
+        lambda: carom.Match("eightball", TABLE, set={"race": 1001}),
+        carom.CaromError,
+        "begin: set.race must be 1 to 1000",
+    ),
+    (
+        lambda: carom.Match("eightball", TABLE, set={"order": "loosers"}),
+        ValueError,
+        "set: order: must be one of 'alternate'",
+    ),
+    (
+        lambda: carom.Match("eightball", TABLE, balls=carom.racks.eightball(TABLE)[:5]),
+        carom.CaromError,
+        ".*ball 8 on the table; the drill of potting",
+    ),
+    (
+        lambda: carom.Match.load(""),
+        carom.CaromError,
+        "line 1: the text is empty: a match begins with",
+    ),
+    (
+        lambda: carom.Match.load(begun().lines[:3]),
+        carom.CaromError,
+        ".*cut off: there is no line game",
+    ),
+]
+
+
+@pytest.mark.parametrize(("call", "error", "message"), by_line(REFUSALS))
+def test_beginnings_that_are_refused(call, error, message):
+    refused(call, error, message)
 
 
 def test_a_peer_sends_its_own_acts_alone():

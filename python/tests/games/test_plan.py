@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import refused, refused_by_name, same_bits
+from conftest import by_line, name_of, refused, refused_by_name, same_bits
 from numpy.testing import assert_allclose
 
 import carom
@@ -648,7 +648,7 @@ def test_an_aim_that_follows_keeps_the_place_across_the_path():
         carom.aim_slope(shot, 1, wrt, by="balls[0].v[2]")
 
 
-# The calls of test_plan.txt
+# ---- What is refused
 # ------------------------------------------------------------------------------------------------
 
 
@@ -677,12 +677,518 @@ def wider():
     return carom.Table(TABLE.width + 0.1, TABLE.length, **parts)
 
 
-def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(argument_row):
-    refused_by_name(argument_row, globals())
+# A call, arguments that it takes, and the arguments in whose place it gets values of another kind.
+ARGUMENTS = [
+    (
+        carom.plan,
+        {"table": TABLE, "balls": LAYOUT, "rules": "potting", "shots": 100},
+        [
+            "table",
+            "balls",
+            "rules",
+            "group",
+            "state",
+            "player",
+            "opponent",
+            "shots",
+            "seconds",
+            "in_hand",
+            "best",
+            "seed",
+            "threads",
+            "stop",
+            "options",
+        ],
+    ),
+    (
+        carom.aim,
+        {"table": TABLE, "balls": LAYOUT, "cue": carom.cue(), "ball": 1, "pocket": 0},
+        ["table", "balls", "cue", "ball", "pocket", "options"],
+    ),
+    (carom.player, {}, ["errors", "fargo", "rules"]),
+    (
+        carom.with_errors,
+        {"cue": carom.cue(), "player": carom.player(), "seed": 1},
+        ["cue", "player", "seed", "number"],
+    ),
+    (
+        carom.potting.Potting,
+        {},
+        [
+            "balls",
+            "strokes",
+            "table",
+            "ball_set",
+            "noise",
+            "parameters",
+            "reward",
+            "speeds",
+            "cushion_model",
+            "threads",
+        ],
+    ),
+]
 
 
-def test_refusals(refusal):
-    refused(refusal, globals())
+@pytest.mark.parametrize(("function", "good", "names"), ARGUMENTS, ids=name_of)
+def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(function, good, names):
+    refused_by_name(function, good, names)
+
+
+# A call, the class of its error, and a pattern with which its message begins.
+REFUSALS = [
+    (
+        lambda: carom.Match("fourball", carom.tables.fourball(), state={"innings": 1}),
+        ValueError,
+        "innings: by the rules fourball it must be 0",
+    ),
+    (
+        lambda: carom.plan(TABLE, LAYOUT, rules="threecushion", shots=100),
+        ValueError,
+        "table: threecushion needs one without pockets",
+    ),
+    (
+        lambda: carom.plan(TABLE, RACK[:10], rules="straight"),
+        ValueError,
+        "balls: straight has the cue ball and 1 to 15",
+    ),
+    (
+        lambda: carom.referee(
+            carom.tables.snooker(), LAYOUT, carom.cue(game="snooker"), rules="snooker"
+        ),
+        ValueError,
+        "balls: snooker has the cue ball and 1 to 21",
+    ),
+    (
+        lambda: carom.by_number(LAYOUT, ["cue", "5", "5", "9"], "nineball"),
+        ValueError,
+        ".*ball '5': the balls of nineball are the cue ball and 1 to 9, each once",
+    ),
+    (
+        lambda: carom.by_number(LAYOUT, ["cue", "5", "10", "9"], "nineball"),
+        ValueError,
+        ".*ball '10'",
+    ),
+    (
+        lambda: carom.by_number(LAYOUT, ["cue", "5", "red", "9"], "eightball"),
+        ValueError,
+        ".*'red': .* 1 to 15",
+    ),
+    (lambda: carom.by_number(LAYOUT, ["cue", "0", "1", "9"], "nineball"), ValueError, ".*ball '0'"),
+    (
+        lambda: carom.by_number(LAYOUT, ["1", "2", "3", "9"], "nineball"),
+        ValueError,
+        "cue: it must be one of the ids",
+    ),
+    (
+        lambda: carom.by_number(LAYOUT, ["cue", "5"], "nineball"),
+        ValueError,
+        "ids: one for each ball",
+    ),
+    (
+        lambda: carom.by_number(LAYOUT, ["cue", "5", "2", "9"], "elevenball"),
+        ValueError,
+        "rules: must be one of",
+    ),
+    (
+        lambda: carom.by_number(LAYOUT, ["cue", "red5", "pink", "red20"], "snooker"),
+        ValueError,
+        ".*ball 'red20'",
+    ),
+    (
+        lambda: carom.chances(TABLE, LAYOUT, [1.0], rules="potting"),
+        TypeError,
+        "cues: an array of the dtype of carom.cue",
+    ),
+    (lambda: carom.plan(TABLE, LAYOUT, run_out=2), ValueError, "run_out"),
+    (lambda: carom.player(fargo=0), ValueError, "fargo: it must be 200 to 850, not 0"),
+    (lambda: carom.plan(TABLE, LAYOUT, rules="elevenball"), ValueError, "rules"),
+    (lambda: carom.plan(TABLE, LAYOUT, shots=10), ValueError, "shots"),
+    (lambda: carom.player(-1.0), ValueError, "errors"),
+    (lambda: carom.plan(TABLE, LAYOUT, in_hand=[1.0, 2.0]), ValueError, "in_hand"),
+    (lambda: carom.plan(TABLE, LAYOUT, player=carom.cue()), TypeError, "player"),
+    (
+        lambda: carom.player(rules="snooker"),
+        ValueError,
+        "rules: a game needs a rating in it, fargo",
+    ),
+    (
+        lambda: carom.player(1.0, fargo=500),
+        ValueError,
+        "errors, fargo: a player has errors or a rating, not both",
+    ),
+    (
+        lambda: carom.plan(TABLE, LAYOUT, seconds=-1),
+        ValueError,
+        "seconds: they must be 0 to 1e6, not -1",
+    ),
+    (
+        lambda: carom.plan(TABLE, LAYOUT, rules=carom.Rules(), shots=100),
+        NotImplementedError,
+        "Rules needs the method on",
+    ),
+    (
+        lambda: carom.plan(TABLE, LAYOUT, rules=Corner, shots=100),
+        ValueError,
+        r"rules: give a game, Corner\(\), not the class Corner",
+    ),
+    (
+        lambda: carom.plan(TABLE, LAYOUT[:1], shots=100),
+        ValueError,
+        ".*a plan needs the cue ball and one more",
+    ),
+    (
+        lambda: carom.plan(TABLE, LAYOUT, in_hand="head", shots=100),
+        ValueError,
+        "in_hand: must be one of 'no', 'anywhere', 'kitchen'",
+    ),
+    (
+        lambda: carom.plan(TABLE, LAYOUT, rules=Corner(), state=[1, 2]),
+        ValueError,
+        "state: 8 whole numbers",
+    ),
+    (
+        lambda: carom.plan(TABLE, LAYOUT, state={"grup": 1}),
+        ValueError,
+        "state: there is no 'grup'; there are opening, group",
+    ),
+    (
+        lambda: carom.plan(TABLE, LAYOUT, state={"group": "reds"}),
+        ValueError,
+        "state: group: must be one of 'open'",
+    ),
+    (
+        lambda: carom.plan(TABLE, LAYOUT, state={"group": 3}),
+        ValueError,
+        "group: by the rules eightball it must be 0, 1 or 2",
+    ),
+    (lambda: carom.plan(TABLE, LAYOUT, state={"group": 0.5}), ValueError, "state: group: "),
+    (lambda: carom.plan(TABLE, LAYOUT, state=[0] * 8), TypeError, "state: an array"),
+    (
+        lambda: carom.rating([(500, 1, 1), (500, -1, 1)]),
+        carom.CaromError,
+        r"scores\[1\] = .*games won and lost 0 to 1e9",
+    ),
+    (lambda: carom.rating([1, 2, 3]), ValueError, "scores: rows of 3 numbers"),
+    (
+        lambda: aim(pocket="head-right"),
+        ValueError,
+        "pocket: no such aim at head-right: no direction of the cue sends ball 1 there",
+    ),
+    (lambda: aim(ball=2), ValueError, "ball: there are 2, not 3"),
+    (
+        lambda: aim(pocket="foot"),
+        ValueError,
+        "pocket: it must be one of foot-left, foot-right, head-left, head-right, side-left, side-right, not 'foot'",
+    ),
+    (
+        lambda: aim(via=["top"]),
+        ValueError,
+        "via: it must be one of foot, head, left, right, not 'top'",
+    ),
+    (
+        lambda: aim(via=[1, "left", 1]),
+        ValueError,
+        "via: it must be up to 4 names of rails and indices of balls, each once, not the cue ball, and 1 last",
+    ),
+    (
+        lambda: aim(speed=0.6),
+        ValueError,
+        "pocket: no such aim at foot-left: ball 1 comes to rest on its way",
+    ),
+    (
+        lambda: plan(state=[0] * 8, group="open"),
+        ValueError,
+        "state, group: the state says the group, too: give one of both",
+    ),
+    (
+        lambda: plan(state=[0] * 8, opening=True),
+        ValueError,
+        "state, opening: the state says the opening, too",
+    ),
+    (
+        lambda: plan(rules="nineball", group="solids", balls=RACK[:10]),
+        ValueError,
+        "group: by the rules nineball it must be 0, as the game has none",
+    ),
+    (
+        lambda: plan(rules="potting", opening=True),
+        ValueError,
+        "opening: by the rules potting it must be 0, as the game has none",
+    ),
+    (
+        lambda: plan(rules="nineball"),
+        ValueError,
+        "balls: the balls of nineball are the cue ball and 1 to 9, not 10",
+    ),
+    (
+        lambda: plan(balls=_down(RACK, slice(1, None))),
+        carom.CaromError,
+        "balls: no ball is left to be played: all that count are down, or the eight is",
+    ),
+    (
+        lambda: plan(balls=_down(RACK, slice(1, None)), rules="potting"),
+        carom.CaromError,
+        ".*no ball is left to be played",
+    ),
+    (lambda: plan(balls=_down(RACK, 8)), carom.CaromError, ".*no ball is left to be played"),
+    (
+        lambda: plan(player=_changed(carom.player(), phi=-1.0)),
+        ValueError,
+        "player: phi: it must be 0 to 1000, not -1.0",
+    ),
+    (
+        lambda: plan(opponent=_changed(carom.player(), tip_most=3.0)),
+        ValueError,
+        "opponent: tip_most: it must be 0 to 1, not 3.0",
+    ),
+    (
+        lambda: plan(
+            table=carom.tables.threecushion(),
+            balls=carom.racks.threecushion(carom.tables.threecushion()),
+            rules="potting",
+        ),
+        ValueError,
+        "table: it has no pockets, which potting needs",
+    ),
+    (
+        lambda: answers(Corner, judge=None),
+        TypeError,
+        "judge: it must return a carom.Turn, not None",
+    ),
+    (
+        lambda: answers(Corner, judge=carom.Turn("passes")),
+        ValueError,
+        "Turn.turn: must be one of 'keep', 'pass', 'win', 'lose', 'draw', not 'passes'",
+    ),
+    (
+        lambda: answers(Corner, judge=carom.Turn("pass", spot=[99])),
+        ValueError,
+        "Turn.spot: it must be a whole number from 0 to 31, not 99",
+    ),
+    (
+        lambda: answers(Corner, judge=carom.Turn("pass", spot=[30])),
+        ValueError,
+        "Turn.spot: there are 16 balls, none is 30",
+    ),
+    (
+        lambda: answers(Corner, judge=carom.Turn("pass", spot=[0, 1])),
+        ValueError,
+        r"Turn.spot: balls come back that are down or off the table, not the cue ball, and not \[0, 1\]",
+    ),
+    (lambda: answers(Corner, left=(-1, 8)), ValueError, "left: it must be a whole number from 0"),
+    (
+        lambda: answers(Corner, pockets={9}),
+        ValueError,
+        "pockets: it must be a whole number from 0 to 7, not 9",
+    ),
+    (
+        lambda: answers(Corner, pockets={"foot-left"}),
+        ValueError,
+        "pockets: it must be a whole number from 0 to 7, not 'foot-left'",
+    ),
+    (
+        lambda: answers(Corner, on={-1}),
+        ValueError,
+        "on: it must be a whole number from 0 to 31, not -1",
+    ),
+    (
+        lambda: answers(Every, value="half"),
+        TypeError,
+        "value: a chance of 0 to 1 is needed, .* not 'half'",
+    ),
+    (lambda: answers(Every, points=None), TypeError, "points: points are needed, not None"),
+    (
+        lambda: answers(Every, settle=None),
+        TypeError,
+        "settle: it must return a carom.Turn, not None",
+    ),
+    (
+        lambda: answers(Every, value=np.nan),
+        ValueError,
+        "value: a chance of 0 to 1 is needed, .* not nan",
+    ),
+    (
+        lambda: answers(Every, value=1.5),
+        ValueError,
+        "value: a chance of 0 to 1 is needed, .* not 1.5",
+    ),
+    (lambda: answers(Every, points=np.inf), ValueError, "points: points are needed, not inf"),
+    (lambda: answers(Every, on=None), TypeError, "on: whole numbers are needed, not None"),
+    (lambda: answers(Every, left=3), TypeError, "left: whole numbers are needed, not 3"),
+    (lambda: answers(Every, left=(1, 2, 3)), ValueError, "left: two numbers are needed"),
+    (
+        lambda: carom.potting.Potting(balls=0),
+        ValueError,
+        "balls: it must be a whole number from 1 to 15",
+    ),
+    (
+        lambda: carom.potting.Potting(strokes=0),
+        ValueError,
+        "strokes: it must be a whole number from 1",
+    ),
+    (
+        lambda: carom.potting.Potting(speeds=(2.0, 1.0)),
+        ValueError,
+        "speeds: must be the least and the most",
+    ),
+    (
+        lambda: carom.potting.Potting(noise=(1.0, -1.0, 0.0)),
+        ValueError,
+        "noise: must be three standard deviations",
+    ),
+    (
+        lambda: carom.potting.Potting(table=carom.tables.threecushion()),
+        ValueError,
+        "table: must have pockets",
+    ),
+    (
+        lambda: carom.potting.Potting(table=wider()),
+        ValueError,
+        r"table: its rails must lie around 0 <= x <= width = 1\.37 m, .* there is one at x = 1\.27 m",
+    ),
+    (lambda: carom.potting.Potting(parameters={"mu": (0, 1)}), ValueError, "parameters: must give"),
+    (lambda: carom.potting.Potting(parameters={"mass": (2, 1)}), ValueError, ".*'mass'"),
+    (
+        lambda: carom.potting.Potting(parameters={"mu_slide": (-1, 1)}),
+        carom.CaromError,
+        ".*mu_slide",
+    ),
+    (
+        lambda: carom.potting.Potting(balls=1).layout([[0.5, 0.5]]),
+        ValueError,
+        r"layout: the shape must be \(2, 2\)",
+    ),
+    (
+        lambda: carom.potting.Potting(balls=1).layout([[0.5, 0.5], [0.5, 0.51]]),
+        carom.CaromError,
+        ".*overlap",
+    ),
+    (
+        lambda: carom.potting.Potting(balls=1).cues([0.0, np.nan, 0.0, 0.0]),
+        ValueError,
+        "actions: finite numbers",
+    ),
+    (
+        lambda: carom.potting.Potting(balls=1).actions(np.inf, 1.0),
+        ValueError,
+        "phi, speed, a, b: finite numbers",
+    ),
+    (
+        lambda: carom.potting.Potting(noise=True),
+        TypeError,
+        "noise: three standard deviations are needed, of degrees, m/s and radii, not True",
+    ),
+    (
+        lambda: carom.plan(
+            carom.tables.threecushion(),
+            carom.racks.threecushion(carom.tables.threecushion())[:2],
+            rules="threecushion",
+            shots=100,
+        ),
+        ValueError,
+        "balls: threecushion needs three",
+    ),
+    (
+        lambda: carom.aim(
+            TABLE,
+            carom.balls([[0.62, 1.6], [0.4, 2.2], [0.6391, 1.546]]),
+            carom.cue(speed=3.0, theta=np.nan, b=-0.5),
+            ball=1,
+            pocket="foot-left",
+        ),
+        ValueError,
+        ".*the stick would be raised by 6.* degrees over what is behind the cue ball",
+    ),
+    (
+        lambda: carom.plan(
+            carom.tables.pool_9ft(),
+            carom.by_number(
+                carom.balls([[0.6, 1.4], [0.95, 2.1], [0.3, 2.1]]), ["cue", 3, 9], "onepocket"
+            )[:10],
+            rules="onepocket",
+        ),
+        ValueError,
+        "balls: onepocket has the cue ball and 1 to 15",
+    ),
+    (
+        lambda: carom.plan(
+            carom.tables.pool_9ft(),
+            carom.by_number(
+                carom.balls([[0.6, 1.4], [0.95, 2.1], [0.3, 2.1]]), ["cue", 3, 9], "onepocket"
+            ),
+            rules="onepocket",
+            opening=True,
+        ),
+        ValueError,
+        "opening: by the rules onepocket it must be 0",
+    ),
+    (
+        lambda: carom.aim_slope(TABLE, 1, ["cue.speed", "cue.b", "balls[1].r[0]", "balls[0].r[1]"]),
+        TypeError,
+        "shot: ",
+    ),
+    (lambda: carom.odds((600,)), ValueError, "ratings"),
+    (lambda: carom.odds((600, 500), 101), ValueError, "games"),
+    (
+        lambda: carom.odds((600, 500), break_points=1001),
+        ValueError,
+        "ratings, break_points: 0 to 1000",
+    ),
+    (lambda: carom.odds((600, 500), side=2), ValueError, "side"),
+    (lambda: carom.odds((600, 500), order="luck"), ValueError, "order"),
+    (lambda: carom.best_breaks("nineball", TABLE, RACK[:10], breaks=15), ValueError, "breaks"),
+    (lambda: carom.best_breaks("nineball", TABLE, RACK[:10], best=9), ValueError, "best"),
+    (lambda: carom.best_breaks("nineball", TABLE, RACK[:10], gap=-1.0), carom.CaromError, "rack"),
+    (lambda: carom.best_breaks("straight", TABLE, RACK[:10]), ValueError, "rack"),
+    (
+        lambda: plan(balls=LAYOUT, rules="nineball", goal=carom.Goal("close")),
+        ValueError,
+        "goal: must be one of",
+    ),
+    (
+        lambda: plan(
+            balls=LAYOUT, rules="nineball", goal=carom.Goal("near", place=(0.9, 1.2), distance=0.0)
+        ),
+        carom.CaromError,
+        "",
+    ),
+    (lambda: plan(balls=LAYOUT[[0, 0, 1]]), carom.CaromError, ""),
+    (
+        lambda: carom.chances(TABLE, LAYOUT, carom.cue(speed=[2.0])[:0], rules="potting"),
+        ValueError,
+        "cues: 1 to 1000 are needed, not 0",
+    ),
+    (
+        lambda: carom.chances(
+            TABLE, LAYOUT, _changed(carom.cue(speed=[2.0, 1.0]), speed=[2.0, -1.0]), rules="potting"
+        ),
+        carom.CaromError,
+        "cues",
+    ),
+    (
+        lambda: carom.value(TABLE, _down(LAYOUT, 0), rules="nineball"),
+        carom.CaromError,
+        ".*it must be in play",
+    ),
+    (
+        lambda: carom.referee(TABLE, LAYOUT, carom.cue(), state={"may": 16 | 32}, call=(-4, -1)),
+        ValueError,
+        ".*there are 4 balls, none is 4",
+    ),
+    (
+        lambda: carom.referee(TABLE, LAYOUT, carom.cue(), state={"may": 16 | 32}, call=(-5, -1)),
+        ValueError,
+        ".*there are 4 balls, none is 4",
+    ),
+    (lambda: carom.referee(TABLE, LAYOUT, _changed(carom.cue(), speed=-1.0)), carom.CaromError, ""),
+    (lambda: carom.review(TABLE, LAYOUT, carom.cue(), rules="potting"), carom.CaromError, "rules"),
+]
+
+
+@pytest.mark.parametrize(("call", "error", "message"), by_line(REFUSALS))
+def test_refusals(call, error, message):
+    refused(call, error, message)
 
 
 def test_odds():

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from conftest import refused, run_python, same_bits
+from conftest import by_line, refused, run_python, same_bits
 from numpy.testing import assert_allclose, assert_array_equal
 
 import carom
@@ -320,8 +320,69 @@ def same_infos(found, expected):
             )
 
 
-def test_refusals(gymnasium, refusal):
-    refused(refusal, globals())
+# A call, the class of its error, and a pattern with which its message begins.
+REFUSALS = [
+    (
+        lambda: carom.gymnasium.GameVectorEnv(2, autoreset_mode="later"),
+        ValueError,
+        "autoreset_mode: must be one of 'NextStep', 'SameStep'",
+    ),
+    (
+        lambda: carom.gymnasium.GameEnv(render_mode="human"),
+        ValueError,
+        "render_mode: must be None, 'svg' or 'rgb_array', not 'human'",
+    ),
+    (
+        lambda: carom.gymnasium.GameEnv("threecushion", table=carom.tables.pool_9ft()),
+        ValueError,
+        ".*must have no pockets",
+    ),
+    (
+        lambda: carom.gymnasium.GameEnv("nineball", strokes=30).reset(
+            options={"layout": np.zeros((10, 2))}
+        ),
+        ValueError,
+        "layout: a match begins|strokes: must be 1 to 30",
+    ),
+    (
+        lambda: carom.gymnasium.GameEnv("nineball", strokes=30).reset(options={"strokes": 31}),
+        ValueError,
+        "layout: a match begins|strokes: must be 1 to 30",
+    ),
+    (lambda: carom.gymnasium.GameEnv("snooker"), ValueError, "game: must be one of 'potting'"),
+    (lambda: Match(opponent_shots=0), ValueError, "opponent_shots"),
+    *(
+        (
+            lambda game=game: carom.gymnasium.GameVectorEnv(2, game, threads=2),
+            TypeError,
+            "threads: matches are played one after another",
+        )
+        for game in ("nineball", "eightball")
+    ),
+    *(
+        (
+            lambda mask=mask: carom.gymnasium.GameVectorEnv(2).reset(options={"reset_mask": mask}),
+            ValueError,
+            r".*reset_mask: an array of bool of shape \(2,\)",
+        )
+        for mask in ([True], np.zeros(2, bool), np.ones(2), np.ones((2, 1), bool))
+    ),
+]
+
+
+@pytest.mark.parametrize(("call", "error", "message"), by_line(REFUSALS))
+def test_refusals(gymnasium, call, error, message):
+    refused(call, error, message)
+
+
+def test_the_first_reset_is_of_all_games(gymnasium):
+    options = {"reset_mask": np.array([True, False])}
+    environments = carom.gymnasium.GameVectorEnv(2)
+    refused(
+        lambda: environments.reset(options=options),
+        gymnasium.error.ResetNeeded,
+        ".*the first reset",
+    )
 
 
 @pytest.mark.parametrize("threads", [0, 2])
@@ -447,6 +508,7 @@ def test_reset_options(gymnasium):
         envs.step(np.zeros((3, 4)))
 
 
+@pytest.mark.release  # which installs MoviePy, for one film
 def test_a_film_is_recorded(gymnasium, tmp_path):
     pytest.importorskip("moviepy")
     from gymnasium.wrappers import RecordVideo

@@ -10,7 +10,6 @@ import importlib
 import json
 import os
 import pickle
-import re
 import shutil
 import sys
 import tempfile
@@ -99,17 +98,35 @@ def moving(rng):
     return system
 
 
-def named(kind, argument):
-    """What makes the systems or the engines of the text beside this module, by their names."""
-    text = Path(__file__).with_suffix(".txt").read_text(encoding="utf-8")
-    rows = re.findall(rf"^{kind} (.*?): (.*)$", text, re.M)
-    assert len(rows) == 8
-    return {name: eval(f"lambda {argument}: {row}", globals()) for name, row in rows}
-
-
 NINE, EIGHT, THREE = pt.GameType.NINEBALL, pt.GameType.EIGHTBALL, pt.GameType.THREECUSHION
 WIDE = {"a": (-0.5, 0.5), "b": (-0.5, 0.5)}
-FAMILIES = named("system", "rng")
+# Systems by a generator.
+FAMILIES = {
+    "nineball": lambda rng: struck(
+        rack(NINE, rng, rng.uniform(0.0001, 0.01)),
+        rng,
+        (4.5, 10),
+        (85, 95),
+        a=(-0.2, 0.2),
+        b=(-0.2, 0.3),
+    ),
+    "eightball": lambda rng: struck(
+        rack(EIGHT, rng, rng.uniform(0.0001, 0.01)),
+        rng,
+        (4.5, 10),
+        (85, 95),
+        theta=(0, 6),
+        b=(-0.2, 0.3),
+    ),
+    "threecushion": lambda rng: struck(rack(THREE, rng), rng, (2, 6), a=(-0.5, 0.5), b=(-0.4, 0.4)),
+    "layout": lambda rng: struck(scattered(rng, int(rng.integers(2, 6))), rng, (0.5, 5), **WIDE),
+    "bank": lambda rng: struck(
+        scattered(rng, int(rng.integers(1, 4))), rng, (3, 7), a=(-0.2, 0.2), b=(0, 0.3)
+    ),
+    "spin": lambda rng: struck(scattered(rng, 2), rng, (1, 4), theta=(0, 70), a=(-0.5, 0.5), b=0.3),
+    "pot": pot,
+    "moving": moving,
+}
 
 
 # ---- Comparing
@@ -268,7 +285,32 @@ stronge = importlib.import_module("pooltool.physics.resolve.ball_cushion.stronge
 han = importlib.import_module("pooltool.physics.resolve.ball_cushion.han_2005.model")
 steps = importlib.import_module("pooltool.physics.resolve.ball_cushion.mathavan_2010.model")
 mirror = importlib.import_module("pooltool.physics.resolve.ball_cushion.unrealistic")
-ENGINES = named("engine", "")
+ENGINES = {
+    "frictionless": lambda: engine(
+        frictionless(), linear=mirror.UnrealisticLinear(), circular=mirror.UnrealisticCircular(True)
+    ),
+    "average friction": lambda: engine(inelastic(friction=of_friction.AverageBallBallFriction())),
+    "own law": lambda: engine(
+        inelastic(friction=of_friction.AlciatoreBallBallFriction(0.02, 0.2, 0.5))
+    ),
+    "no friction": lambda: engine(
+        inelastic(friction=of_friction.AlciatoreBallBallFriction(0.0, 0.0, 0.0))
+    ),
+    "own ratio": lambda: engine(
+        linear=stronge.StrongeCompliantLinear(1.5), circular=stronge.StrongeCompliantCircular(1.5)
+    ),
+    "han": lambda: engine(linear=han.Han2005Linear(), circular=han.Han2005Circular()),
+    "steps": lambda: engine(
+        mathavan(num_iterations=400),
+        linear=steps.Mathavan2010Linear(400),
+        circular=steps.Mathavan2010Circular(400),
+    ),
+    "exact": lambda: engine(
+        bridge.ExactBallBall(),
+        linear=bridge.ExactLinearCushion(),
+        circular=bridge.ExactCircularCushion(),
+    ),
+}
 
 
 @pytest.mark.parametrize("name", ENGINES)
@@ -503,10 +545,7 @@ def test_installed_wherever_it_was_imported(played, monkeypatch):
     """
     defining = importlib.import_module("pooltool.evolution.event_based.simulate")
     original, user = pt.simulate, types.ModuleType("a_users_module")
-    exec(
-        "from pooltool.evolution.event_based.simulate import simulate\nfrom pooltool import simulate as play",
-        vars(user),
-    )
+    user.simulate, user.play = defining.simulate, pt.simulate
     monkeypatch.setitem(sys.modules, user.__name__, user)
     names = [
         (name, key, value)
@@ -523,7 +562,7 @@ def test_installed_wherever_it_was_imported(played, monkeypatch):
             ), (name, key)
         for simulate in (defining.simulate, user.simulate, user.play):
             simulate(pt.System.example())
-        exec("from pooltool.evolution.event_based.simulate import simulate as late", vars(user))
+        user.late = defining.simulate
         user.late(pt.System.example())
         assert len(played) == 4 and {"pooltool", "pooltool.evolution", defining.__name__} <= {
             name for name, _ in holders

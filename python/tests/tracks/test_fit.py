@@ -580,10 +580,17 @@ def test_derivatives_of_shots_give_the_normal_equations(sample, plays):
     """J^T W J by tangents of whole shots against that of C, by differences, which see the rounding
     of single precision.
     """
-    names = (
-        "mu_slide mu_roll mu_spin law_a law_b restitution restitution_cushion mu_cushion "
-        "nose_height"
-    ).split()
+    names = [
+        "mu_slide",
+        "mu_roll",
+        "mu_spin",
+        "law_a",
+        "law_b",
+        "restitution",
+        "restitution_cushion",
+        "mu_cushion",
+        "nose_height",
+    ]
     plays = plays.some(range(len(sample.strikes)))
     plays.set(sample.constants, dict.fromkeys(names, 1e-5))
     rows = np.arange(len(sample.strikes), dtype=np.int32)
@@ -919,7 +926,10 @@ def test_ten_banks_on_film_give_the_cushion_of_a_pool_table(tmp_path, rate):
     assert {name: found[name] for name in table} == pytest.approx(table, rel=0.02)
 
 
-IMPACT = [(name, float) for name in "v_n v_t w_t w_n u_t u_n w_error u_error first".split()]
+IMPACT = [
+    (name, float)
+    for name in ["v_n", "v_t", "w_t", "w_n", "u_t", "u_n", "w_error", "u_error", "first"]
+]
 
 
 def test_the_smooth_law_is_fitted_with_its_change_by_speed():
@@ -1099,7 +1109,7 @@ def test_the_command_splits_goes_on_and_writes_a_page(sample, tmp_path, capsys, 
     assert written["median_rmse"] == pytest.approx(np.median(rmse)) and written[
         "p90_rmse"
     ] == pytest.approx(np.percentile(rmse, 90))
-    assert set(written["shots"][0]["cue"]) == set("ball v_x v_y w_x w_y w_z start".split())
+    assert set(written["shots"][0]["cue"]) == {"ball", "v_x", "v_y", "w_x", "w_y", "w_z", "start"}
     output = capsys.readouterr().out
     assert (
         "fitted, 4 of 8 shots: RMSE median" in output
@@ -1179,7 +1189,7 @@ def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatc
     )
     names = sorted(path.name for path in (tmp_path / "p").iterdir())
     assert names == [
-        f"reality-{name}.svg" for name in "bands cushion hits rmse rolling sliding".split()
+        f"reality-{name}.svg" for name in ["bands", "cushion", "hits", "rmse", "rolling", "sliding"]
     ]
     assert all((tmp_path / "p" / name).read_text().startswith("<svg") for name in names)
 

@@ -269,5 +269,16 @@ def test_no_motion_has_no_events():
 
 
 def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument():
-    names = "shots table radius cushion_model constants speeds noise rate thin seed"
-    refused_by_name(("tracks.synthetic(shots=1)", "each of", names), globals())
+    names = [
+        "shots",
+        "table",
+        "radius",
+        "cushion_model",
+        "constants",
+        "speeds",
+        "noise",
+        "rate",
+        "thin",
+        "seed",
+    ]
+    refused_by_name(tracks.synthetic, {"shots": 1}, names)

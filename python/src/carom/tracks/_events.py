@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom._carom import lib
-from carom._rows import Arrays, pointer, record_of
+from carom._rows import Arrays, pointer
 from carom.dtypes import Doubles, Records
 from carom.tracks._recordings import Recording
 
@@ -45,18 +45,50 @@ _TOUCH = 0.02  # m: at a cut a ball is this close to what it met
 _TURN = 0.03  # m/s: least change of velocity in a hit
 _BEFORE, _AFTER = 0.6, 0.9  # s: samples of an impact, at most
 
-piece = record_of(
-    "shot:i8 ball:i8 begin:f8 end:f8 samples:i8 time:f8 r:2f8 v:2f8 a:2f8 v_error:f8 "
-    "a_error:f8 rms:f8 sliding:? rolling:?"
+piece = np.dtype(
+    [
+        ("shot", "i8"),
+        ("ball", "i8"),
+        ("begin", "f8"),
+        ("end", "f8"),
+        ("samples", "i8"),
+        ("time", "f8"),
+        ("r", "f8", 2),
+        ("v", "f8", 2),
+        ("a", "f8", 2),
+        ("v_error", "f8"),
+        ("a_error", "f8"),
+        ("rms", "f8"),
+        ("sliding", "?"),
+        ("rolling", "?"),
+    ]
 )
 """A piece of a track: index of the recording and of the ball; first and last time (s); place,
 velocity and acceleration at `time`; errors of a component; root of the mean squared distance of the
 samples (m); whether the ball slides or rolls (neither: not known).
 """
 
-impact = record_of(
-    "shot:i8 ball:i8 rail:i8 time:f8 r:2f8 v_n:f8 v_t:f8 w_n:f8 w_t:f8 u_n:f8 u_t:f8 "
-    "delay:f8 v_error:f8 w_error:f8 u_error:f8 chi2:f8 rolling:? first:?"
+impact = np.dtype(
+    [
+        ("shot", "i8"),
+        ("ball", "i8"),
+        ("rail", "i8"),
+        ("time", "f8"),
+        ("r", "f8", 2),
+        ("v_n", "f8"),
+        ("v_t", "f8"),
+        ("w_n", "f8"),
+        ("w_t", "f8"),
+        ("u_n", "f8"),
+        ("u_t", "f8"),
+        ("delay", "f8"),
+        ("v_error", "f8"),
+        ("w_error", "f8"),
+        ("u_error", "f8"),
+        ("chi2", "f8"),
+        ("rolling", "?"),
+        ("first", "?"),
+    ]
 )
 """An impact on rail 0 (x = 0), 1 (x = W), 2 (y = 0) or 3 (y = L).
 
@@ -66,9 +98,24 @@ and whether it is a ball that was not struck before its first cushion, which has
 spin.
 """
 
-hit = record_of(
-    "shot:i8 a:i8 b:i8 time:f8 n:2f8 v_n:f8 v_t:f8 w_n:f8 w_t:f8 z_n:f8 z_t:f8 "
-    "v_error:f8 w_error:f8 z_error:f8 chi2:f8"
+hit = np.dtype(
+    [
+        ("shot", "i8"),
+        ("a", "i8"),
+        ("b", "i8"),
+        ("time", "f8"),
+        ("n", "f8", 2),
+        ("v_n", "f8"),
+        ("v_t", "f8"),
+        ("w_n", "f8"),
+        ("w_t", "f8"),
+        ("z_n", "f8"),
+        ("z_t", "f8"),
+        ("v_error", "f8"),
+        ("w_error", "f8"),
+        ("z_error", "f8"),
+        ("chi2", "f8"),
+    ]
 )
 """A hit of ball a on ball b at rest.
 

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from carom import dtypes
 from carom._carom import lib
-from carom._rows import Array, Arrays, record_of
+from carom._rows import Array, Arrays
 from carom.dtypes import Doubles, Records
 from carom.status import CaromError
 from carom.tracks import _strikes
@@ -159,9 +159,25 @@ def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
 
 # ---- The report
 
-contact = record_of(
-    "shot:i8 contact:i8 time:f8 r:2f8 a:i8 b:i8 rail:i8 struck:? v:f8 v_n:f8 angle:f8 side:f8 "
-    f"kick:{KICKS}f8 error:{KICKS}f8 share:{KICKS}f8 effect:f8"
+contact = np.dtype(
+    [
+        ("shot", "i8"),
+        ("contact", "i8"),
+        ("time", "f8"),
+        ("r", "f8", 2),
+        ("a", "i8"),
+        ("b", "i8"),
+        ("rail", "i8"),
+        ("struck", "?"),
+        ("v", "f8"),
+        ("v_n", "f8"),
+        ("angle", "f8"),
+        ("side", "f8"),
+        ("kick", "f8", KICKS),
+        ("error", "f8", KICKS),
+        ("share", "f8", KICKS),
+        ("effect", "f8"),
+    ]
 )
 """A contact: index of the recording and the number of the contact, both from 0; when, on the
 recording's clock (s); where ball a was (m); indices of ball a, and of ball b or -1; whether one of

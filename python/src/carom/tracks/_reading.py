@@ -32,17 +32,88 @@ UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inches": 0.0254}
 _UNIT_NAMES = {"in": "inches", "inch": "inches", "metres": "m", "meters": "m", "pixels": "px"}
 # The names that trackers give their columns, in the order in which they are looked for.
 _SYNONYMS = {
-    "shot": "shot clip take trial stroke sequence",
-    "ball": "ball track_id trackid id track object object_id particle colour color class label",
-    "t": "t time seconds sec timestamp elapsed position_t",
-    "picture": "frame picture image frame_id frame_number frame_no image_id",
-    "x": "x cx xc px center_x centre_x x_center x_centre centroid_x position_x pos_x",
-    "y": "y cy yc py center_y centre_y y_center y_centre centroid_y position_y pos_y",
-    "state": "state status visible visibility hidden occluded pocketed potted",
+    "shot": ["shot", "clip", "take", "trial", "stroke", "sequence"],
+    "ball": [
+        "ball",
+        "track_id",
+        "trackid",
+        "id",
+        "track",
+        "object",
+        "object_id",
+        "particle",
+        "colour",
+        "color",
+        "class",
+        "label",
+    ],
+    "t": ["t", "time", "seconds", "sec", "timestamp", "elapsed", "position_t"],
+    "picture": ["frame", "picture", "image", "frame_id", "frame_number", "frame_no", "image_id"],
+    "x": [
+        "x",
+        "cx",
+        "xc",
+        "px",
+        "center_x",
+        "centre_x",
+        "x_center",
+        "x_centre",
+        "centroid_x",
+        "position_x",
+        "pos_x",
+    ],
+    "y": [
+        "y",
+        "cy",
+        "yc",
+        "py",
+        "center_y",
+        "centre_y",
+        "y_center",
+        "y_centre",
+        "centroid_y",
+        "position_y",
+        "pos_y",
+    ],
+    "state": [
+        "state",
+        "status",
+        "visible",
+        "visibility",
+        "hidden",
+        "occluded",
+        "pocketed",
+        "potted",
+    ],
 }
 _UNSEEN = {"", "nan", "na", "n/a", "null", "none", "-", "?"}
-_ABSENT = set("hidden occluded lost missing invisible pocketed potted out false no 0".split())
-_PRESENT = set("visible seen moving rolling sliding still rest stationary true yes 1 ok".split())
+_ABSENT = {
+    "hidden",
+    "occluded",
+    "lost",
+    "missing",
+    "invisible",
+    "pocketed",
+    "potted",
+    "out",
+    "false",
+    "no",
+    "0",
+}
+_PRESENT = {
+    "visible",
+    "seen",
+    "moving",
+    "rolling",
+    "sliding",
+    "still",
+    "rest",
+    "stationary",
+    "true",
+    "yes",
+    "1",
+    "ok",
+}
 _WIDE = 0.3  # share of an extent that places of a right unit reach, at least
 _RADIUS = 0.028  # m: of a ball where none is given
 _ORDERED = 0.8  # share of a ball's rows in order, below which all are sorted
@@ -155,7 +226,7 @@ def _columns(row: Sequence[str]) -> _Columns | None:
     names = [name for name, _ in named]
     places: dict[str, int] = {}
     for role, synonyms in _SYNONYMS.items():
-        for synonym in synonyms.split():
+        for synonym in synonyms:
             if synonym in names:
                 places.setdefault(role, names.index(synonym))
     balls: list[tuple[str, int, int]] = []
