@@ -321,8 +321,8 @@ TEST(places_on_built_in_tables) {
 /* The jaws of a pocket are tangent to their rails, its mouth apart, and mirror images of each
  * other; the order of the corners turns only the order of the parts round. */
 TEST(polygon_tables) {
-  carom_corner pool[6];
-  read_rows("pool", 3, &pool[0].x);
+  static const carom_corner pool[6] = {{0, 0, 0.118},       {1.27, 0, 0.118}, {1.27, 1.27, 0.137},
+                                       {1.27, 2.54, 0.118}, {0, 2.54, 0.118}, {0, 1.27, 0.137}};
   static const double R = 0.028575, r = 0.01;
   carom_corner other[6];
   for (int k = 0; k < 6; k++)
@@ -345,8 +345,8 @@ TEST(polygon_tables) {
     ck_assert(found);
   }
   /* no rail of a U has a name */
-  carom_corner u[8];
-  read_rows("wide_u", 3, &u[0].x);
+  static const carom_corner u[8] = {{0, 0, 0}, {3, 0, 0}, {3, 2.4, 0}, {2, 2.4, 0},
+                                    {2, 1, 0}, {1, 1, 0}, {1, 2.4, 0}, {0, 2.4, 0}};
   expect_ok(carom_table_polygon(u, 8, 0.0366, r, R, &t, &fault));
   for (int k = 0; k < t.rails; k++)
     ck_assert_ptr_null(carom_rail_name(&t, k));
@@ -355,8 +355,7 @@ TEST(polygon_tables) {
 /* A polygon from any origin is the same table. */
 TEST(polygons_take_any_origin) {
   static const double R = 0.028575, from[3][2] = {{-1.0, -2.0}, {-8.0, 4.0}, {16.0, 32.0}};
-  carom_corner square[4];
-  read_rows("square", 3, &square[0].x);
+  static const carom_corner square[4] = {{0, 0, 0.125}, {2, 0, 0}, {2, 4, 0}, {0, 4, 0.125}};
   carom_table at_origin, t;
   expect_ok(carom_table_polygon(square, 4, 0.0366, 0.01, R, &at_origin, NULL));
   for (int k = 0; k < 3; k++) {
@@ -428,18 +427,26 @@ TEST(star_with_too_many_pockets) {
  * slits that no ball passes once told otherwise, and so did places beyond the ends of short
  * rails. */
 TEST(places_on_odd_shapes) {
+  static const carom_corner narrow_u[] = {{0, 0, 0},       {1.8, 0, 0},   {1.8, 1.5, 0.1},
+                                          {1.2, 1.5, 0.1}, {1.2, 0.6, 0}, {0.6, 0.6, 0},
+                                          {0.6, 1.5, 0.1}, {0, 1.5, 0.1}};
+  static const carom_corner sharp[] = {{0, 0, 0.13}, {2, 0.5, 0}, {2, 1.2, 0}};
+  static const carom_corner short_rails[] = {
+      {0, 0.939, 0.135},     {0.13, 0.61, 0.135},   {0.26, 0.281, 0.135},
+      {0.541, 0.141, 0.135}, {0.822, 0, 0.135},     {1.373, 0.445, 0.135},
+      {1.11, 1.166, 0.135},  {0.761, 1.419, 0.135}, {0.412, 1.672, 0}};
   static const struct {
-    const char *name;
+    const carom_corner *corners;
+    int count;
     double jaw_radius, inside[2];
-  } shapes[] = {{"narrow_u", 0.01, {0.9, 0.3}},
-                {"sharp", 0.01, {1.6, 0.7}},
-                {"short_rails", 0.0266, {0.7, 0.8}}};
+  } shapes[] = {{narrow_u, COUNT_OF(narrow_u), 0.01, {0.9, 0.3}},
+                {sharp, COUNT_OF(sharp), 0.01, {1.6, 0.7}},
+                {short_rails, COUNT_OF(short_rails), 0.0266, {0.7, 0.8}}};
   const double R = 0.028575;
   for (int k = 0; k < 3; k++) {
-    carom_corner corners[9];
     carom_table t;
-    const int count = read_rows(shapes[k].name, 3, &corners[0].x);
-    expect_ok(carom_table_polygon(corners, count, 0.0365, shapes[k].jaw_radius, R, &t, NULL));
+    expect_ok(carom_table_polygon(shapes[k].corners, shapes[k].count, 0.0365, shapes[k].jaw_radius,
+                                  R, &t, NULL));
     expect_flooded(&t, R, 0.01, shapes[k].inside);
   }
 }
@@ -734,8 +741,8 @@ TEST(names) {
   ck_assert_str_eq(carom_rack_name(CAROM_RACK_EIGHTBALL), "eightball");
 
   /* rails and pockets of rectangles only, whatever the numbers of parts */
-  carom_corner bent[6];
-  read_rows("bent", 3, &bent[0].x);
+  static const carom_corner bent[6] = {{0, 0, 0.13},  {2.4, 0, 0.13},   {2.4, 1.3, 0.13},
+                                       {1.3, 1.3, 0}, {1.3, 2.4, 0.13}, {0, 2.4, 0.13}};
   static const int64_t numbers[] = {-1,      INT64_MIN, CAROM_RAILS_MOST + 1,
                                     1000000, INT64_MAX, 4562254508917369340};
   carom_table t;
