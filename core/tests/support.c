@@ -113,58 +113,6 @@ carom_result widened_result(const carom_result_f32 *out) {
   return wide;
 }
 
-/* What is behind the name and the mark in the next line that begins with both; NULL: there is none,
- * and the file is closed. */
-static char *next_row(FILE *file, const char *name, char mark, char line[1000]) {
-  const size_t length = strlen(name);
-  ck_assert_ptr_nonnull(file);
-  while (fgets(line, 1000, file) != NULL)
-    if (strncmp(line, name, length) == 0 && line[length] == mark)
-      return line + length + 1;
-  fclose(file);
-  return NULL;
-}
-
-int read_rows(const char *name, int columns, double *numbers) {
-  FILE *const file = fopen(CAROM_TEST_DATA "/../core/tests/rows.csv", "r");
-  char line[1000], *row;
-  int rows = 0;
-  for (; (row = next_row(file, name, ',', line)) != NULL; rows++)
-    for (int k = 0; k < columns; k++) {
-      *numbers++ = strtod(row, &row);
-      row++;
-    }
-  ck_assert_msg(rows > 0, "core/tests/rows.csv has no row %s", name);
-  return rows;
-}
-
-/* Puts the characters that \n, \r and \t are in C in their places. */
-static void unescape(char *text) {
-  static const char letters[] = "nrt", characters[] = "\n\r\t";
-  char *end = text;
-  for (; *text != '\0'; text++) {
-    const char *letter = *text == '\\' ? strchr(letters, text[1]) : NULL;
-    *end++ = letter != NULL ? characters[letter - letters] : *text;
-    text += letter != NULL;
-  }
-  *end = '\0';
-}
-
-int read_texts(const char *name, int columns, char texts[][TEXT]) {
-  FILE *const file = fopen(CAROM_TEST_DATA "/../core/tests/texts.txt", "r");
-  char line[1000], *row;
-  int rows = 0;
-  for (; (row = next_row(file, name, '\t', line)) != NULL; rows++)
-    for (int k = 0; k < columns; k++) {
-      const size_t length = strcspn(row, "\t\n");
-      snprintf(*texts, TEXT, "%.*s", (int)length, row);
-      unescape(*texts++);
-      row += length + 1;
-    }
-  ck_assert_msg(rows > 0, "core/tests/texts.txt has no row %s", name);
-  return rows;
-}
-
 int by_size(const void *a, const void *b) {
   const double x = *(const double *)a, y = *(const double *)b;
   return (x > y) - (x < y);

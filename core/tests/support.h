@@ -67,14 +67,6 @@ void random_vector(random_source *source, int count, double low, double high, do
 
 #define COUNT_OF(array) (sizeof(array) / sizeof(array)[0])
 
-/* Reads the rows of core/tests/rows.csv with this name, of so many numbers each. Returns how many.
- * */
-int read_rows(const char *name, int columns, double *numbers);
-
-/* The same of texts, from core/tests/texts.txt; a row's fields are behind each other. */
-enum { TEXT = 120 };
-int read_texts(const char *name, int columns, char texts[][TEXT]);
-
 /* A call that has a result. */
 #define expect_ok(status) ck_assert_int_eq(status, CAROM_OK)
 

@@ -273,8 +273,8 @@ CAROM_API carom_status carom_match_continue(carom_match *match, const carom_shot
  * carom_shoot(); CAROM_ERROR_STATE before the first stroke. */
 CAROM_API carom_status carom_match_replay(carom_match *match, carom_shot *shot);
 
-/* Takes an extension of the time for this stroke: the caller measures the time, and the match counts
- * the extensions. The act is refused where none is left. */
+/* Takes an extension of the time for this stroke: the caller measures the time, and the match
+ * counts the extensions. The act is refused where none is left. */
 CAROM_API carom_status carom_match_extend(carom_match *match, int player);
 
 /* Takes a timeout: the caller measures the time, and the match counts the timeouts. The act is
@@ -285,8 +285,8 @@ CAROM_API carom_status carom_match_timeout(carom_match *match, int player);
  * this at any time. */
 CAROM_API carom_status carom_match_concede(carom_match *match, int player);
 
-/* Ends the time of the player at the table: the match rules this as a stroke that met no ball, which
- * is a foul. */
+/* Ends the time of the player at the table: the match rules this as a stroke that met no ball,
+ * which is a foul. */
 CAROM_API carom_status carom_match_clock(carom_match *match, int player);
 
 /* Ends the recording: match->text is its last line. Nothing follows it. */

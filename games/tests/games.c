@@ -321,8 +321,8 @@ TEST(places_on_built_in_tables) {
 /* The jaws of a pocket are tangent to their rails, its mouth apart, and mirror images of each
  * other; the order of the corners turns only the order of the parts round. */
 TEST(polygon_tables) {
-  carom_corner pool[6];
-  read_rows("pool", 3, &pool[0].x);
+  static const carom_corner pool[6] = {{0, 0, 0.118},       {1.27, 0, 0.118}, {1.27, 1.27, 0.137},
+                                       {1.27, 2.54, 0.118}, {0, 2.54, 0.118}, {0, 1.27, 0.137}};
   static const double R = 0.028575, r = 0.01;
   carom_corner other[6];
   for (int k = 0; k < 6; k++)
@@ -345,8 +345,8 @@ TEST(polygon_tables) {
     ck_assert(found);
   }
   /* no rail of a U has a name */
-  carom_corner u[8];
-  read_rows("wide_u", 3, &u[0].x);
+  static const carom_corner u[8] = {{0, 0, 0}, {3, 0, 0}, {3, 2.4, 0}, {2, 2.4, 0},
+                                    {2, 1, 0}, {1, 1, 0}, {1, 2.4, 0}, {0, 2.4, 0}};
   expect_ok(carom_table_polygon(u, 8, 0.0366, r, R, &t, &fault));
   for (int k = 0; k < t.rails; k++)
     ck_assert_ptr_null(carom_rail_name(&t, k));
@@ -355,8 +355,7 @@ TEST(polygon_tables) {
 /* A polygon from any origin is the same table. */
 TEST(polygons_take_any_origin) {
   static const double R = 0.028575, from[3][2] = {{-1.0, -2.0}, {-8.0, 4.0}, {16.0, 32.0}};
-  carom_corner square[4];
-  read_rows("square", 3, &square[0].x);
+  static const carom_corner square[4] = {{0, 0, 0.125}, {2, 0, 0}, {2, 4, 0}, {0, 4, 0.125}};
   carom_table at_origin, t;
   expect_ok(carom_table_polygon(square, 4, 0.0366, 0.01, R, &at_origin, NULL));
   for (int k = 0; k < 3; k++) {
@@ -369,23 +368,85 @@ TEST(polygons_take_any_origin) {
   }
 }
 
+/* A polygon that is refused names the corner at fault, and a second one where there is. The other
+ * way round it has the same status, and its corners have other numbers. */
+TEST(faults_of_polygons) {
+  enum { CORNERS = 4, NONE = -1 };
+  static const struct {
+    carom_corner corner[CORNERS];
+    carom_status status;
+    int corner_at_fault;
+    int other_corner;
+  } faults[] = {{{{0, 0, 0}, {NAN, 0, 0}, {2, 2, 0}, {0, 2, 0}}, CAROM_ERROR_CORNER, 1, NONE},
+                {{{0, 0, 0}, {2, 0, 0}, {2, 2e6, 0}, {0, 2, 0}}, CAROM_ERROR_CORNER, 2, NONE},
+                {{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, -0.1}}, CAROM_ERROR_CORNER, 3, NONE},
+                {{{0, 0, 0}, {2, 0, 0}, {2, 0, 0}, {0, 2, 0}}, CAROM_ERROR_CORNERS_MEET, 1, 2},
+                {{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 4}}, CAROM_ERROR_MOUTHS, 2, 3}};
+  for (size_t k = 0; k < COUNT_OF(faults); k++) {
+    carom_corner other_way[CORNERS];
+    for (int n = 0; n < CORNERS; n++)
+      other_way[n] = faults[k].corner[CORNERS - 1 - n];
+    carom_table t;
+    carom_table_fault fault;
+    ck_assert_int_eq(
+        carom_table_polygon(faults[k].corner, CORNERS, 0.0366, 0.01, 0.028575, &t, &fault),
+        faults[k].status);
+    ck_assert_int_eq(fault.part.kind, CAROM_PART_CORNER);
+    ck_assert_int_eq(fault.part.index, faults[k].corner_at_fault);
+    if (faults[k].other_corner == NONE) {
+      ck_assert_int_eq(fault.other.kind, CAROM_PART_NONE);
+    } else {
+      ck_assert_int_eq(fault.other.kind, CAROM_PART_CORNER);
+      ck_assert_int_eq(fault.other.index, faults[k].other_corner);
+    }
+    ck_assert_int_eq(carom_table_polygon(other_way, CORNERS, 0.0366, 0.01, 0.028575, &t, &fault),
+                     faults[k].status);
+    ck_assert_int_eq(fault.part.kind, CAROM_PART_CORNER);
+  }
+}
+
+/* A star with a pocket at each point: the ninth pocket is one too many. */
+TEST(star_with_too_many_pockets) {
+  carom_corner star[CAROM_RAILS_MOST];
+  for (int k = 0; k < CAROM_RAILS_MOST; k++) {
+    const bool is_point = k % 2 == 0;
+    const double angle = 2.0 * 3.14159265358979323846 * k / CAROM_RAILS_MOST;
+    const double far = is_point ? 3.0 : 1.5;
+    star[k] = (carom_corner){far * cos(angle), far * sin(angle), is_point ? 0.1 : 0.0};
+  }
+  carom_table t;
+  carom_table_fault fault;
+  ck_assert_int_eq(carom_table_polygon(star, CAROM_RAILS_MOST, 0.0366, 0.01, 0.028575, &t, &fault),
+                   CAROM_ERROR_POCKETS);
+  ck_assert_int_eq(fault.part.kind, CAROM_PART_CORNER);
+  ck_assert_int_eq(fault.part.index, 2 * CAROM_POCKETS_MOST);
+}
+
 /* The same on a table in the shape of a U, whose middle is outside of it, with pockets at the ends
  * of its arms; and on one with a corner so sharp that there is room behind its pocket. Rays through
  * slits that no ball passes once told otherwise, and so did places beyond the ends of short
  * rails. */
 TEST(places_on_odd_shapes) {
+  static const carom_corner narrow_u[] = {{0, 0, 0},       {1.8, 0, 0},   {1.8, 1.5, 0.1},
+                                          {1.2, 1.5, 0.1}, {1.2, 0.6, 0}, {0.6, 0.6, 0},
+                                          {0.6, 1.5, 0.1}, {0, 1.5, 0.1}};
+  static const carom_corner sharp[] = {{0, 0, 0.13}, {2, 0.5, 0}, {2, 1.2, 0}};
+  static const carom_corner short_rails[] = {
+      {0, 0.939, 0.135},     {0.13, 0.61, 0.135},   {0.26, 0.281, 0.135},
+      {0.541, 0.141, 0.135}, {0.822, 0, 0.135},     {1.373, 0.445, 0.135},
+      {1.11, 1.166, 0.135},  {0.761, 1.419, 0.135}, {0.412, 1.672, 0}};
   static const struct {
-    const char *name;
+    const carom_corner *corners;
+    int count;
     double jaw_radius, inside[2];
-  } shapes[] = {{"narrow_u", 0.01, {0.9, 0.3}},
-                {"sharp", 0.01, {1.6, 0.7}},
-                {"short_rails", 0.0266, {0.7, 0.8}}};
+  } shapes[] = {{narrow_u, COUNT_OF(narrow_u), 0.01, {0.9, 0.3}},
+                {sharp, COUNT_OF(sharp), 0.01, {1.6, 0.7}},
+                {short_rails, COUNT_OF(short_rails), 0.0266, {0.7, 0.8}}};
   const double R = 0.028575;
   for (int k = 0; k < 3; k++) {
-    carom_corner corners[9];
     carom_table t;
-    const int count = read_rows(shapes[k].name, 3, &corners[0].x);
-    expect_ok(carom_table_polygon(corners, count, 0.0365, shapes[k].jaw_radius, R, &t, NULL));
+    expect_ok(carom_table_polygon(shapes[k].corners, shapes[k].count, 0.0365, shapes[k].jaw_radius,
+                                  R, &t, NULL));
     expect_flooded(&t, R, 0.01, shapes[k].inside);
   }
 }
@@ -495,6 +556,74 @@ TEST(turns_agree_with_steps) {
   }
   printf("largest difference from steps of 0.2 ms: %.2g rad\n", worst);
   ck_assert_msg(worst < 1e-7, "%g rad", worst);
+}
+
+/* How a ball has turned: an angle about an axis. */
+typedef struct turn {
+  double angle;
+  double axis[3]; /* of size 1 */
+} turn;
+
+/* Compares how a ball has turned in a shot that begins in this state with a closed form, until a
+ * time and in steps, s. */
+static void expect_turns(const carom_ball_state *start, double end, double step,
+                         turn (*closed_form)(double time, const carom_ball_state *now)) {
+  carom_table t;
+  carom_event events[20];
+  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+  const carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL), .state = *start};
+  carom_shot shot = {.events = events, .room = COUNT_OF(events)};
+  expect_ok(carom_shoot(&t, &ball, 1, NULL, NULL, &shot));
+  for (double time = 0.0; time < fmin(end, shot.time); time += step) {
+    carom_ball_state now;
+    double q[1][4];
+    expect_ok(carom_shot_at(&ball, 1, &shot, time, &now));
+    expect_ok(carom_shot_orientation(&ball, 1, &shot, time, q));
+    const turn known = closed_form(time, &now);
+    const double sine = sin(0.5 * known.angle);
+    const double expected[4] = {cos(0.5 * known.angle), known.axis[0] * sine, known.axis[1] * sine,
+                                known.axis[2] * sine};
+    ck_assert_double_lt(angle_between(q[0], expected), 1e-12);
+  }
+}
+
+static const double pool_radius = 0.028575;
+
+/* A ball that rolls straight turns by its way over R about the axis across it. */
+static turn of_rolling(double time, const carom_ball_state *now) {
+  (void)time;
+  return (turn){hypot(now->r[0] - 0.2, now->r[1] - 0.3) / pool_radius, {-0.8, 0.6, 0.0}};
+}
+
+TEST(turns_of_a_rolling_ball) {
+  const double R = pool_radius;
+  const carom_ball_state start = {
+      .r = {0.2, 0.3, R}, .v = {0.3, 0.4, 0.0}, .w = {-0.4 / R, 0.3 / R, 0.0}};
+  expect_turns(&start, INFINITY, 0.173, of_rolling);
+}
+
+/* A ball that spins on the spot turns about the vertical, ever more slowly. */
+static turn of_spinning(double time, const carom_ball_state *now) {
+  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  const double slowing = 2.5 * kind.mu_spin * kind.gravity / kind.radius;
+  (void)now;
+  return (turn){(77.0 - 0.5 * slowing * time) * time, {0.0, 0.0, 1.0}};
+}
+
+TEST(turns_of_a_spinning_ball) {
+  const carom_ball_state start = {.r = {0.2, 0.3, pool_radius}, .w = {0.0, 0.0, 77.0}};
+  expect_turns(&start, INFINITY, 0.11, of_spinning);
+}
+
+/* A ball in flight turns about the axis of its spin, as long as it flies: 0.24 s. */
+static turn of_flying(double time, const carom_ball_state *now) {
+  (void)now;
+  return (turn){130.0 * time, {3.0 / 13.0, 4.0 / 13.0, 12.0 / 13.0}};
+}
+
+TEST(turns_of_a_flying_ball) {
+  const carom_ball_state start = {.r = {0.6, 0.6, pool_radius + 0.3}, .w = {30.0, 40.0, 120.0}};
+  expect_turns(&start, 0.24, 0.017, of_flying);
 }
 
 /* Frames of a film have the bits of single calls. */
@@ -612,8 +741,8 @@ TEST(names) {
   ck_assert_str_eq(carom_rack_name(CAROM_RACK_EIGHTBALL), "eightball");
 
   /* rails and pockets of rectangles only, whatever the numbers of parts */
-  carom_corner bent[6];
-  read_rows("bent", 3, &bent[0].x);
+  static const carom_corner bent[6] = {{0, 0, 0.13},  {2.4, 0, 0.13},   {2.4, 1.3, 0.13},
+                                       {1.3, 1.3, 0}, {1.3, 2.4, 0.13}, {0, 2.4, 0.13}};
   static const int64_t numbers[] = {-1,      INT64_MIN, CAROM_RAILS_MOST + 1,
                                     1000000, INT64_MAX, 4562254508917369340};
   carom_table t;

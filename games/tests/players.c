@@ -172,14 +172,18 @@ TEST(strokes_err) {
 /* Ratings by games, beside sums over 2,000,001 ratings, by NumPy: none, few, half of the games won
  * or all or none, so many that the density is a needle; and what is refused. */
 TEST(rating_by_games) {
-  struct {
+  static const struct {
     carom_score scores[2];
     double mean, low, high;
-  } known[10];
+  } known[] = {{{{0, 0, 0}, {0, 0, 0}}, 426.37834, 219.09101, 696.51005},
+               {{{500, 7, 3}, {600, 2, 4}}, 541.01983, 409.47716, 672.87243},
+               {{{400, 200, 100}, {0, 0, 0}}, 498.97971, 464.89153, 533.72511},
+               {{{800, 1000, 0}, {0, 0, 0}}, 849.65026, 848.71142, 849.99113},
+               {{{300, 0, 1000}, {0, 0, 0}}, 200.43274, 200.01098, 201.59361},
+               {{{500, 1e9, 1e9}, {0, 0, 0}}, 500.0, 499.98735, 500.01265},
+               {{{0, 5, 3.5}, {1000, 1, 2}}, 298.20865, 204.24671, 470.35038}};
   carom_rating rating;
-  const int rows =
-      read_rows("rating", sizeof known[0] / sizeof(double), &known[0].scores[0].against);
-  for (int k = 0; k < rows; k++) {
+  for (size_t k = 0; k < COUNT_OF(known); k++) {
     expect_ok(carom_rating_of(known[k].scores, 2, &rating));
     ck_assert_double_eq_tol(rating.mean, known[k].mean, 2e-5);
     ck_assert_double_eq_tol(rating.low, known[k].low, 2e-5);

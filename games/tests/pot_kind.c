@@ -1,5 +1,5 @@
 /* What a stroke was: the kind of a pot by the order of precedence, the marks of a stroke, and the
- * terms. The shots are lists of events of texts.txt; whole shots are in ways.c and facts.c. */
+ * terms. The shots are lists of events; whole shots are in ways.c and facts.c. */
 #include "pot_kind.h"
 #include "plan_support.h"
 
@@ -58,13 +58,32 @@ static int kind_of(const char *list) {
 }
 
 TEST(kinds_of_pots) {
-  static char rows[20][3][TEXT];
-  const int count = read_texts("pot_kind", 3, rows[0]);
-  for (int k = 0; k < count; k++) {
-    const int kind = kind_of(rows[k][2]);
-    ck_assert_msg(strcmp(carom_plan_kind_name((carom_plan_kind)kind), rows[k][1]) == 0,
-                  "%s: %s is a %s", rows[k][0], rows[k][2],
-                  carom_plan_kind_name((carom_plan_kind)kind));
+  static const struct {
+    const char *what_counts;
+    const char *kind; /* "": none */
+    const char *shot;
+  } shots[] = {{"one departure", "pot", "cb b."},
+               {"one departure", "bank", "B cb b."},
+               {"one departure", "kick", "K cb b."},
+               {"one departure", "rail first", "R cb b."},
+               {"one departure", "kiss", "cb ob b."},
+               {"one departure", "carom", "co cb b."},
+               {"one departure", "combination", "co ob b."},
+               {"before all", "combination", "K B ct co ob bt b."},
+               {"before a kiss", "carom", "K B co cb bt b."},
+               {"before a kick", "kiss", "K B cb bt b."},
+               {"before a bank", "kick", "K B cb b."},
+               {"before a bank", "rail first", "R B cb b."},
+               {"the cue ball once more, and what it meets after the ball", "pot", "cb cb co b."},
+               {"of one instant the cue ball's contact drives", "kiss", "ob =cb b."},
+               {"what the ball meets after its fall", "pot", "cb b. bo"},
+               {"not met", "", "b."},
+               {"not fallen", "", "cb"},
+               {"another pocket", "", "cb b,"}};
+  for (size_t k = 0; k < COUNT_OF(shots); k++) {
+    const char *const name = carom_plan_kind_name((carom_plan_kind)kind_of(shots[k].shot));
+    ck_assert_msg(strcmp(name, shots[k].kind) == 0, "%s: %s is a %s", shots[k].what_counts,
+                  shots[k].shot, name);
   }
 }
 

@@ -2,6 +2,7 @@
  * what a stroke did, beside the ruling and the state that must follow; and acts of a match, each
  * with how the match must stand. */
 #include "match_support.h"
+#include "row_file.h"
 
 #include <stddef.h>
 
@@ -111,8 +112,6 @@ static const member members[] = {
     MEMBER(rulings, NUMBER),
 };
 enum { MEMBERS = sizeof members / sizeof members[0] };
-
-enum { LINE = 1000 };
 
 /* A number, or the place of a word; *text goes behind it. */
 static int number_at(const char **text, enum words words) {
@@ -362,26 +361,14 @@ static int split(char *text, char *column[], int most) {
   return columns;
 }
 
-/* The next row of a file, without its end of line; false behind the last. */
-static bool next_row(FILE *rows_file, char line[LINE]) {
-  ck_assert_ptr_nonnull(rows_file);
-  while (fgets(line, LINE, rows_file) != NULL) {
-    line[strcspn(line, "\n")] = '\0';
-    if (line[0] != '#' && line[0] != '\0')
-      return true;
-  }
-  fclose(rows_file);
-  return false;
-}
-
 TEST(situations) {
-  FILE *const rows_file = fopen(CAROM_TEST_SITUATIONS, "r");
-  char line[LINE], *column[5];
-  int rows = 0, of_source[5] = {0};
-  for (; next_row(rows_file, line); rows++) {
+  char *column[5];
+  int of_source[5] = {0};
+  open_rows(CAROM_TEST_SITUATIONS);
+  while (next_line()) {
     column[4] = NULL;
-    ck_assert_msg(split(line, column, 5) >= 4, "a row of situations.txt has four columns, not: %s",
-                  line);
+    if (split(row_file.line, column, 5) < 4)
+      reject("a row of situations.txt has four columns");
     of_source[source_of(column[1], column[4])]++;
 
     /* both sides begin with the state at the beginning of the game */
@@ -404,9 +391,9 @@ TEST(situations) {
     else
       check_row(column[1], &game_rules, &row, &expected);
   }
-  printf("%d rows: %d by a text, %d by its titles, %d by clubs, %d from memory\n", rows,
-         of_source[1], of_source[2], of_source[3], of_source[4]);
-  ck_assert_int_ge(rows, 430);
+  printf("%d rows: %d by a text, %d by its titles, %d by clubs, %d from memory\n",
+         row_file.rows_begun, of_source[1], of_source[2], of_source[3], of_source[4]);
+  ck_assert_int_ge(row_file.rows_begun, 430);
   ck_assert_int_ge(of_source[1], 60);
 }
 
@@ -538,10 +525,10 @@ static void check_act(const char *title, char *column) {
 
 TEST(matches) {
   enum { ACTS = 24 };
-  FILE *const rows_file = fopen(CAROM_TEST_DATA "/../games/tests/matches.txt", "r");
-  char line[LINE], *column[ACTS];
-  while (next_row(rows_file, line)) {
-    const int columns = split(line, column, ACTS);
+  char *column[ACTS];
+  open_rows(CAROM_TEST_DATA "/../games/tests/matches.txt");
+  while (next_line()) {
+    const int columns = split(row_file.line, column, ACTS);
     ck_assert_int_ge(columns, 4);
     begin_row(rules_of(column[0]), column[2]);
     for (int k = 3; k < columns; k++)

@@ -129,14 +129,78 @@ static void expect(carom_impact impact, int steps, carom_status expected) {
   }
 }
 
-/* Collisions that are refused or solved, whose speeds and sizes are extreme. */
+/* Head-on collisions whose speeds and sizes are extreme are refused or solved. */
 TEST(what_cannot_be_solved_is_refused_and_the_rest_ends) {
-  static double rows[40][28];
-  for (int k = read_rows("ladder_refusals", 28, rows[0]) - 1; k >= 0; k--) {
-    carom_impact impact;
-    memcpy(&impact, &rows[k][2], sizeof impact);
-    expect(impact, (int)rows[k][0], (carom_status)rows[k][1]);
+  static const struct {
+    double v_a, v_b;
+    double mass_a, mass_b;
+    double radius;
+    double mu_ball, restitution;
+    carom_status status;
+  } cases[] = {
+      {1, 0, 0.17, 0.17, 0.028, 0.05, 0.95, CAROM_OK},
+      {0, 0, 0.17, 0.17, 0.028, 0.05, 0.95, CAROM_SEPARATING},
+      {-1, 0, 0.17, 0.17, 0.028, 0.05, 0.95, CAROM_SEPARATING},
+      {1, 0, 0.17, 0.16, 0.028, 0.05, 0.95, CAROM_ERROR_MASSES_DIFFER},
+      {1, 0, 0.17, 0.17, 0.028, 0, 1.5, CAROM_ERROR_RESTITUTION},
+      {1, 0, 0.17, 0.17, 0.028, 0.05, 0, CAROM_OK},
+      {1, 0, 0.17, 0.17, 0.028, 1, 1, CAROM_OK},
+      {1, 0, 0.17, 0.17, 0.028, 0, 1, CAROM_OK},
+      {1e8, 0, 0.17, 0.17, 0.028, 0.05, 0.95, CAROM_OK},
+      {1e-12, 0, 0.17, 0.17, 0.028, 0.05, 0.95, CAROM_OK},
+      {1e12, 0, 0.17, 0.17, 0.028, 0.05, 0.95, CAROM_ERROR_OVERFLOW},
+      /* in single precision */
+      {1, 0, 1e-40, 1e-40, 0.028, 0.05, 0.95, CAROM_ERROR_OVERFLOW},
+      {1, 0, 1e-9, 1e-9, 1e-9, 0.05, 0.95, CAROM_OK},
+      {1, 0, 1e9, 1e9, 1e9, 0.05, 0.95, CAROM_OK},
+      /* a step below what a slip must be to count, and steps that are rounded away */
+      {1e-14, 0, 0.17, 0.17, 0.028, 0.05, 0.95, CAROM_ERROR_TOO_SLOW},
+      {1e3, 1e3 - 1e-10, 0.17, 0.17, 0.028, 0.05, 0.95, CAROM_ERROR_TOO_SLOW},
+  };
+  for (size_t k = 0; k < COUNT_OF(cases); k++) {
+    const carom_ball ball = {.radius = cases[k].radius, .mu_slide = 0.2};
+    carom_impact impact = {
+        .a = ball, .b = ball, .mu_ball = cases[k].mu_ball, .restitution = cases[k].restitution};
+    impact.b.r[1] = 2.0 * cases[k].radius;
+    impact.a.v[1] = cases[k].v_a;
+    impact.b.v[1] = cases[k].v_b;
+    impact.a.mass = cases[k].mass_a;
+    impact.b.mass = cases[k].mass_b;
+    expect(impact, 1000, cases[k].status);
   }
+}
+
+TEST(steps_are_checked) {
+  expect(head_on(), 1, CAROM_OK);
+  expect(head_on(), -1, CAROM_ERROR_STEPS);
+}
+
+TEST(wrong_numbers_are_refused) {
+  carom_impact impact = head_on();
+  impact.a.v[0] = NAN;
+  expect(impact, 1000, CAROM_ERROR_VELOCITY);
+  impact = head_on();
+  impact.a.w[2] = INFINITY;
+  expect(impact, 1000, CAROM_ERROR_SPIN);
+  impact = head_on();
+  impact.b.r[1] = NAN;
+  expect(impact, 1000, CAROM_ERROR_POSITION);
+  impact = head_on();
+  impact.b.r[1] = 0.0;
+  expect(impact, 1000, CAROM_ERROR_COINCIDENT);
+}
+
+/* All frictions are 1, and the first ball spins about each axis. */
+TEST(much_friction_is_solved) {
+  carom_impact impact = head_on();
+  impact.mu_ball = 1.0;
+  impact.a.mu_slide = 1.0;
+  impact.b.mu_slide = 1.0;
+  impact.restitution = 1.0;
+  impact.a.w[0] = 300.0;
+  impact.a.w[1] = -200.0;
+  impact.a.w[2] = 100.0;
+  expect(impact, 1000, CAROM_OK);
 }
 
 /* The limit of steps is each precision's own. */

@@ -4,15 +4,28 @@
 #include "support.h"
 
 TEST(what_is_read) {
-  char texts[40][TEXT];
+  static const struct {
+    const char *text;
+    double number;
+  } good[] = {{"1", 1},
+              {"-1.5e-3", -0.0015},
+              {" 2 ", 2},
+              {"+.5", 0.5},
+              {"0x1p-2", 0.25},
+              {"inf", INFINITY},
+              {"-INF", -INFINITY},
+              {"Infinity", INFINITY},
+              {"1e999", INFINITY},
+              {"1e-999", 0}};
+  static const char *const bad[] = {"", " ", "1,5", "1.5.2", "one", "1e", "--1", "1 2", "0x"};
   double x;
-  for (int k = read_texts("number", 2, texts) - 1; k >= 0; k--) {
-    ck_assert_msg(parse_number(texts[2 * k], &x), "%s", texts[2 * k]);
-    ck_assert(x == atof(texts[2 * k + 1]));
+  for (size_t k = 0; k < COUNT_OF(good); k++) {
+    ck_assert_msg(parse_number(good[k].text, &x), "%s", good[k].text);
+    ck_assert_double_eq(x, good[k].number);
   }
   ck_assert(parse_number("NaN", &x) && isnan(x));
-  for (int k = read_texts("no_number", 1, texts) - 1; k >= 0; k--)
-    ck_assert_msg(!parse_number(texts[k], &x), "%s", texts[k]);
+  for (size_t k = 0; k < COUNT_OF(bad); k++)
+    ck_assert_msg(!parse_number(bad[k], &x), "%s", bad[k]);
 }
 
 static void check_shortest(double x) {
@@ -31,8 +44,30 @@ static void check_shortest(double x) {
 }
 
 TEST(what_is_written_is_the_shortest) {
-  double chosen[40];
-  for (int k = read_rows("written", 1, chosen) - 1; k >= 0; k--) {
+  static const double chosen[] = {0.0,
+                                  1.0,
+                                  0.1,
+                                  0.3333333333333333,
+                                  100.0,
+                                  1e15,
+                                  1e16,
+                                  123456789012345680.0,
+                                  5e-324,
+                                  2.2250738585072014e-308,
+                                  1.7976931348623157e308,
+                                  2.220446049250313e-16,
+                                  INFINITY,
+                                  9.95,
+                                  0.028575,
+                                  8.41,
+                                  2e-308,
+                                  0.30000000000000004,
+                                  1e22,
+                                  1e23,
+                                  9007199254740993.0,
+                                  5.684341886080802e-14,
+                                  9999999999999999.0};
+  for (size_t k = 0; k < COUNT_OF(chosen); k++) {
     check_shortest(chosen[k]);
     check_shortest(-chosen[k]);
   }

@@ -33,9 +33,34 @@ static void expect(const char *text, const char *expected) {
 }
 
 TEST(records_of_files) {
-  char texts[50][TEXT];
-  for (int k = 2 * (read_texts("records", 2, texts) - 1); k >= 0; k -= 2)
-    expect(texts[k], texts[k + 1]);
+  static const struct {
+    const char *text;
+    const char *records;
+  } files[] = {
+      /* shapes of files */
+      {"", ""},
+      {"\n\n", ""},
+      {"a,b\n1,2\n", "1:a|b;2:1|2;"},
+      {"a,b\n1,2", "1:a|b;2:1|2;"},
+      {"a,b\r\n1,2\r\n3,4\r\n", "1:a|b;2:1|2;3:3|4;"},
+      {"a,b\r1,2\r", "1:a|b;2:1|2;"},
+      {"a\n\n\r\n1\n\n2\n", "1:a;4:1;6:2;"},
+      {"a,b\n,\n1\n1,2,3\n", "1:a|b;3:1;4:1|2|3;"},
+      {" a , b \n", "1:a|b;"},
+      /* what other programs write */
+      {"# note\n#,\na,b\n1,2\n", "3:a|b;4:1|2;"},
+      {"a,b\n#1,2\n", "1:a|b;2:#1|2;"},
+      {"a;b\n1,5;2\n", "1:a|b;2:1,5|2;"},
+      {"a\tb\n1\t\"2\t3\"\n", "1:a|b;2:1|2\t3;"},
+      {"a,b;c\n1,2;3\n", "1:a|b;c;2:1|2;3;"},
+      {"a;b (m, m);c\n1,5;2;3\n", "1:a|b (m, m)|c;2:1,5|2|3;"},
+      {"a,b\n , \n,,,\n1,2\n\"\",\n", "1:a|b;4:1|2;"},
+      /* quotes */
+      {"\"a\",\"b,c\",\"d \"\"e\"\"\"\n1,2,3\n", "1:a|b,c|d \"e\";2:1|2|3;"},
+      {"a,\"two\nlines\"\nnext,\"x\r\ny\"\nlast\n", "1:a|two\nlines;3:next|x\r\ny;5:last;"},
+      {"\"starts\nhere\",1\nb\n", "1:starts\nhere|1;3:b;"}};
+  for (size_t k = 0; k < COUNT_OF(files); k++)
+    expect(files[k].text, files[k].records);
   expect("\xEF\xBB\xBF"
          "a,b\n1,2\n",
          "1:a|b;2:1|2;");
@@ -54,14 +79,22 @@ TEST(a_first_record_of_numbers) {
 }
 
 TEST(decimal_commas) {
-  char texts[40][TEXT];
-  for (int k = read_texts("decimal", 4, texts) - 1; k >= 0; k--) {
-    const char *text = texts[4 * k];
-    const bool good = atoi(texts[4 * k + 2]);
+  static const struct {
+    const char *text;
+    bool has_semicolons; /* between fields */
+    bool is_number;
+    double number;
+  } fields[] = {
+      {"1,5", true, true, 1.5},    {"-0,25e1", true, true, -2.5}, {"1.5", true, true, 1.5},
+      {",5", true, true, 0.5},     {"1,5", false, false, 0.0},    {"1.234,5", true, false, 0.0},
+      {"1,2,3", true, false, 0.0}, {",", true, false, 0.0},       {"0x1,8", true, false, 0.0}};
+  for (size_t k = 0; k < COUNT_OF(fields); k++) {
     double number = 0.0;
-    const record r = {.decimal_commas = atoi(texts[4 * k + 1])};
-    ck_assert_msg(record_number(&r, text, &number) == good, "%s", text);
-    ck_assert_msg(!good || number == atof(texts[4 * k + 3]), "%s is %g", text, number);
+    const record r = {.decimal_commas = fields[k].has_semicolons};
+    const bool is_number = record_number(&r, fields[k].text, &number);
+    ck_assert_msg(is_number == fields[k].is_number, "%s", fields[k].text);
+    if (is_number)
+      ck_assert_msg(number == fields[k].number, "%s is %g", fields[k].text, number);
   }
 }
 

@@ -44,38 +44,78 @@ TEST(every_table_and_rack_has_its_word) {
 /* Capitals, hyphens and the order of two parts do not matter, and some words have other names; a
  * word that is there itself is that one. */
 TEST(words_as_players_say_them) {
-  char texts[60][TEXT];
-  for (int k = read_texts("said", 3, texts) - 1; k >= 0; k--) {
-    const char *said = texts[3 * k], *words = texts[3 * k + 1];
-    ck_assert_msg(word_among(words, said, strlen(said)) == atoi(texts[3 * k + 2]), "%s among %s",
-                  said, words);
+  static const struct {
+    const char *said;
+    const char *words;
+    int meant; /* its index; -1: none */
+  } cases[] = {{"Eight-Ball", "nineball|eightball", 1},
+               {"9-ball", "eightball|nineball", 1},
+               {"left_side", "side-right|side-left", 1},
+               {"top-left", "head-left|foot-left", 1},
+               {"center", "head-spot|centre", 1},
+               {"head", "head-spot|centre", 0},
+               {"head", "head-spot|head", 1},
+               {"screw", "stun|draw", 1},
+               {"screw", "high|low", 1},
+               {"side", "side-left|side-right", -1},
+               {"lefts", "left|right", -1},
+               {"-", "left|right", -1},
+               {"", "left|right", -1}};
+  for (size_t k = 0; k < COUNT_OF(cases); k++) {
+    const int found = word_among(cases[k].words, cases[k].said, strlen(cases[k].said));
+    ck_assert_msg(found == cases[k].meant, "%s among %s", cases[k].said, cases[k].words);
   }
 }
 
 /* Places by name, and those at a rail: of a bare number the unit is m, as elsewhere. */
 TEST(places_in_words) {
-  char texts[40][TEXT], place[80];
-  for (int k = read_texts("place", 2, texts) - 1; k >= 0; k--) {
-    const char *text = texts[2 * k];
+  static const struct {
+    const char *text;
+    const char *numbers;
+  } places[] = {
+      {"left,4d", "0d,4d"},          {"head,2d", "2d,0d"},           {"right,1.2", "4d,1.2 m"},
+      {"foot,30in", "30 in,8d"},     {"left,6d,10cm", "0d,6d,10cm"}, {"head,20cm", "20 cm,0d"},
+      {"center,20cm", "2d,4d,20cm"}, {"Foot-Spot", "2d,6d"},         {"foot", "2d,6d"},
+      {"0.6,1.5", "0.6,1.5"},        {"leftish,2d", "leftish,2d"}};
+  char place[80];
+  for (size_t k = 0; k < COUNT_OF(places); k++) {
+    const char *text = places[k].text;
     value x = {.x = 0.0}, y = {.x = 0.0};
     const char *rest = place_named(text, &x, &y);
     snprintf(place, sizeof place, "%s,%s%s", x.name, y.name, rest);
-    ck_assert_str_eq(rest == text ? text : place, texts[2 * k + 1]);
+    ck_assert_str_eq(rest == text ? text : place, places[k].numbers);
   }
 }
 
 /* Places of the tip in words, at most half a radius from the centre, and with numbers. */
 TEST(tips_in_words) {
+  static const struct {
+    const char *text;
+    int count;
+    double x, y; /* of the first, over the radius */
+  } good[] = {{"low", 1, 0.0, -0.5},
+              {"center", 1, 0.0, 0.0},
+              {"right,0", 1, 0.5, 0.0},
+              {"low-left", 1, -0.3536, -0.3536},
+              {"left,high", 1, -0.3536, 0.3536},
+              {"50%,-20%", 1, 0.25, -0.1},
+              {"draw:follow", 2, 0.0, -0.5},
+              {"0.1,0.2:low", 2, 0.1, 0.2}};
+  static const char *const bad[] = {"lower", "low-", "right,", "low,0.2,3", "left-frozen"};
   static place_list list;
-  char texts[40][TEXT];
-  for (int k = read_texts("tip", 4, texts) - 1; k >= 0; k--) {
-    ck_assert_msg(option_tip.set(&option_tip, texts[4 * k], &list), "tip %d", k);
-    ck_assert_int_eq(list.count, atoi(texts[4 * k + 1]));
-    ck_assert_double_eq_tol(list.place[0].x.x, atof(texts[4 * k + 2]), 1e-12);
-    ck_assert_double_eq_tol(list.place[0].y.x, atof(texts[4 * k + 3]), 1e-12);
+  for (size_t k = 0; k < COUNT_OF(good); k++) {
+    char text[40]; /* which may be cut into its parts */
+    snprintf(text, sizeof text, "%s", good[k].text);
+    ck_assert_msg(option_tip.set(&option_tip, text, &list), "%s", good[k].text);
+    ck_assert_int_eq(list.count, good[k].count);
+    ck_assert_double_eq_tol(list.place[0].x.x, good[k].x, 1e-12);
+    ck_assert_double_eq_tol(list.place[0].y.x, good[k].y, 1e-12);
   }
-  for (int k = read_texts("no_tip", 1, texts) - 1; k >= 0; k--)
-    ck_assert_msg(!option_tip.set(&option_tip, texts[k], &list), "no tip %d", k);
+  for (size_t k = 0; k < COUNT_OF(bad); k++) {
+    char text[40];
+    snprintf(text, sizeof text, "%s", bad[k]);
+    ck_assert_msg(!option_tip.set(&option_tip, text, &list), "%s", bad[k]);
+  }
 }
 
 TEST(numbers_by_name_and_key) {

@@ -2,17 +2,8 @@
 #ifndef CAROM_TESTS_AGREE_PATHS_H
 #define CAROM_TESTS_AGREE_PATHS_H
 
+#include "row_file.h"
 #include "tangent_support.h"
-
-#include <ctype.h>
-
-/* What is read, and where it stands. */
-static const char *cursor;
-static int line_index;
-
-static inline _Noreturn void reject(const char *reason) {
-  ck_abort_msg("line %d, before \"%s\": %s", line_index, cursor, reason);
-}
 
 /* The next word, which stands until the next call; "" at the end. */
 static inline const char *read_word(void) {
@@ -22,15 +13,6 @@ static inline const char *read_word(void) {
   snprintf(word, sizeof word, "%.*s", length, cursor);
   cursor += length;
   return word;
-}
-
-/* Whether the line goes on with a word, which is then read. */
-static inline bool skip(const char *word) {
-  const char *const before = cursor;
-  if (strcmp(read_word(), word) == 0)
-    return true;
-  cursor = before;
-  return false;
 }
 
 /* A sum of terms, in units of 1, of the radius of a ball, R, or of the reach, X. */

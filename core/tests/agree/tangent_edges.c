@@ -794,8 +794,8 @@ TEST(reach_at_frozen_balls) {
 
 /* ---- Rows ----
  *
- * Each case of edges.txt is a line and the indented lines behind it. It begins with an empty table
- * and the models `closed`. A comma or a semicolon is a space. Statements:
+ * Each row of edges.txt begins with an empty table and the models `closed`. A comma or a semicolon
+ * is a space. Statements:
  *
  *   parted                  rails that end before the corners and in the middle
  *   ball X Y                a further ball at rest on the cloth
@@ -908,7 +908,7 @@ static void expect_measure(void) {
     if (skip(measures[k].name)) {
       const double value = measures[k].value(), least = read_number();
       ck_assert_msg(value >= least && value <= read_number(), "edges.txt:%d: %s is %.17g",
-                    line_index, measures[k].name, value);
+                    row_file.line_number, measures[k].name, value);
       return;
     }
   reject("no such statement");
@@ -1009,18 +1009,13 @@ static void begin_case(void) {
 }
 
 TEST(edges) {
-  FILE *const file = fopen(CAROM_TEST_DATA "/../core/tests/agree/edges.txt", "r");
-  char line[400];
-  ck_assert_ptr_nonnull(file);
-  for (line_index = 1; fgets(line, sizeof line, file) != NULL; line_index++) {
-    line[strcspn(line, "#\n")] = '\0';
-    for (char *sign = line; (sign = strpbrk(sign, ",;")) != NULL;)
+  open_rows(CAROM_TEST_DATA "/../core/tests/agree/edges.txt");
+  while (next_line()) {
+    for (char *sign = row_file.line; (sign = strpbrk(sign, ",;")) != NULL;)
       *sign = ' ';
-    if (line[0] != ' ' && line[0] != '\0')
+    if (begins_row())
       begin_case();
-    cursor = line;
-    while (cursor += strspn(cursor, " "), *cursor != '\0')
+    while (skip_spaces(), *cursor != '\0')
       run_statement();
   }
-  fclose(file);
 }

@@ -1,8 +1,8 @@
-/* Balls that fly, and the table: noses from any height, and jaws. A nose is at h = 36.576 mm;
- * known_shots.txt has shots with known numbers. */
-#include "shot_support.h"
+/* Balls that fly, and the table: noses from any height, jaws, the tops of rails, pockets. A nose is
+ * at h = 36.576 mm. */
+#include "flight.h"
 
-static const double R = 0.028575, g = 9.81, h = 0.036576;
+static const double h = 0.036576;
 
 /* The true nose is a line this far inside the wall that stands for it. */
 static double shift(void) {
@@ -10,6 +10,46 @@ static double shift(void) {
 }
 
 /* ---- Noses */
+
+/* A nose that is met from above: 0.2 m from it, level at 3 m/s and 40 mm above the cloth. The rail
+ * of the far side is at y = 40. A separate program computed the numbers; they are right to their
+ * last digit. */
+TEST(nose_from_above) {
+  const carom_table table = empty_table(40.0);
+  const carom_shot_ball ball = flying(20.0, 40.0 - shift() - 0.2, R + 0.04, 0.0, 3.0, 0.0);
+  play(&table, &ball, 1, NULL, NULL, CAROM_OK);
+  const carom_ball_state *before = &events[0].before[0];
+  const carom_ball_state *after = &events[0].after[0];
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_RAIL);
+  NEAR(events[0].time, 0.058592601497, 1e-11);
+  NEAR(before->r[2], 0.051735679, 1e-9);
+  NEAR((h - before->r[2]) / R, -0.530522452, 1e-8);
+  NEAR(after->v[0], 0.0, 1e-15);
+  NEAR(after->v[1], -1.633527600, 1e-8);
+  NEAR(after->v[2], 1.952917653, 1e-8);
+  NEAR(after->w[0], -27.604842, 1e-5);
+}
+
+/* The nose 30 degrees below the centre, without friction: every model but the mirror returns e of
+ * the speed into the nose, and nothing else changes. */
+TEST(nose_below_the_centre) {
+  const carom_table table = empty_table(40.0);
+  const double cosine = sqrt(0.75);
+  const double sine = 0.5;
+  const double speed = 3.0;
+  carom_shot_ball ball = flying(20.0, 40.0 - shift() - R * cosine, h + R * sine, 0.0, speed, 0.0);
+  ball.kind.mu_cushion = 0.0;
+  const double change = (1.0 + ball.kind.restitution_cushion) * speed * cosine;
+  for (int model = 0; carom_cushion_model_name((carom_cushion_model)model) != NULL; model++) {
+    if (model == CAROM_CUSHION_MIRROR)
+      continue;
+    const carom_shot_options options = {.cushion_model = (carom_shot_cushion)(1 + model)};
+    play(&table, &ball, 1, NULL, &options, CAROM_OK);
+    ck_assert_double_lt(events[0].time, 1e-9);
+    NEAR(events[0].after[0].v[1], speed - change * cosine, 1e-8);
+    NEAR(events[0].after[0].v[2], change * sine, 1e-8);
+  }
+}
 
 /* Restitution changes by the closing speed over cos(theta) of a ball on the cloth, from whatever
  * height the nose is met, and for every model. */
@@ -203,4 +243,169 @@ TEST(grazed_posts) {
   }
   printf("grazed posts: %d told apart\n", told);
   ck_assert_int_gt(told, 500);
+}
+
+/* ---- Over the rail */
+
+/* How far in front of the rail, at y = 40, the ball is that jumps_the_rail() strikes. */
+static const double before_the_rail = 0.4;
+
+/* A strike at 3 m/s, raised by 45 degrees, which carries the ball over the rail. */
+static carom_shot jumps_the_rail(const carom_table *table, const carom_shot_ball *ball) {
+  const carom_cue cue = raised_cue(3.0, 45.0, 0.0);
+  return play(table, ball, 1, &cue, NULL, CAROM_OK);
+}
+
+/* Beyond the rail a ball has left the table, 0.12 m from the nose. */
+TEST(over_the_rail) {
+  const carom_table table = empty_table(40.0);
+  const carom_shot_ball ball = ball_at(20.0, 40.0 - before_the_rail);
+  const flight hop = landed(struck(3.0, 45.0, 0.0));
+  const carom_shot shot = jumps_the_rail(&table, &ball);
+
+  const double over_the_nose = before_the_rail / hop.along;
+  carom_ball_state over;
+  expect_ok(carom_shot_at(&ball, 1, &shot, over_the_nose, &over));
+  NEAR(over.r[1], 40.0, 1e-9);
+  NEAR(over.r[2] - R, (hop.up - 0.5 * g * over_the_nose) * over_the_nose, 1e-9);
+
+  const carom_event *left = event_of(&shot, CAROM_EVENT_LEFT_TABLE, 0);
+  NEAR(left->time, (before_the_rail + 0.12) / hop.along, 1e-9);
+  ck_assert_int_eq(left->after[0].label, CAROM_BALL_OFF);
+  ck_assert_double_eq(left->after[0].v[1], 0.0);
+  NEAR(left->after[0].r[1], 40.12, 1e-12);
+  ck_assert_int_eq(final[0].label, CAROM_BALL_OFF);
+}
+
+static carom_table table_with_wide_rails(void) {
+  carom_table table = empty_table(40.0);
+  table.rail_width = 0.5;
+  return table;
+}
+
+/* On the top of a wide rail a ball hops on. */
+TEST(top_of_a_rail) {
+  const carom_table table = table_with_wide_rails();
+  const carom_shot_ball ball = ball_at(20.0, 40.0 - before_the_rail);
+  const flight hop = landed(struck(3.0, 45.0, 0.0));
+  const carom_shot shot = jumps_the_rail(&table, &ball);
+  const carom_event *top = event_of(&shot, CAROM_EVENT_RAIL_TOP, 0);
+  NEAR(top->time, (hop.up + sqrt(hop.up * hop.up - 2.0 * g * h)) / g, 1e-9);
+  NEAR(top->before[0].r[1], ball.state.r[1] + hop.along * top->time, 1e-9);
+  ck_assert_double_eq(top->before[0].r[2], h + R);
+  ck_assert_int_eq(top->b, 2);
+  ck_assert_double_gt(top->after[0].v[2], 0.0);
+}
+
+/* A ball that comes to rest on the top has left the table, at the instant at which it does not hop
+ * any more; the others go on. */
+TEST(rests_on_a_rail) {
+  const carom_table table = table_with_wide_rails();
+  const carom_shot_ball balls[2] = {flying(20.0, 40.2, h + R + 0.01, 0.0, 0.0, 0.0),
+                                    flying(10.0, 10.0, R, 1.0, 0.0, 0.0)};
+  carom_shot shot = play(&table, balls, 1, NULL, NULL, CAROM_OK);
+  ck_assert_int_eq(events[shot.count - 2].type, CAROM_EVENT_RAIL_TOP);
+  ck_assert_int_eq(events[shot.count - 1].type, CAROM_EVENT_LEFT_TABLE);
+  ck_assert_double_eq(events[shot.count - 1].time, events[shot.count - 2].time);
+  ck_assert_double_eq(shot.time, events[shot.count - 1].time);
+  shot = play(&table, balls, 2, NULL, NULL, CAROM_OK);
+  ck_assert_int_eq(final[0].label, CAROM_BALL_OFF);
+  ck_assert_int_eq(final[1].label, CAROM_BALL_STATIONARY);
+  ck_assert_double_gt(shot.time, 1.0);
+}
+
+/* Over the nose, lower than the top by what counts as rounding, and on its way up: a ball falls on
+ * the top when its own flight takes it there; with hardly any speed it is on the top at once. */
+TEST(a_hair_under_the_top) {
+  const carom_table table = table_with_wide_rails();
+  const double lower = 4e-10;
+  const double rise = 1.5e-3;
+  const carom_shot_ball up = flying(20.0, 40.05, h + R - lower, 0.0, 0.1, rise);
+  play(&table, &up, 1, NULL, NULL, CAROM_OK);
+  const double rounded_lower = h + R - up.state.r[2];
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_RAIL_TOP);
+  NEAR(events[0].time, (rise + sqrt(rise * rise - 2.0 * g * rounded_lower)) / g, 1e-15);
+
+  const double hardly = 1e-5;
+  const carom_shot_ball slow = flying(20.0, 40.05, h + R - lower, 0.0, 0.1, hardly);
+  play(&table, &slow, 1, NULL, NULL, CAROM_OK);
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_RAIL_TOP);
+  NEAR(events[0].time, 2.0 * hardly / g, 1e-15);
+}
+
+/* ---- Into pockets */
+
+static const double pocket_radius = 0.06;
+
+/* A pocket in the middle of a table, at 2 m. */
+static carom_table table_with_a_pocket(void) {
+  carom_table table = empty_table(4.0);
+  table.pockets = 1;
+  table.pocket[0] = (carom_pocket){.centre = {2.0, 2.0}, .radius = pocket_radius, .depth = 0.08};
+  return table;
+}
+
+/* A ball that flies over the middle of that table at 2 m/s. */
+static carom_shot_ball across(double x, double z) {
+  return flying(x, 2.0, z, 2.0, 0.0, 0.0);
+}
+
+/* A ball that lands inside falls there and then, not on the slate. */
+TEST(lands_in_a_pocket) {
+  const carom_table table = table_with_a_pocket();
+  const double time = sqrt(2.0 * 0.02 / g);
+  const carom_shot_ball ball = across(2.0 - 2.0 * time, R + 0.02);
+  play(&table, &ball, 1, NULL, NULL, CAROM_OK);
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_POCKET);
+  NEAR(events[0].time, time, 1e-12);
+  NEAR(events[0].before[0].r[0], 2.0, 1e-12);
+  NEAR(events[0].before[0].r[2], R, 1e-15);
+}
+
+/* A ball that comes in at 10 cm leaves above the back of the pocket, and lands beyond it. */
+TEST(over_a_pocket) {
+  const carom_table table = table_with_a_pocket();
+  const carom_shot_ball ball = across(1.9, 0.1);
+  play(&table, &ball, 1, NULL, NULL, CAROM_OK);
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_SLATE);
+  ck_assert_double_gt(events[0].before[0].r[0], 2.0 + pocket_radius);
+}
+
+/* A ball that leaves the circle 1 mm lower than the nose meets the back of the pocket, and falls.
+ * It passes over a back that is lower still. A high back stops a higher ball. */
+TEST(back_of_a_pocket) {
+  carom_table table = table_with_a_pocket();
+  const double time = (0.1 + pocket_radius) / 2.0; /* from x = 1.9 m at 2 m/s */
+  const double fallen = 0.5 * g * time * time;
+  carom_shot_ball ball = across(1.9, h - 0.001 + fallen);
+  play(&table, &ball, 1, NULL, NULL, CAROM_OK);
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_POCKET);
+  NEAR(events[0].time, time, 1e-12);
+
+  table.pocket_back = h - 0.002;
+  play(&table, &ball, 1, NULL, NULL, CAROM_OK);
+  ck_assert_int_ne(events[0].type, CAROM_EVENT_POCKET);
+
+  table.pocket_back = 0.2;
+  ball.state.r[2] += 0.1;
+  play(&table, &ball, 1, NULL, NULL, CAROM_OK);
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_POCKET);
+}
+
+/* A ball that rises while it is over the pocket comes down in it. */
+TEST(rises_over_a_pocket) {
+  const carom_table table = table_with_a_pocket();
+  const carom_shot_ball ball = flying(2.0, 2.0, 0.1, 0.05, 0.0, 1.0);
+  play(&table, &ball, 1, NULL, NULL, CAROM_OK);
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_POCKET);
+  NEAR(events[0].before[0].r[2], R, 1e-15);
+}
+
+/* Hops of 1 um do not carry a ball over a pocket. */
+TEST(tiny_hops_into_a_pocket) {
+  const carom_table table = table_with_a_pocket();
+  carom_shot_ball ball = flying(1.9, 2.0, R, 1.0, 0.0, sqrt(2.0 * g * 1e-6));
+  ball.kind.mu_slide = 1e-6;
+  const carom_shot shot = play(&table, &ball, 1, NULL, NULL, CAROM_OK);
+  ck_assert_ptr_nonnull(event_of(&shot, CAROM_EVENT_POCKET, 0));
 }

@@ -16,6 +16,7 @@
  * where a row that does not occur is an error too. */
 #include "jumps.h"
 #include "random.h"
+#include "row_file.h"
 #include "support.h"
 
 enum { LAYOUTS = 300, LONG = 10000, SWEEPS = 3, STEPS = 48, SHOWN = 30, KINDS = 100 };
@@ -45,13 +46,11 @@ static int known, kinds, jumps, explained, red;
 
 /* The known kinds: a row of jumps.txt has share, m/s, the name, a colon and the law. */
 static void read_kinds(void) {
-  FILE *const rows = fopen(CAROM_TEST_DATA "/../core/tests/physics/jumps.txt", "r");
-  ck_assert_ptr_nonnull(rows);
-  while (fscanf(rows, "%lf %lf %59[^:]: %99[^\n]", &found[kinds].share_most,
-                &found[kinds].fixed_most, found[kinds].name, found[kinds].law) == 4)
-    kinds++;
-  ck_assert(feof(rows));
-  fclose(rows);
+  open_rows(CAROM_TEST_DATA "/../core/tests/physics/jumps.txt");
+  for (; next_line(); kinds++)
+    if (sscanf(row_file.line, "%lf %lf %59[^:]: %99[^\n]", &found[kinds].share_most,
+               &found[kinds].fixed_most, found[kinds].name, found[kinds].law) != 4)
+      reject("a row of jumps.txt has a share, m/s, a name, a colon and a law");
   known = kinds;
 }
 

@@ -79,6 +79,41 @@ static carom_cushion_impact usual(void) {
                                 .restitution = 0.98};
 }
 
+/* Without friction only the speed into the nose changes. On the cloth nothing lifts the ball: v_y
+ * rebounds as -e v_y. Han's law leaves it v_y (1 - (1 + e) cos^2), with the nose at an angle. */
+TEST(closed_forms) {
+  const carom_cushion_options han = {.model = CAROM_CUSHION_HAN};
+  const carom_cushion_options mirror = {.model = CAROM_CUSHION_MIRROR};
+  for (int k = 0; k <= 10; k++) {
+    carom_cushion_impact in = usual();
+    in.mu_slide = 0;
+    in.mu_cushion = 0;
+    in.restitution = k / 10.0;
+    const double rebound = -in.restitution * in.v[1];
+    const double sine = in.height / in.radius - 1;
+    const double cosine_2 = 1 - sine * sine;
+    carom_motion out;
+    expect_ok(carom_cushion(&in, NULL, &out));
+    ck_assert_double_eq_tol(out.v[1], rebound, 1e-12);
+    ck_assert_double_eq_tol(out.v[0], in.v[0], 1e-14);
+    NEAR_EACH(out.w, in.w, 3, 1e-12);
+    expect_ok(carom_cushion(&in, &han, &out));
+    ck_assert_double_eq_tol(out.v[1], in.v[1] * (1 - (1 + in.restitution) * cosine_2), 1e-14);
+    expect_ok(carom_cushion(&in, &mirror, &out));
+    ck_assert_double_eq(out.v[1], rebound);
+    ck_assert_double_eq(out.v[0], in.v[0]);
+  }
+}
+
+/* With e = 0 and the usual friction a ball stays at the cushion. */
+TEST(no_rebound) {
+  carom_cushion_impact in = usual();
+  carom_motion out;
+  in.restitution = 0;
+  expect_ok(carom_cushion(&in, NULL, &out));
+  ck_assert_double_eq_tol(out.v[1], 0, 1e-12);
+}
+
 /* Han's fits: what they say for one ball, by hand. */
 TEST(han_law) {
   carom_cushion_impact in = usual();
@@ -149,6 +184,38 @@ TEST(smooth_keeps_the_laws) {
     ck_assert_double_eq_tol(W_y, 2.5 * sine * f_x, slack);
     ck_assert_double_eq_tol(W_z, -2.5 * cosine * f_x, slack);
   }
+}
+
+/* What the measured constants say: the share of its speed across the cushion that a rolling ball
+ * without side spin keeps, by the sine of the angle and that speed. */
+TEST(smooth_rebounds_as_measured) {
+  enum { SPEEDS = 4, SINES = 6 };
+  static const double speeds[SPEEDS] = {0.3, 1, 2, 4};
+  static const double sines[SINES] = {0, 0.3, 0.6, 0.8, 0.9, 0.95};
+  static const double share[SPEEDS][SINES] = {{0.873, 0.875, 0.886, 0.908, 0.939, 0.972},
+                                              {0.861, 0.862, 0.864, 0.870, 0.879, 0.890},
+                                              {0.853, 0.852, 0.849, 0.844, 0.841, 0.840},
+                                              {0.844, 0.842, 0.832, 0.817, 0.801, 0.788}};
+  const double R = 0.03075;
+  const carom_cushion_options options = {.model = CAROM_CUSHION_SMOOTH, .mu_log = -0.010};
+  for (int i = 0; i < SPEEDS; i++)
+    for (int j = 0; j < SINES; j++) {
+      const double v_y = speeds[i];
+      const double v_x = v_y * sines[j] / sqrt(1 - sines[j] * sines[j]);
+      const carom_cushion_impact in = {.v = {v_x, v_y},
+                                       .w = {-v_y / R, v_x / R},
+                                       .normal = {0, 1},
+                                       .height = 0.0364,
+                                       .radius = R,
+                                       .mass = 0.21,
+                                       .mu_slide = 0.196,
+                                       .mu_cushion = 0.255,
+                                       .restitution = 0.799};
+      carom_motion out;
+      expect_ok(carom_cushion(&in, &options, &out));
+      ck_assert_msg(fabs(-out.v[1] / v_y - share[i][j]) < 1.5e-3, "%g m/s, sine %g: %.4f", v_y,
+                    sines[j], -out.v[1] / v_y);
+    }
 }
 
 /* How far the derivatives of two impacts by the side spin are apart, over the first. */

@@ -7,6 +7,25 @@
 
 static const carom_shot_options pooltool = {.world = CAROM_WORLD_POOLTOOL};
 
+/* Full hits with follow along x: two balls with equal accelerations, of which pooltool makes a
+ * polynomial without leading coefficient. They stay exactly straight. */
+TEST(straight_follow) {
+  carom_table t;
+  carom_table_make(CAROM_TABLE_POOLTOOL, &t);
+  const carom_shot_ball b[2] = {ball_at(0.3, 0.5), ball_at(0.6, 0.5)};
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  cue.phi = 0.0;
+  for (int n = 0; n < 21; n++) {
+    cue.speed = 0.5 + 0.25 * n;
+    cue.b = 0.1 + 0.02 * n;
+    for (int world = 0; world < 2; world++) {
+      play(&t, b, 2, &cue, world == 0 ? NULL : &pooltool, CAROM_OK);
+      ck_assert_double_eq(final[0].r[1], 0.5);
+      ck_assert_double_eq(final[1].r[1], 0.5);
+    }
+  }
+}
+
 /* Two balls that roll in exactly the same direction. */
 TEST(rolling_together) {
   carom_table t = empty_table(30.0);
@@ -49,6 +68,31 @@ TEST(cradle) {
     const carom_status status = carom_shoot(&t, b, n + 1, NULL, &theirs, &bounded);
     ck_assert(status == CAROM_OK || status == CAROM_ERROR_TOO_MANY_EVENTS ||
               status == CAROM_ERROR_UNRESOLVED);
+  }
+}
+
+/* A ball that starts in contact with a rail and moves into it; pooltool lets it through (commit
+ * 9a8abfe0). By its rules it is found from a gap of 1e-12 m on; else it is lost, which is an error
+ * and no endless flight. */
+TEST(starts_at_a_rail) {
+  static const struct {
+    double inside;
+    carom_status by_pooltool;
+  } starts[] = {{0.0, CAROM_ERROR_LEFT_TABLE},
+                {1e-15, CAROM_ERROR_LEFT_TABLE},
+                {-1e-9, CAROM_OK},
+                {9e-7, CAROM_ERROR_LEFT_TABLE}};
+  carom_table t;
+  carom_table_make(CAROM_TABLE_THREECUSHION, &t);
+  carom_shot_ball b = {.kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD)};
+  const double R = b.kind.radius;
+  for (size_t n = 0; n < COUNT_OF(starts); n++) {
+    b.state =
+        (carom_ball_state){.r = {t.width - R + starts[n].inside, 1.0, R}, .v = {1.0, 0.3, 0.0}};
+    play(&t, &b, 1, NULL, NULL, CAROM_OK);
+    ck_assert_int_eq(events[0].type, CAROM_EVENT_RAIL);
+    ck_assert_double_lt(final[0].r[0], t.width - R + 1e-9);
+    play(&t, &b, 1, NULL, &pooltool, starts[n].by_pooltool);
   }
 }
 
@@ -103,4 +147,25 @@ TEST(order_of_balls) {
     for (int k = 0; k < s.count; k++)
       ck_assert_double_eq_tol(final[s.count - 1 - k].r[0], other[k].r[0], 1e-6);
   }
+}
+
+/* A ball that begins in a pocket is refused, where pooltool waits until it leaves. One that begins
+ * at its edge and moves into it falls. */
+TEST(begins_in_a_pocket) {
+  carom_table t;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+  const carom_pocket *pocket = &t.pocket[1];
+  carom_shot_ball b = ball_at(pocket->centre[0] + pocket->radius - 1e-9, pocket->centre[1]);
+  b.state.v[0] = -0.1;
+  for (int world = 0; world < 2; world++)
+    play(&t, &b, 1, NULL, world == 0 ? NULL : &pooltool, CAROM_ERROR_OFF_TABLE);
+  b.state.r[0] += 2e-9;
+  play(&t, &b, 1, NULL, NULL, CAROM_OK);
+  ck_assert_int_eq(final[0].label, CAROM_BALL_POCKETED);
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_POCKET);
+  ck_assert_double_le(events[0].time, 2e-8);
+
+  /* it may be in it from the beginning */
+  b.state.label = CAROM_BALL_POCKETED;
+  play(&t, &b, 1, NULL, NULL, CAROM_OK);
 }

@@ -1,6 +1,6 @@
 /* Strikes: pushes of balls that touch or nearly touch the cue ball against an integrator of its own
  * (strike_reference.h), limits in closed form and symmetries; a raised cue at a ball alone against
- * the same integrator; hops. docs/understanding/clusters.md has the law. */
+ * the same integrator. docs/understanding/clusters.md has the law. */
 #include "cluster/cluster.h"
 #include "cluster/hertz.h"
 #include "shot/sim.h"
@@ -193,6 +193,26 @@ static void straight(double gap, double speed, double T, double speeds[2]) {
   strike(&cue, 2);
   speeds[0] = final[0].v[1];
   speeds[1] = final[1].v[1];
+}
+
+/* Frozen and straight, by a tip that touches for 1 ms: as a separate program has it. */
+TEST(straight_push) {
+  double v[2];
+  straight(0.0, 2.0, 0.001, v);
+  NEAR(v[0], 1.8770, 2e-4);
+  NEAR(v[1], 2.4087, 2e-4);
+}
+
+/* A tip that touches for 10 ms pushes both balls together, nearly as one body. */
+TEST(long_touch_pushes_together) {
+  double v[2];
+  straight(0.0, 2.0, 0.01, v);
+  const carom_cue cue = cue_at(2.0, 90.0);
+  const double mass = 2.0 * balls[0].kind.mass;
+  const double together = (1.0 + cue.tip_restitution) * cue.speed / (1.0 + mass / cue.mass);
+  NEAR(together, 2.162, 1e-3);
+  NEAR(v[0], together, 0.02);
+  NEAR(v[1], together, 0.02);
 }
 
 /* Level and without friction: all of the tip's impulse is in the balls, along the push; the energy
@@ -727,6 +747,29 @@ TEST(steps_mean_what_they_say) {
   printf("\n");
 }
 
+/* A push that takes more steps than are allowed ends the shot, and says so: hard and light balls
+ * alternate with soft and heavy ones. */
+TEST(unresolved_ends_the_shot) {
+  enum { IN_ROW = 8 };
+  const carom_table table = empty_table(40.0);
+  const carom_cue cue = cue_at(0.9, 90.0);
+  carom_shot_ball row[IN_ROW];
+  for (int k = 0; k < IN_ROW; k++) {
+    const bool is_soft = k % 2 == 1;
+    row[k] = ball_at(20.0, 20.0 + 2.0 * R * k);
+    row[k].kind.restitution = 0.2;
+    row[k].kind.mass *= is_soft ? 1e3 : 1.0;
+    row[k].kind.modulus = is_soft ? 1e6 : 1e15;
+  }
+  carom_shot shot = empty_shot();
+  shot.facts = &facts;
+  ck_assert_int_eq(carom_shoot(&table, row, IN_ROW, &cue, NULL, &shot), CAROM_ERROR_UNRESOLVED);
+  ck_assert_int_eq(shot.count, 0);
+  ck_assert_double_eq(shot.time, 0.0);
+  ck_assert_int_eq(facts.touches, 0);
+  ck_assert_double_eq(final[0].v[1], 0.0);
+}
+
 /* Every ball of a pack has the slate under a raised cue: the numbering does not count. */
 TEST(numbering_does_not_count) {
   const carom_table table = empty_table(table_size);
@@ -785,6 +828,32 @@ TEST(elastic_pushes) {
 }
 
 /* ---- Followed to its end */
+
+/* A cue ball that is struck straight into a cushion near it comes back onto the tip: a second
+ * touch, with its speed and time. A cue that stops touches once. */
+TEST(back_from_a_cushion) {
+  static const double gaps[] = {0.002, 0.005, 0.01, 0.02};
+  const carom_shot_options options = {.time_most = 0.2};
+  carom_table table;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  for (size_t n = 0; n < COUNT_OF(gaps); n++) {
+    carom_shot_ball ball = ball_at(0.0, 0.6);
+    ball.kind = carom_ball_kind_of(CAROM_GAME_POOL);
+    ball.state.r[0] = table.width - ball.kind.radius - gaps[n];
+    carom_cue cue = cue_at(2.0, 0.0);
+    carom_shot shot = empty_shot();
+    shot.facts = &facts;
+    ck_assert_int_eq(carom_shoot(&table, &ball, 1, &cue, &options, &shot), CAROM_STOPPED_AT_TIME);
+    ck_assert_int_eq(facts.touches, 2);
+    ck_assert_int_eq(events[1].type, CAROM_EVENT_RAIL);
+    ck_assert_int_eq(events[2].type, CAROM_EVENT_STRIKE);
+    ck_assert_double_eq(facts.second_time, events[2].time);
+    ck_assert_double_gt(facts.second_speed, cue.speed);
+    cue.follow = 0.0;
+    ck_assert_int_eq(carom_shoot(&table, &ball, 1, &cue, &options, &shot), CAROM_STOPPED_AT_TIME);
+    ck_assert_int_eq(facts.touches, 1);
+  }
+}
 
 /* A cue without a follow-through touches once, level and raised. */
 TEST(no_follow_through) {

@@ -294,6 +294,30 @@ TEST(small_changes) {
   }
 }
 
+/* ---- Places */
+
+/* A rail ends with its ends, and is the same from either: a short wall in the middle of a table. */
+TEST(both_ends_of_a_rail) {
+  static const double ends[2] = {0.75, 1.25};
+  static const double sides[2] = {0.99, 1.01};
+  const double beyond[2] = {nextafter(ends[0], 0.0), nextafter(ends[1], 2.0)};
+  carom_table t = empty_table(2.0);
+  t.rails = 5;
+  for (int n = 0; n < 8; n++) {
+    const int from = n % 2;
+    const int at = n / 2 % 2;
+    const double y = sides[n / 4];
+    carom_shot_ball ball = ball_at(1.0, 0.5);
+    carom_part part;
+    t.rail[4] = (carom_rail){{ends[from], 1.0}, {ends[1 - from], 1.0}, 0.036576, .side = 1 - from};
+    ck_assert_int_eq(carom_place_ball(&t, &ball, 1, 0, ends[at], y, &part), CAROM_ERROR_OFF_TABLE);
+    ck_assert_int_eq(part.kind, CAROM_PART_RAIL);
+    ck_assert_int_eq(part.index, 4);
+    expect_ok(carom_place_ball(&t, &ball, 1, 0, beyond[at], y, &part));
+    ck_assert_int_eq(part.kind, CAROM_PART_NONE);
+  }
+}
+
 /* ---- Balls that press on each other */
 
 static void ends_well(const carom_table *t, const carom_shot_ball *b, int count, int most_events) {
@@ -377,6 +401,22 @@ TEST(pressed_triangle) {
       b[spinning].state.w[1] = 0.0;
     }
   }
+}
+
+/* Balls without any room between two rails cannot part, so their contacts have no end: a bound ends
+ * them, with a state. */
+TEST(wedged) {
+  enum { WEDGED = 5 };
+  carom_shot_ball b[WEDGED];
+  const double R = ball_at(0.0, 0.0).kind.radius;
+  const carom_table t = empty_table(2.0 * WEDGED * R);
+  for (int k = 0; k < WEDGED; k++)
+    b[k] = ball_at(R + 2.0 * k * R, 3.0 * R);
+  b[0].state.w[1] = 100.0;
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN, .events_most = 3000};
+  play(&t, b, WEDGED, NULL, &options, CAROM_ERROR_TOO_MANY_EVENTS);
+  for (int k = 0; k < WEDGED; k++)
+    ck_assert_double_eq_tol(final[k].r[0], b[k].state.r[0], 1e-9);
 }
 
 /* A ball that touches a rail, at rest or moving along it, whatever the direction of the rail:

@@ -1,6 +1,73 @@
-/* Bad input of contacts beside the rows of refusals.txt: options out of their range, noise in the
- * radii, balls that separate, and what stands for a default. */
+/* Bad input of contacts, besides the rows of refusals.txt: fields that are no numbers, options out
+ * of their range, noise in the radii, balls that separate, and what stands for a default. */
 #include "functions.h"
+
+/* The status of a field that is no number, by its name without the ball and the axis. */
+static carom_status status_of(const char *field) {
+  static const struct {
+    const char *name;
+    carom_status status;
+  } statuses_of[] = {{"r", CAROM_ERROR_POSITION},
+                     {"v", CAROM_ERROR_VELOCITY},
+                     {"w", CAROM_ERROR_SPIN},
+                     {"radius", CAROM_ERROR_RADIUS},
+                     {"mass", CAROM_ERROR_MASS},
+                     {"mu_slide", CAROM_ERROR_MU_SLIDE},
+                     {"mu_ball", CAROM_ERROR_MU_BALL},
+                     {"mu_cushion", CAROM_ERROR_MU_CUSHION},
+                     {"restitution", CAROM_ERROR_RESTITUTION},
+                     {"normal", CAROM_ERROR_NORMAL},
+                     {"height", CAROM_ERROR_NOSE_HEIGHT},
+                     {"jaw_radius", CAROM_ERROR_JAW_RADIUS}};
+  const char *const dot = strchr(field, '.');
+  const char *const name = dot != NULL ? dot + 1 : field;
+  const size_t length = strcspn(name, "[");
+  for (size_t k = 0; k < COUNT_OF(statuses_of); k++)
+    if (strlen(statuses_of[k].name) == length && strncmp(statuses_of[k].name, name, length) == 0)
+      return statuses_of[k].status;
+  ck_abort_msg("no status is known of the field %s", field);
+}
+
+static void expect_all_nan(const void *result, size_t size) {
+  const double *const numbers_of = result;
+  for (size_t k = 0; k < size / sizeof(double); k++)
+    ck_assert(isnan(numbers_of[k]));
+}
+
+/* No field of an impact may be infinite or no number. Each is named, by a call, the check and a
+ * batch, and nothing but NaN is written. */
+TEST(no_number) {
+  const char *field;
+  for (int k = 0; (field = carom_field_name(k)) != NULL; k++)
+    for (size_t n = 0; n < COUNT_OF(wrong_numbers); n++) {
+      set_up();
+      ((double *)impacts)[k] = wrong_numbers[n];
+      const carom_status expected = status_of(field);
+      ck_assert_int_eq(carom_collide(impacts, NULL, results), expected);
+      expect_all_nan(results, sizeof *results);
+      ck_assert_int_eq(carom_check(impacts, NULL, &where), expected);
+      ck_assert_int_eq(where, k);
+      ck_assert_int_eq(carom_collide_batch(impacts, 1, NULL, results, NULL), expected);
+      expect_all_nan(results, sizeof *results);
+    }
+}
+
+/* The same of an impact on a cushion. */
+TEST(no_number_at_a_cushion) {
+  const char *field;
+  for (int k = 0; (field = carom_cushion_field_name(k)) != NULL; k++)
+    for (size_t n = 0; n < COUNT_OF(wrong_numbers); n++) {
+      set_up();
+      ((double *)rails)[k] = wrong_numbers[n];
+      const carom_status expected = status_of(field);
+      ck_assert_int_eq(carom_cushion(rails, NULL, motion), expected);
+      expect_all_nan(motion, sizeof *motion);
+      ck_assert_int_eq(carom_cushion_check(rails, NULL, &where), expected);
+      ck_assert_int_eq(where, k);
+      ck_assert_int_eq(carom_cushion_batch(rails, 1, NULL, motion, NULL), expected);
+      expect_all_nan(motion, sizeof *motion);
+    }
+}
 
 /* Each option beyond its range, and nothing written by a batch. */
 TEST(each_option_is_checked) {

@@ -1,57 +1,24 @@
-/* Cases as rows of a file: calls that are refused, and shots with known results. A case is a line
- * and the indented lines behind it, of statements with ; between them. It begins with the objects
- * of set_up() in functions.h. A comment begins with #.
+/* Cases as rows of a file: calls that are refused, and what they leave. A row has statements with ;
+ * between them, and begins with the objects of set_up() in functions.h.
  *
  *   table KIND, table empty SIZE      a table without balls and without a cue
  *   balls GAME COUNT                  more balls, at rest on the cloth
  *   cue GAME
  *   PATH = VALUE, ...                 one number, or several of an array
  *   call FUNCTION,... STATUS NOTES    each function returns this status
- *   expect PATH = VALUE within VALUE  or <, >, or ! for a difference
+ *   expect PATH = VALUE within VALUE  or >
  *
  * NOTES: `without N`, argument N is NULL; `where N`, the place that a check names; `unchanged`,
  * nothing of the shot or of states is written; `nan PATH`, this object has no numbers.
  *
  * A value is a number, a path or a word of the library. A path is like ball[1].r[0], the place of a
- * ball; event[slate 1] is the second event of a type, and event[slate -1] the last. A vector in the
- * plane has the values .size and .angle, in degrees. */
+ * ball. */
 #include "functions.h"
+#include "row_file.h"
 
-#include <ctype.h>
+static const char *file_name;
 
-/* ---- The file */
-
-enum { LINES_MOST = 2000, LINE = 400 };
-static char lines[LINES_MOST][LINE];
-static int lines_count, case_lines[LINES_MOST], cases_count;
-static const char *file_name, *cursor; /* within the line that is read */
-static int line_index;
-
-static _Noreturn void reject(const char *reason) {
-  ck_abort_msg("%s:%d: %s: %s", file_name, line_index, lines[line_index - 1], reason);
-}
-
-static void skip_spaces(void) {
-  while (*cursor == ' ')
-    cursor++;
-}
-
-static bool is_word_part(char letter) {
-  return isalnum((unsigned char)letter) || letter == '_';
-}
-
-/* Whether the line goes on with a word or a sign, which is skipped. */
-static bool skip(const char *expected) {
-  const size_t length = strlen(expected);
-  skip_spaces();
-  if (strncmp(cursor, expected, length) != 0)
-    return false;
-  if (is_word_part(expected[length - 1]) && is_word_part(cursor[length]))
-    return false;
-  cursor += length;
-  return true;
-}
-
+/* The letters, digits and underscores that come next. */
 static const char *read_word(void) {
   static char word[64];
   size_t length = 0;
@@ -83,7 +50,6 @@ enum {
   STRUCT_shot_ball,
   STRUCT_event,
   STRUCT_shot,
-  STRUCT_facts,
   STRUCT_impact,
   STRUCT_cushion_impact,
   STRUCT_result,
@@ -96,8 +62,6 @@ enum {
   STRUCT_cushion_point,
   KINDS
 };
-
-static double energy_change; /* by the first event of a shot */
 
 typedef struct location {
   char *address;
@@ -126,18 +90,9 @@ static const struct {
     MEMBER(cushion_options, reserved, UINT64),
     MEMBER(corner, x, DOUBLE),
     MEMBER(event, time, DOUBLE),
-    MEMBER(event, type, INT32),
-    MEMBER(event, a, INT32),
-    MEMBER(event, b, INT32),
-    MEMBER(event, cluster, INT32),
-    MEMBER(event, before, STRUCT_ball_state),
-    MEMBER(event, after, STRUCT_ball_state),
     MEMBER(shot, count, INT64),
     MEMBER(shot, room, INT64),
     MEMBER(shot, time, DOUBLE),
-    MEMBER(facts, touches, INT32),
-    MEMBER(facts, second_time, DOUBLE),
-    MEMBER(facts, second_speed, DOUBLE),
     MEMBER(result, a, STRUCT_motion),
     MEMBER(result, b, STRUCT_motion),
     MEMBER(motion, v, DOUBLE),
@@ -189,7 +144,6 @@ static const struct {
     OBJECT(final, STRUCT_ball_state),
     OBJECT(states, STRUCT_ball_state),
     OBJECT(shot, STRUCT_shot),
-    OBJECT(facts, STRUCT_facts),
     {"impact", impacts, STRUCT_impact},
     OBJECT(impact_options, STRUCT_options),
     {"result", results, STRUCT_result},
@@ -204,7 +158,6 @@ static const struct {
     OBJECT(points, STRUCT_trace_point),
     OBJECT(cushion_points, STRUCT_cushion_point),
     OBJECT(times, DOUBLE),
-    OBJECT(turned, DOUBLE),
     OBJECT(readings, DOUBLE),
     {"misfit", &calibration.misfit, DOUBLE},
     {"bank_speed", &bank.speed, DOUBLE},
@@ -212,7 +165,6 @@ static const struct {
     OBJECT(place_x, DOUBLE),
     OBJECT(place_y, DOUBLE),
     OBJECT(radius, DOUBLE),
-    OBJECT(energy_change, DOUBLE),
     OBJECT(height, DOUBLE),
     OBJECT(jaw_radius, DOUBLE),
     OBJECT(gap, DOUBLE),
@@ -273,30 +225,12 @@ static bool find_field(location *target) {
   return false;
 }
 
-/* The index of an event: a number, or a type and the number among its events. */
-static int read_event_index(void) {
-  const char *start = cursor;
-  const int type = (int)read_value(CAROM_WORDS_EVENT);
-  if (!isalpha((unsigned char)*start))
-    return type;
-  int index = (int)read_value(-1);
-  const int step = index < 0 ? -1 : 1;
-  for (int k = index < 0 ? (int)shot.count - 1 : 0; k >= 0 && k < shot.count; k += step) {
-    if (events[k].type != type)
-      continue;
-    if (index == 0 || index == -1)
-      return k;
-    index -= step;
-  }
-  reject("no such event");
-}
-
 /* Reads the rest of a path: members and indices. */
 static location follow(location target) {
   for (;;) {
     if (*cursor == '[') {
       cursor++;
-      const int index = target.type == STRUCT_event ? read_event_index() : (int)read_value(-1);
+      const int index = (int)read_value(-1);
       target.address += (ptrdiff_t)index * (ptrdiff_t)sizes[target.type];
       if (!skip("]"))
         reject("no ]");
@@ -365,19 +299,9 @@ static double read_value(int words) {
     cursor = end;
     return number;
   }
-  if (skip("-"))
-    return -read_value(words);
   const char *word = read_word();
   location source;
-  if (!find_object(word, &source))
-    return word_value(word, words);
-  source = follow(source);
-  const double *const vector = (const double *)(const void *)source.address;
-  if (skip(".size"))
-    return hypot(vector[0], vector[1]);
-  if (skip(".angle"))
-    return atan2(vector[1], vector[0]) * 180.0 / 3.14159265358979323846;
-  return number_at(source);
+  return find_object(word, &source) ? number_at(follow(source)) : word_value(word, words);
 }
 
 /* ---- Statements */
@@ -398,13 +322,6 @@ static void assign(void) {
     put_number(target, read_value(target.words));
     target.address += sizes[target.type];
   } while (skip(","));
-}
-
-static void measure_energy(void) {
-  energy_change = 0.0;
-  for (int side = 0; side < count && side < 2; side++)
-    energy_change += state_energy(&balls[side].kind, &events[0].after[side]) -
-                     state_energy(&balls[side].kind, &events[0].before[side]);
 }
 
 /* Calls the function whose name comes next. */
@@ -476,7 +393,6 @@ static void call_functions(void) {
     const int64_t returned = call_function();
     if (returned != expected && returned != ACCEPTED)
       reject(carom_status_name((carom_status)returned));
-    measure_energy();
     cursor = notes;
     expect_notes(hash != shot_hash());
   }
@@ -506,13 +422,10 @@ static void expect(void) {
   const char relation = *cursor++;
   const double right = read_value(-1), tolerance = skip("within") ? read_value(-1) : 0.0;
   bool good = fabs(left - right) <= tolerance || left == right || (isnan(left) && isnan(right));
-  if (relation == '<')
-    good = left < right;
   if (relation == '>')
     good = left > right;
-  if (relation == '!')
-    good = left != right;
-  ck_assert_msg(good, "%s:%d: %s: it is %.17g", file_name, line_index, lines[line_index - 1], left);
+  ck_assert_msg(good, "%s:%d: %s: it is %.17g", row_file.path, row_file.line_number, row_file.line,
+                left);
 }
 
 static void make_cue(void) {
@@ -537,31 +450,32 @@ static void run_statement(void) {
   assign();
 }
 
+/* Each case goes on where the one before it ended or failed. */
 START_TEST(a_case) {
   set_up();
-  line_index = case_lines[_i];
+  if (_i == 0)
+    open_rows(file_name);
+  while (row_file.rows_begun <= _i)
+    next_line();
   do {
-    cursor = lines[line_index++];
     for (skip_spaces(); *cursor != '\0'; skip(";"))
       run_statement();
-  } while (lines[line_index][0] == ' ');
+  } while (next_line() && !begins_row());
 }
 END_TEST
 
-/* Reads the lines without comments, and finds where cases begin. */
-static bool read_lines(void) {
-  FILE *file = fopen(file_name, "r");
-  while (file != NULL && fgets(lines[lines_count], LINE, file) != NULL) {
-    lines[lines_count][strcspn(lines[lines_count], "#\n")] = '\0';
-    if (!isspace((unsigned char)lines[lines_count][0]) && lines[lines_count][0] != '\0')
-      case_lines[cases_count++] = lines_count;
-    lines_count++;
+static int count_rows(void) {
+  while (next_line()) {
   }
-  return file != NULL && fclose(file) == 0;
+  return row_file.rows_begun;
 }
 
 int main(int arguments, char **values) {
-  file_name = arguments > 1 ? values[1] : "";
-  const looped_test test[] = {{a_case, read_lines() ? cases_count : 0}};
-  return cases_count > 0 ? RUN_LOOPED("cases", test) : 1;
+  if (arguments != 2 || !find_rows(values[1])) {
+    fprintf(stderr, "test_cases takes one file of rows that it can read\n");
+    return 1;
+  }
+  file_name = values[1];
+  const looped_test test[] = {{a_case, count_rows()}};
+  return RUN_LOOPED("cases", test);
 }

@@ -47,29 +47,74 @@ static void tear_down(void) {
   ck_assert_int_eq(system(command), 0);
 }
 
-/* Writes the files of the rows of core/tests/texts.txt with this name, and checks their limits. */
-static void check_rows(const char *name) {
-  char rows[80][TEXT];
-  const int end = 3 * read_texts(name, 3, rows);
-  for (int k = 0; k < end; k += 3)
-    if (*rows[k] != '\0')
-      put(rows[k], rows[k + 1]);
-    else
-      ck_assert_msg(limit(rows[k + 1]) == atoi(rows[k + 2]), "%s: %s", name, rows[k + 1]);
+/* INT_MAX: there is no limit. */
+static void expect_limit(const char *groups, int expected) {
+  ck_assert_msg(limit(groups) == expected, "%s: %d", groups, limit(groups));
 }
 
-TEST(both_versions) {
-  static const char *const names[] = {"groups_2", "groups_1"};
-  for (int k = 0; k < 2; k++) {
-    set_up();
-    check_rows(names[k]);
-    tear_down();
-  }
+TEST(groups_of_version_2) {
+  set_up();
+  put("cpu.max", "max 100000\n");
+  put("jobs/one/cpu.max", "250000 100000\n");
+  put("jobs/two/cpu.max", "max 100000\n");
+  put("jobs/half/cpu.max", "50000 100000\n");
+
+  /* two and a half, rounded up */
+  expect_limit("0::/jobs/one\n", 3);
+  expect_limit("0::/jobs/half\n", 1);
+  expect_limit("0::/jobs/two\n", INT_MAX);
+  expect_limit("0::/\n", INT_MAX);
+
+  /* a group above is stricter */
+  put("jobs/cpu.max", "200000 100000\n");
+  expect_limit("0::/jobs/one\n", 2);
+  expect_limit("0::/jobs/two\n", 2);
+
+  /* a neighbour whose name begins the same way does not count */
+  put("jobs/on/cpu.max", "100000 100000\n");
+  expect_limit("0::/jobs/one\n", 2);
+
+  /* groups that are not mounted say nothing */
+  expect_limit("0::/jobs/two/inner/most\n", 2);
+
+  /* as in a container: its own group is the mount */
+  put("cpu.max", "100000 100000\n");
+  expect_limit("0::/somewhere/of/the/host\n", 1);
+  expect_limit("0::/../..\n", 1);
+  tear_down();
+}
+
+TEST(groups_of_version_1) {
+  set_up();
+  put("cpu,cpuacct/cpu.cfs_quota_us", "-1\n");
+  put("cpu,cpuacct/cpu.cfs_period_us", "100000\n");
+  put("cpu,cpuacct/box/cpu.cfs_quota_us", "400000\n");
+  put("cpu,cpuacct/box/cpu.cfs_period_us", "100000\n");
+
+  /* another controller: not asked */
+  put("cpuset/box/cpu.cfs_quota_us", "100000\n");
+  put("cpuset/box/cpu.cfs_period_us", "100000\n");
+
+  expect_limit("12:cpuset:/box\n4:cpu,cpuacct:/box\n1:name=systemd:/box\n0::/box\n", 4);
+  expect_limit("12:cpuset:/box\n4:cpu,cpuacct:/\n", INT_MAX);
+  expect_limit("4:cpu,cpuacct:/box/deeper", 4);
+  tear_down();
 }
 
 TEST(strange_files_are_no_limit) {
   set_up();
-  check_rows("groups_strange");
+  expect_limit("", INT_MAX);
+  expect_limit("\n\nrubbish\n::\n0:\n", INT_MAX);
+
+  /* strange limits */
+  put("a/cpu.max", "");
+  expect_limit("0::/a\n", INT_MAX);
+  put("a/cpu.max", "100000 0\n");
+  expect_limit("0::/a\n", INT_MAX);
+  put("a/cpu.max", "-5 100000\n");
+  expect_limit("0::/a\n", INT_MAX);
+  put("a/cpu.max", "9999999999999999999999 1\n");
+  expect_limit("0::/a\n", INT_MAX);
   ck_assert_int_eq(carom_group_limit("/nowhere/at/all", root), INT_MAX);
   char path[6000] = "0::";
   memset(path + 3, '/', 5990);

@@ -62,15 +62,24 @@ TEST(every_refusal_names_a_number) {
 }
 
 TEST(conditions_blame_a_number) {
-  char texts[40][TEXT];
-  for (int k = 4 * (read_texts("condition", 4, texts) - 1); k >= 0; k -= 4) {
+  static const struct {
+    const char *number_set;
+    double value;
+    const char *number_at_fault;
+    const char *reason;
+  } conditions[] = {{"nose_height", 0.06, "nose_height", "below 2 R"},
+                    {"law_b", 0.995, "law_b", "at most 1 - law_a"},
+                    {"smooth_q", 0.3, "smooth_x", "above 0 where smooth_q is"},
+                    {"smooth_t", 0.3, "smooth_t", "0 where smooth_q is 0"},
+                    {"smooth_k", 0.3, "smooth_k", "0 where smooth_q is 0"}};
+  for (size_t k = 0; k < COUNT_OF(conditions); k++) {
     carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
     char text[80], cut[6];
     kind.law_a = 0.01;
-    set(&kind, number_of(texts[k]), atof(texts[k + 1]));
+    set(&kind, number_of(conditions[k].number_set), conditions[k].value);
     const carom_number *n = carom_ball_fault(&kind, text, sizeof text);
-    ck_assert_ptr_eq(n, number_of(texts[k + 2]));
-    ck_assert_str_eq(text, texts[k + 3]);
+    ck_assert_ptr_eq(n, number_of(conditions[k].number_at_fault));
+    ck_assert_str_eq(text, conditions[k].reason);
     ck_assert_ptr_eq(carom_ball_fault(&kind, cut, sizeof cut), n);
     ck_assert_uint_eq(strlen(cut), 5);
     ck_assert_ptr_eq(carom_ball_fault(&kind, NULL, 0), n);
@@ -78,16 +87,32 @@ TEST(conditions_blame_a_number) {
 }
 
 TEST(ranges_in_words) {
-  char texts[60][TEXT];
-  for (int k = 5 * (read_texts("range", 5, texts) - 1); k >= 0; k -= 5) {
+  static const struct {
+    double low;
+    double high;
+    double other; /* a value besides the range */
+    const char *unit;
+    const char *words;
+  } ranges[] = {
+      {4.9406564584124654e-324, 1.7976931348623157e308, NAN, "kg", "above 0 and finite, in kg"},
+      {4.9406564584124654e-324, 1, NAN, "", "above 0 and at most 1"},
+      {0, 0.99999999999999989, NAN, "", "0 or more and below 1"},
+      {0, 1.7976931348623157e308, NAN, "s/m", "0 or more and finite, in s/m"},
+      {1.0000000000000002, 1.9999999999999998, 0, "", "0, or between 1 and 2"},
+      {1e-12, 0.5, 0, "", "0, or 1e-12 to 0.5"},
+      {0, 0.98, -1, "", "-1, or 0 to 0.98"},
+      {1e6, 1e15, 0, "Pa", "0, or 1e6 to 1e15, in Pa"},
+      {-1.05, 1000, NAN, "", "-1.05 to 1000"},
+      {0.001, 12000, NAN, "", "0.001 to 12000"}};
+  for (size_t k = 0; k < COUNT_OF(ranges); k++) {
     char text[64], cut[8];
     carom_number n = *carom_number_of(CAROM_PART_BALL, 0);
-    n.low = atof(texts[k]);
-    n.high = atof(texts[k + 1]);
-    n.other = atof(texts[k + 2]);
-    n.unit = texts[k + 3];
-    ck_assert_uint_eq(carom_number_range(&n, text, sizeof text), strlen(texts[k + 4]));
-    ck_assert_str_eq(text, texts[k + 4]);
+    n.low = ranges[k].low;
+    n.high = ranges[k].high;
+    n.other = ranges[k].other;
+    n.unit = ranges[k].unit;
+    ck_assert_uint_eq(carom_number_range(&n, text, sizeof text), strlen(ranges[k].words));
+    ck_assert_str_eq(text, ranges[k].words);
     ck_assert_uint_eq(carom_number_range(&n, cut, sizeof cut), strlen(text));
     ck_assert_int_eq(strncmp(cut, text, 7), 0);
   }
