@@ -123,80 +123,81 @@ static double work_end(const carom_trajectory *path) {
 }
 
 /* Where a step starts: slips, directions and rates, and how far it may go. */
-static void start_at(const carom_trajectory *path, double target, step_start *from) {
+static void start_at(const carom_trajectory *path, double target, step_start *origin) {
   const carom_point *point = &path->point;
   const carom_terms *terms = &path->terms;
   /* the slips: sizes, and directions or, of a slip that begins, those of the regime */
-  from->size_a = sqrt(point->a_x * point->a_x + point->a_y * point->a_y);
-  from->size_b = sqrt(point->b_x * point->b_x + point->b_y * point->b_y);
-  const double per_a = 1 / from->size_a, per_b = 1 / from->size_b;
-  from->u_x = from->size_a > 0 ? point->a_x * per_a : path->regime.u_x;
-  from->u_y = from->size_a > 0 ? point->a_y * per_a : path->regime.u_y;
-  from->t_x = from->size_b > 0 ? point->b_x * per_b : path->regime.t_x;
-  from->t_y = from->size_b > 0 ? point->b_y * per_b : path->regime.t_y;
+  origin->size_a = sqrt(point->a_x * point->a_x + point->a_y * point->a_y);
+  origin->size_b = sqrt(point->b_x * point->b_x + point->b_y * point->b_y);
+  const double per_a = 1 / origin->size_a, per_b = 1 / origin->size_b;
+  origin->u_x = origin->size_a > 0 ? point->a_x * per_a : path->regime.u_x;
+  origin->u_y = origin->size_a > 0 ? point->a_y * per_a : path->regime.u_y;
+  origin->t_x = origin->size_b > 0 ? point->b_x * per_b : path->regime.t_x;
+  origin->t_y = origin->size_b > 0 ? point->b_y * per_b : path->regime.t_y;
 
   /* the rates */
-  from->w = (terms->w_0 + terms->w_u * from->u_y) / (1 - terms->w_t * from->t_y);
-  const double x = from->w * from->t_x, y = from->w * from->t_y;
-  from->da_x = terms->S_x * from->u_x - terms->C_x * x;
-  from->da_y = terms->A_0 + terms->S_y * from->u_y - terms->C_y * y;
-  from->db_x = terms->R_x * from->u_x - terms->H_x * x;
-  from->db_y = terms->B_0 + terms->R_y * from->u_y - terms->H_y * y;
-  from->dv = terms->V_0 + terms->V_u * from->u_y - terms->V_w * y;
+  origin->w = (terms->w_0 + terms->w_u * origin->u_y) / (1 - terms->w_t * origin->t_y);
+  const double x = origin->w * origin->t_x, y = origin->w * origin->t_y;
+  origin->da_x = terms->S_x * origin->u_x - terms->C_x * x;
+  origin->da_y = terms->A_0 + terms->S_y * origin->u_y - terms->C_y * y;
+  origin->db_x = terms->R_x * origin->u_x - terms->H_x * x;
+  origin->db_y = terms->B_0 + terms->R_y * origin->u_y - terms->H_y * y;
+  origin->dv = terms->V_0 + terms->V_u * origin->u_y - terms->V_w * y;
 
   /* the mean of b' if b passes zero, where the cloth's own friction changes its sign */
-  from->line_x = from->db_x + 0.5 * terms->H_x * x;
-  from->line_y = from->db_y + 0.5 * terms->H_y * y;
+  origin->line_x = origin->db_x + 0.5 * terms->H_x * x;
+  origin->line_y = origin->db_y + 0.5 * terms->H_y * y;
 
   /* the end of the phase if v' were constant; or an earlier end. Friction of a steep nose
    * may push the ball on, v' > 0, until slip has changed: then no end is in sight, and a step
    * may go as far as slip lasts */
   if (path->restitution) {
     /* p where W = target, by the quadratic equation for a constant v' */
-    from->goal = AT_WORK;
-    from->target = work_end(path);
-    const double missing = from->target - point->W,
-                 square = point->v * point->v + 2 * from->dv * missing;
-    from->to_goal =
-        square > 0 || from->dv < 0 ? 2 * missing / (point->v - sqrt(most_of(square, 0))) : INFINITY;
+    origin->goal = AT_WORK;
+    origin->target = work_end(path);
+    const double missing = origin->target - point->W,
+                 square = point->v * point->v + 2 * origin->dv * missing;
+    origin->to_goal = square > 0 || origin->dv < 0
+                          ? 2 * missing / (point->v - sqrt(most_of(square, 0)))
+                          : INFINITY;
   } else {
-    from->goal = AT_END_OF_APPROACH;
-    from->target = 0;
-    from->to_goal = from->dv < 0 ? -point->v / from->dv : INFINITY;
+    origin->goal = AT_END_OF_APPROACH;
+    origin->target = 0;
+    origin->to_goal = origin->dv < 0 ? -point->v / origin->dv : INFINITY;
   }
 
   /* no end in sight: as far as the larger of the slips lasts, but no more than 1 */
-  if (from->to_goal == INFINITY) {
-    from->goal = AT_LENGTH;
-    from->to_goal = most_of(from->size_a / (fabs(from->da_x) + fabs(from->da_y)),
-                            from->size_b / (fabs(from->db_x) + fabs(from->db_y)));
-    if (!(from->to_goal > 0 && from->to_goal < 1))
-      from->to_goal = 1;
+  if (origin->to_goal == INFINITY) {
+    origin->goal = AT_LENGTH;
+    origin->to_goal = most_of(origin->size_a / (fabs(origin->da_x) + fabs(origin->da_y)),
+                              origin->size_b / (fabs(origin->db_x) + fabs(origin->db_y)));
+    if (!(origin->to_goal > 0 && origin->to_goal < 1))
+      origin->to_goal = 1;
   }
 
   /* an earlier end: p asked for, the event of the regime, the length left by a refusal */
-  if (target - point->p < from->to_goal) {
-    from->goal = AT_P;
-    from->target = from->to_goal = target - point->p;
+  if (target - point->p < origin->to_goal) {
+    origin->goal = AT_P;
+    origin->target = origin->to_goal = target - point->p;
   }
-  if (path->event_at - point->p < (from->goal == AT_P ? from->to_goal : DBL_MAX)) {
-    from->goal = AT_EVENT;
-    from->to_goal = most_of(path->event_at - point->p, DBL_MIN);
+  if (path->event_at - point->p < (origin->goal == AT_P ? origin->to_goal : DBL_MAX)) {
+    origin->goal = AT_EVENT;
+    origin->to_goal = most_of(path->event_at - point->p, DBL_MIN);
   }
-  if (path->longest < from->to_goal) {
-    from->goal = AT_LENGTH;
-    from->to_goal = path->longest;
+  if (path->longest < origin->to_goal) {
+    origin->goal = AT_LENGTH;
+    origin->to_goal = path->longest;
   }
 }
 
 /* Directions to begin with: both slips along straight lines. */
-static void aim_u(plan *next, const carom_point *point, const step_start *from) {
-  aim(&next->step, point->a_x, point->a_y, from->da_x, from->da_y, from->u_x, from->u_y,
+static void aim_u(plan *next, const carom_point *point, const step_start *origin) {
+  aim(&next->step, point->a_x, point->a_y, origin->da_x, origin->da_y, origin->u_x, origin->u_y,
       next->step.u_x, next->step.u_y);
 }
 
-static void aim_t(plan *next, const carom_point *point, const step_start *from) {
-  aim(&next->step, point->b_x, point->b_y, from->line_x, from->line_y, from->t_x, from->t_y,
+static void aim_t(plan *next, const carom_point *point, const step_start *origin) {
+  aim(&next->step, point->b_x, point->b_y, origin->line_x, origin->line_y, origin->t_x, origin->t_y,
       next->step.t_x, next->step.t_y);
 }
 
@@ -210,147 +211,147 @@ static void limit(double *length, enum goal *goal, double most) {
 
 /* A careful step: exact, over an even map, at most a share of the way to where a slip could
  * vanish. */
-static void plan_carefully(const carom_trajectory *path, const step_start *from, plan *next) {
-  double length = from->to_goal;
-  next->step.goal = from->goal;
+static void plan_carefully(const carom_trajectory *path, const step_start *origin, plan *next) {
+  double length = origin->to_goal;
+  next->step.goal = origin->goal;
   /* |a| and |b| over their rates: sums of components are upper bounds */
-  if (driving_slips(path) && from->size_a > 0)
+  if (driving_slips(path) && origin->size_a > 0)
     limit(&length, &next->step.goal,
-          CAREFUL_SHARE * from->size_a / (fabs(from->da_x) + fabs(from->da_y) + DBL_MIN));
-  if (path->regime.loaded && from->size_b > 0)
+          CAREFUL_SHARE * origin->size_a / (fabs(origin->da_x) + fabs(origin->da_y) + DBL_MIN));
+  if (path->regime.loaded && origin->size_b > 0)
     limit(&length, &next->step.goal,
-          CAREFUL_SHARE * from->size_b / (fabs(from->db_x) + fabs(from->db_y) + DBL_MIN));
+          CAREFUL_SHARE * origin->size_b / (fabs(origin->db_x) + fabs(origin->db_y) + DBL_MIN));
   even_map(&next->step, length);
   next->kind = held_exact;
   if (driving_slips(path))
     next->kind = path->regime.loaded ? exact_in_both : exact_unloaded;
-  aim_u(next, &path->point, from);
-  aim_t(next, &path->point, from);
+  aim_u(next, &path->point, origin);
+  aim_t(next, &path->point, origin);
 }
 
 /* Whether the equations for b are stiff: b is quasi-steady, so that friction nearly balances
  * the force that drives it, or begins from zero while friction is strong. */
-static bool cloth_is_stiff(const carom_trajectory *path, const step_start *from) {
+static bool cloth_is_stiff(const carom_trajectory *path, const step_start *origin) {
   /* |b|' by friction alone; it must be able to stop b several times before the goal */
-  const double friction = path->terms.H_y * from->w;
-  if (!path->regime.loaded || friction * from->to_goal < STIFF * from->size_b)
+  const double friction = path->terms.H_y * origin->w;
+  if (!path->regime.loaded || friction * origin->to_goal < STIFF * origin->size_b)
     return false;
-  if (from->size_b == 0)
-    return fabs(from->db_x) + fabs(from->db_y) < SLOW * friction || path->regime.held;
+  if (origin->size_b == 0)
+    return fabs(origin->db_x) + fabs(origin->db_y) < SLOW * friction || path->regime.held;
   /* b hardly turns, and its size changes slowly, against friction alone */
-  const double along = from->t_x * from->db_x + from->t_y * from->db_y,
-               across = from->t_x * from->db_y - from->t_y * from->db_x;
+  const double along = origin->t_x * origin->db_x + origin->t_y * origin->db_y,
+               across = origin->t_x * origin->db_y - origin->t_y * origin->db_x;
   return fabs(across) < ALIGNED * friction && fabs(along) < SLOW * friction;
 }
 
 /* The step for a stiff b: exact, over an even map, with a constant first direction of b. */
-static void plan_stiff_cloth(const carom_trajectory *path, const step_start *from, plan *next) {
-  const double along = from->t_x * from->db_x + from->t_y * from->db_y;
-  double length = from->to_goal;
-  next->step.goal = from->goal;
+static void plan_stiff_cloth(const carom_trajectory *path, const step_start *origin, plan *next) {
+  const double along = origin->t_x * origin->db_x + origin->t_y * origin->db_y;
+  double length = origin->to_goal;
+  next->step.goal = origin->goal;
   /* up to where b becomes zero, if a straight line takes it there; the iteration finds the
    * length */
-  if (from->size_b > 0 && along < 0 && length > -STICK_SHARE * from->size_b / along) {
-    length = -STICK_SHARE * from->size_b / along;
+  if (origin->size_b > 0 && along < 0 && length > -STICK_SHARE * origin->size_b / along) {
+    length = -STICK_SHARE * origin->size_b / along;
     next->step.goal = AT_CLOTH_STICK;
   }
   /* a is not stiff, and must not vanish within the step */
-  if (driving_slips(path) && from->size_a > 0)
+  if (driving_slips(path) && origin->size_a > 0)
     limit(&length, &next->step.goal,
-          CAREFUL_SHARE * from->size_a / (fabs(from->da_x) + fabs(from->da_y) + DBL_MIN));
+          CAREFUL_SHARE * origin->size_a / (fabs(origin->da_x) + fabs(origin->da_y) + DBL_MIN));
   even_map(&next->step, length);
   next->kind = driving_slips(path) ? exact_in_both : held_exact;
-  aim_u(next, &path->point, from);
-  aim(&next->step, 0, 0, 0, 0, from->t_x, from->t_y, next->step.t_x, next->step.t_y);
+  aim_u(next, &path->point, origin);
+  aim(&next->step, 0, 0, 0, 0, origin->t_x, origin->t_y, next->step.t_x, next->step.t_y);
 }
 
 /* The step while friction holds the driving contact: a sinh map if b passes near zero, else an
  * even one. */
-static void plan_held(const carom_trajectory *path, const step_start *from, plan *next) {
-  const passage passing = passage_of_b(&path->point, &path->terms, from, from->to_goal);
+static void plan_held(const carom_trajectory *path, const step_start *origin, plan *next) {
+  const passage passing = passage_of_b(&path->point, &path->terms, origin, origin->to_goal);
   next->kind = held_straight;
-  next->step.goal = from->goal;
+  next->step.goal = origin->goal;
   if (!passing.matters)
-    even_map(&next->step, from->to_goal);
-  else if (!sinh_map(&next->step, &passing, from->to_goal))
+    even_map(&next->step, origin->to_goal);
+  else if (!sinh_map(&next->step, &passing, origin->to_goal))
     next->step.goal = AT_LENGTH;
-  aim_t(next, &path->point, from);
+  aim_t(next, &path->point, origin);
 }
 
 /* The step for a stiff a, which is quasi-steady or begins from zero: exact, over an even map,
  * with a constant first direction.
  */
-static void plan_stiff(const carom_trajectory *path, const step_start *from,
+static void plan_stiff(const carom_trajectory *path, const step_start *origin,
                        const closed_form *form, plan *next) {
-  const double along = from->u_x * from->da_x + from->u_y * from->da_y;
-  double length = from->to_goal;
-  next->step.goal = from->goal;
+  const double along = origin->u_x * origin->da_x + origin->u_y * origin->da_y;
+  double length = origin->to_goal;
+  next->step.goal = origin->goal;
   /* a short step while the direction still settles */
-  if (fabs(form->sine) * from->size_a > NEGLIGIBLE)
-    limit(&length, &next->step.goal, SETTLING * from->size_a / form->D);
+  if (fabs(form->sine) * origin->size_a > NEGLIGIBLE)
+    limit(&length, &next->step.goal, SETTLING * origin->size_a / form->D);
   /* up to where a becomes zero, if a straight line takes it there; the iteration finds the
    * length */
-  if (from->size_a > 0 && along < 0 && length > -STICK_NEAR * from->size_a / along) {
-    length = -STICK_SHARE * from->size_a / along;
+  if (origin->size_a > 0 && along < 0 && length > -STICK_NEAR * origin->size_a / along) {
+    length = -STICK_SHARE * origin->size_a / along;
     next->step.goal = AT_STICK;
   }
   /* an even map resolves no b that passes near zero: stop before */
-  if (path->regime.loaded && passage_of_b(&path->point, &path->terms, from, length).matters)
+  if (path->regime.loaded && passage_of_b(&path->point, &path->terms, origin, length).matters)
     limit(&length, &next->step.goal,
-          CAREFUL_SHARE * from->size_b / (fabs(from->db_x) + fabs(from->db_y)));
+          CAREFUL_SHARE * origin->size_b / (fabs(origin->db_x) + fabs(origin->db_y)));
   even_map(&next->step, length);
   next->kind = path->regime.loaded ? exact_in_a : exact_unloaded;
-  aim(&next->step, 0, 0, 0, 0, from->u_x, from->u_y, next->step.u_x, next->step.u_y);
-  aim_t(next, &path->point, from);
+  aim(&next->step, 0, 0, 0, 0, origin->u_x, origin->u_y, next->step.u_x, next->step.u_y);
+  aim_t(next, &path->point, origin);
 }
 
 /* The step while a slides: a stretched map, or a sinh map if b passes near zero; but that of
  * plan_stiff() for a stiff a. */
-static void plan_sliding(const carom_trajectory *path, const step_start *from, plan *next) {
+static void plan_sliding(const carom_trajectory *path, const step_start *origin, plan *next) {
   /* stiff: u points along the drive D, and friction could stop a several times before the goal */
-  const closed_form form = closed_form_of(&path->terms, from);
-  if (from->size_a == 0 || (form.cosine > ALONG_DRIVE && fabs(form.sine) < ALIGNED &&
-                            from->to_goal * form.D > STIFF * from->size_a)) {
-    plan_stiff(path, from, &form, next);
+  const closed_form form = closed_form_of(&path->terms, origin);
+  if (origin->size_a == 0 || (form.cosine > ALONG_DRIVE && fabs(form.sine) < ALIGNED &&
+                              origin->to_goal * form.D > STIFF * origin->size_a)) {
+    plan_stiff(path, origin, &form, next);
     return;
   }
   next->kind = path->regime.loaded ? sliding : sliding_unloaded;
-  next->step.goal = from->goal;
-  const double along = from->u_x * from->da_x + from->u_y * from->da_y;
+  next->step.goal = origin->goal;
+  const double along = origin->u_x * origin->da_x + origin->u_y * origin->da_y;
   passage passing = {.matters = false};
   if (path->regime.loaded)
-    passing = passage_of_b(&path->point, &path->terms, from, from->to_goal);
+    passing = passage_of_b(&path->point, &path->terms, origin, origin->to_goal);
   if (passing.matters) {
     /* a changes little in the step: its E belongs to |a| along a straight line */
-    double length = from->to_goal;
+    double length = origin->to_goal;
     limit(&length, &next->step.goal,
-          PASSING_SHARE * from->size_a / (fabs(from->da_x) + fabs(from->da_y)));
+          PASSING_SHARE * origin->size_a / (fabs(origin->da_x) + fabs(origin->da_y)));
     if (!sinh_map(&next->step, &passing, length))
       next->step.goal = AT_LENGTH;
-    aim_u(next, &path->point, from);
+    aim_u(next, &path->point, origin);
     EACH next->step.E[i] =
-        exponential(-form.m * next->step.p[i] / (from->size_a + 0.5 * along * next->step.p[i]));
+        exponential(-form.m * next->step.p[i] / (origin->size_a + 0.5 * along * next->step.p[i]));
   } else {
     /* tau to the goal, or the largest that is allowed; two equal steps rather than a long and a
      * short one */
-    const double ln = from->size_a < 1 ? rough_log(1 / from->size_a) : 0,
-                 growth = along * from->to_goal / from->size_a;
+    const double ln = origin->size_a < 1 ? rough_log(1 / origin->size_a) : 0,
+                 growth = along * origin->to_goal / origin->size_a;
     const double fall = most_of(most_of(-along, form.m - 0.5 * form.D), LEAST_FALL);
     const double share = path->variation != NULL ? SHARE : 1;
     const double most =
         share * least((MOST_TURN + BOLDER * ln) / form.D, (MOST_FALL + BOLDER * ln) / fall);
-    double tau = tau_at(&form, from->to_goal,
+    double tau = tau_at(&form, origin->to_goal,
                         growth > LEAST_GROWTH
-                            ? from->to_goal / from->size_a * (6 + growth) / (6 + 4 * growth)
+                            ? origin->to_goal / origin->size_a * (6 + growth) / (6 + 4 * growth)
                             : most,
                         most);
     if (tau > TOO_LONG * most) {
       next->step.goal = AT_LENGTH;
       tau = tau < 2 * most ? 0.5 * tau : most;
     }
-    stretched_map(&next->step, &form, from, tau);
+    stretched_map(&next->step, &form, origin, tau);
   }
-  aim_t(next, &path->point, from);
+  aim_t(next, &path->point, origin);
 }
 
 /* Sets to zero a slip that has become negligible, and the motion along x of an impact that has
@@ -379,10 +380,11 @@ static bool snap_to_zero(carom_trajectory *path, const carom_point *previous) {
  * across b. With |b|' = r, which is `rate`, and h = -H w, e' = h e/|b|, so that e follows
  * |b|^(h/r). Where b passes zero, e is the rest of |b|: then |b|^(h/r) e is |b| itself. The error
  * of the friction's impulse is the change of e over |H|. */
-static void drive_error(carom_trajectory *path, const step_start *from, const carom_point *start) {
+static void drive_error(carom_trajectory *path, const step_start *origin,
+                        const carom_point *start) {
   const double across = path->across, begin = most_of(fabs(start->b_y), across),
                end = fabs(path->point.b_y);
-  const double h = -path->terms.H_x * from->w,
+  const double h = -path->terms.H_x * origin->w,
                rate = (end - fabs(start->b_y)) / (path->point.p - start->p);
   if (!(across > 0 && h > 0 && path->regime.loaded))
     return;
@@ -401,35 +403,35 @@ static void drive_error(carom_trajectory *path, const step_start *from, const ca
 static bool driven_at_start(const carom_trajectory *path) {
   if (!(path->law.H < 0) || !path->regime.loaded || (path->point.a_x == 0 && path->point.b_x == 0))
     return false;
-  step_start from;
-  start_at(path, INFINITY, &from);
+  step_start origin;
+  start_at(path, INFINITY, &origin);
   /* |b|' = h + d, if the force on b beside friction is along b */
-  const double h = -path->terms.H_x * from.w, d_x = from.db_x - h * from.t_x,
-               d_y = from.db_y - h * from.t_y;
+  const double h = -path->terms.H_x * origin.w, d_x = origin.db_x - h * origin.t_x,
+               d_y = origin.db_y - h * origin.t_y;
   const double d = sqrt(d_x * d_x + d_y * d_y);
-  return from.size_b > 0 && from.size_b < 1 &&
-         DBL_EPSILON * carom_exp(-h / (h + d) * rough_log(from.size_b)) > MOST_ACROSS;
+  return origin.size_b > 0 && origin.size_b < 1 &&
+         DBL_EPSILON * carom_exp(-h / (h + d) * rough_log(origin.size_b)) > MOST_ACROSS;
 }
 
 /* On along a straight line, where all rates are constant: to the goal, or to where a slip is
  * zero. Returns whether that is the goal. In planar motion only the y components change. */
-static bool go_straight(carom_trajectory *path, const step_start *from) {
+static bool go_straight(carom_trajectory *path, const step_start *origin) {
   carom_point *point = &path->point;
   const carom_point start = *point;
   const double to_a =
-      driving_slips(path) && point->a_y * from->da_y < 0 ? -point->a_y / from->da_y : INFINITY;
+      driving_slips(path) && point->a_y * origin->da_y < 0 ? -point->a_y / origin->da_y : INFINITY;
   const double to_b =
-      path->regime.loaded && point->b_y * from->db_y < 0 ? -point->b_y / from->db_y : INFINITY;
-  const double length = least(from->to_goal, least(to_a, to_b));
+      path->regime.loaded && point->b_y * origin->db_y < 0 ? -point->b_y / origin->db_y : INFINITY;
+  const double length = least(origin->to_goal, least(to_a, to_b));
   /* W before v, since it is the integral of the old v */
-  point->W += length * (point->v + 0.5 * from->dv * length);
-  point->v += from->dv * length;
+  point->W += length * (point->v + 0.5 * origin->dv * length);
+  point->v += origin->dv * length;
   point->p += length;
-  point->a_y = length == to_a ? 0 : point->a_y + from->da_y * length;
-  point->b_y = length == to_b ? 0 : point->b_y + from->db_y * length;
+  point->a_y = length == to_a ? 0 : point->a_y + origin->da_y * length;
+  point->b_y = length == to_b ? 0 : point->b_y + origin->db_y * length;
   path->iterations++;
-  drive_error(path, from, &start);
-  return length == from->to_goal;
+  drive_error(path, origin, &start);
+  return length == origin->to_goal;
 }
 
 static void end_phase(carom_trajectory *path) {
@@ -448,13 +450,13 @@ static void end_phase(carom_trajectory *path) {
  * no way on. */
 static bool next_step(carom_trajectory *path, double target) {
   /* planar motion, and motion without any friction that changes, is a straight line */
-  step_start from;
-  start_at(path, target, &from);
+  step_start origin;
+  start_at(path, target, &origin);
   const carom_point start = path->point;
-  const bool planar = start.a_x == 0 && start.b_x == 0 && from.u_x == 0 && from.t_x == 0;
+  const bool planar = start.a_x == 0 && start.b_x == 0 && origin.u_x == 0 && origin.t_x == 0;
   if (planar || (!driving_slips(path) && !path->regime.loaded)) {
     const bool reached =
-        go_straight(path, &from) && (from.goal == AT_END_OF_APPROACH || from.goal == AT_WORK);
+        go_straight(path, &origin) && (origin.goal == AT_END_OF_APPROACH || origin.goal == AT_WORK);
     if (path->variation != NULL)
       carom_variation_straight(path, &start, planar);
     if (reached)
@@ -469,19 +471,19 @@ static bool next_step(carom_trajectory *path, double target) {
 
   /* what every plan needs, and the plan: the first that applies */
   plan next;
-  next.step.target = from.target;
+  next.step.target = origin.target;
   next.step.restitution = path->restitution;
   next.step.least_work = work_end(path);
   next.step.tolerance = path->tolerance;
   next.step.record = path->variation != NULL ? &path->variation->record : NULL;
   if (path->careful)
-    plan_carefully(path, &from, &next);
-  else if (cloth_is_stiff(path, &from))
-    plan_stiff_cloth(path, &from, &next);
+    plan_carefully(path, &origin, &next);
+  else if (cloth_is_stiff(path, &origin))
+    plan_stiff_cloth(path, &origin, &next);
   else if (driving_slips(path))
-    plan_sliding(path, &from, &next);
+    plan_sliding(path, &origin, &next);
   else
-    plan_held(path, &from, &next);
+    plan_held(path, &origin, &next);
 
   /* the step. Behind it a regime may begin, a phase may end, or a slip may be negligible */
   double advice = 1;
@@ -531,7 +533,7 @@ static bool next_step(carom_trajectory *path, double target) {
   /* refused: up to the event; or a shorter step, by the error estimate */
   if (result == EVENT_WITHIN) {
     path->event_at = path->point.p + advice;
-    if (advice < IMMEDIATE * from.to_goal)
+    if (advice < IMMEDIATE * origin.to_goal)
       return carom_impact_regime(path, true);
   } else /* the error is of order 16 in the length */
     path->longest =

@@ -84,21 +84,21 @@ static passage nearest(const carom_point *point, double rate_x, double rate_y, d
 /* How b passes zero. It goes at its present rate, or if that does not lead near zero, at the
  * mean rate beyond. */
 static passage passage_of_b(const carom_point *point, const carom_terms *terms,
-                            const step_start *from, double length) {
-  const double rate = fabs(from->db_x) + fabs(from->db_y) +
-                      (terms->H_x < 0 ? fabs(from->line_x) + fabs(from->line_y) : 0);
+                            const step_start *origin, double length) {
+  const double rate = fabs(origin->db_x) + fabs(origin->db_y) +
+                      (terms->H_x < 0 ? fabs(origin->line_x) + fabs(origin->line_y) : 0);
   passage passing = {.matters = false};
-  if (from->size_b == 0 || from->size_b > 2 * length * rate)
+  if (origin->size_b == 0 || origin->size_b > 2 * length * rate)
     return passing;
   /* friction that drives the slip slows b on its way to zero: then the mean rate comes first */
   if (terms->H_x > 0)
-    passing = nearest(point, from->db_x, from->db_y, length);
+    passing = nearest(point, origin->db_x, origin->db_y, length);
   if (!passing.matters)
-    passing = nearest(point, from->line_x, from->line_y, length);
+    passing = nearest(point, origin->line_x, origin->line_y, length);
   if (!passing.matters && terms->H_x < 0)
-    passing = nearest(point, from->db_x, from->db_y, length);
+    passing = nearest(point, origin->db_x, origin->db_y, length);
   /* a slip that friction drives stays near zero for long: there the map has to resolve more */
-  const double least = (terms->H_x > 0 ? LEAST_D : LEAST_D_UNSTABLE) * from->size_b / rate;
+  const double least = (terms->H_x > 0 ? LEAST_D : LEAST_D_UNSTABLE) * origin->size_b / rate;
   passing.d = passing.d > least ? passing.d : least;
   return passing;
 }
@@ -146,15 +146,15 @@ typedef struct closed_form {
   double D, m, q_0, A, B, cosine, sine; /* of psi_0 */
 } closed_form;
 
-static closed_form closed_form_of(const carom_terms *terms, const step_start *from) {
+static closed_form closed_form_of(const carom_terms *terms, const step_start *origin) {
   /* the components of a' across u and along it */
-  const double across = from->u_x * from->da_y - from->u_y * from->da_x,
-               along = from->u_x * from->da_x + from->u_y * from->da_y;
+  const double across = origin->u_x * origin->da_y - origin->u_y * origin->da_x,
+               along = origin->u_x * origin->da_x + origin->u_y * origin->da_y;
   /* the derivative by phi of the component of a' across u */
   const double turned =
-      -along + terms->S_x * from->u_y * from->u_y + terms->S_y * from->u_x * from->u_x -
-      terms->w_u * from->u_x *
-          (from->u_x * terms->C_y * from->t_y - from->u_y * terms->C_x * from->t_x);
+      -along + terms->S_x * origin->u_y * origin->u_y + terms->S_y * origin->u_x * origin->u_x -
+      terms->w_u * origin->u_x *
+          (origin->u_x * terms->C_y * origin->t_y - origin->u_y * terms->C_x * origin->t_x);
   /* D cos psi = along + m and D sin psi = -across, with m = -turned - along */
   closed_form form = {.D = sqrt(across * across + turned * turned) + LEAST_DRIVE,
                       .m = -turned - along};
@@ -163,8 +163,8 @@ static closed_form closed_form_of(const carom_terms *terms, const step_start *fr
   /* q_0 = tan(psi / 2), without a difference of nearly equal numbers; then A and B */
   const double sine = fabs(form.sine) > LEAST_SINE ? form.sine : copysign(LEAST_SINE, form.sine);
   form.q_0 = form.cosine > 0 ? form.sine / (1 + form.cosine) : (1 - form.cosine) / sine;
-  form.A = from->size_a / (1 + form.q_0 * form.q_0);
-  form.B = from->size_a - form.A;
+  form.A = origin->size_a / (1 + form.q_0 * form.q_0);
+  form.B = origin->size_a - form.A;
   return form;
 }
 

@@ -128,26 +128,26 @@ typedef struct iterate {
 
 /* The rates from the directions. scale: of z. */
 always void rates(const carom_terms *terms, const part *z, double scale, const bool driving_slips,
-                  const bool loaded, iterate *now) {
+                  const bool loaded, iterate *guess) {
   EACH {
     const part zs = scale * z[i];
     part a_x = splat(0), a_y = splat(terms->A_0), b_x = splat(0), b_y = splat(terms->B_0),
          v = splat(terms->V_0);
     /* friction of the driving contact */
     if (driving_slips) {
-      a_x = terms->S_x * now->u_x[i];
-      a_y = madd(now->u_y[i], splat(terms->S_y), a_y);
-      b_x = terms->R_x * now->u_x[i];
-      b_y = madd(now->u_y[i], splat(terms->R_y), b_y);
-      v = madd(now->u_y[i], splat(terms->V_u), v);
+      a_x = terms->S_x * guess->u_x[i];
+      a_y = madd(guess->u_y[i], splat(terms->S_y), a_y);
+      b_x = terms->R_x * guess->u_x[i];
+      b_y = madd(guess->u_y[i], splat(terms->R_y), b_y);
+      v = madd(guess->u_y[i], splat(terms->V_u), v);
     }
     /* friction of the cloth */
     if (loaded) {
       if (driving_slips)
-        now->w[i] = madd(now->u_y[i], splat(terms->w_u), splat(terms->w_0));
+        guess->w[i] = madd(guess->u_y[i], splat(terms->w_u), splat(terms->w_0));
       else
-        now->w[i] = terms->w_0 / (1 - terms->w_t * now->t_y[i]);
-      const part x = now->w[i] * now->t_x[i], y = now->w[i] * now->t_y[i];
+        guess->w[i] = terms->w_0 / (1 - terms->w_t * guess->t_y[i]);
+      const part x = guess->w[i] * guess->t_x[i], y = guess->w[i] * guess->t_y[i];
       a_x = madd(x, splat(-terms->C_x), a_x);
       a_y = madd(y, splat(-terms->C_y), a_y);
       b_x = madd(x, splat(-terms->H_x), b_x);
@@ -155,11 +155,11 @@ always void rates(const carom_terms *terms, const part *z, double scale, const b
       v = madd(y, splat(-terms->V_w), v);
     }
     /* over the length of the step */
-    now->za_x[i] = zs * a_x;
-    now->za_y[i] = zs * a_y;
-    now->zb_x[i] = zs * b_x;
-    now->zb_y[i] = zs * b_y;
-    now->v[i] = v;
+    guess->za_x[i] = zs * a_x;
+    guess->za_y[i] = zs * a_y;
+    guess->zb_x[i] = zs * b_x;
+    guess->zb_y[i] = zs * b_y;
+    guess->v[i] = v;
   }
 }
 
@@ -253,11 +253,11 @@ always double event_of(const carom_terms *terms, double x, double y) {
 }
 
 /* The same at the nodes. */
-always void events(const carom_terms *terms, const iterate *now, const bool driving_slips,
+always void events(const carom_terms *terms, const iterate *guess, const bool driving_slips,
                    part *event) {
   EACH {
-    const part x = driving_slips ? now->u_x[i] : now->w[i] * now->t_x[i],
-               y = driving_slips ? now->u_y[i] : now->w[i] * now->t_y[i];
+    const part x = driving_slips ? guess->u_x[i] : guess->w[i] * guess->t_x[i],
+               y = driving_slips ? guess->u_y[i] : guess->w[i] * guess->t_y[i];
     event[i] = madd(y, madd(y, splat(terms->event[3]), splat(terms->event[1])),
                     madd(x * x, splat(terms->event[2]), splat(terms->event[0])));
   }
@@ -295,13 +295,13 @@ static double first_event(const carom_terms *terms, const carom_point *point,
 
 /* int v dp from *point to the end of the step. to_end: weights of the integral of an integral. */
 always double work(const carom_point *point, double length, double scale, const double *to_end,
-                   const iterate *now) {
-  return point->v * length + scale * scale * dot(to_end, now->v);
+                   const iterate *guess) {
+  return point->v * length + scale * scale * dot(to_end, guess->v);
 }
 
 /* By how much p has to grow for the step to end at its goal: a step of Newton's method. */
 always double to_goal(const carom_terms *terms, const carom_point *start, const planned_step *step,
-                      const iterate *now, double scale, const part *to_end,
+                      const iterate *guess, double scale, const part *to_end,
                       const bool driving_slips) {
   /* a given p, or v = 0 or W = target: Newton's method with v at the end and v' there */
   const double length = scale * step->length;
@@ -309,27 +309,27 @@ always double to_goal(const carom_terms *terms, const carom_point *start, const 
     return step->target - length;
   if (step->goal == AT_END_OF_APPROACH || step->goal == AT_WORK) {
     nodes zv;
-    EACH zv[i] = step->z[i] * now->v[i];
+    EACH zv[i] = step->z[i] * guess->v[i];
     const double v = start->v + scale * dot(WEIGHT, zv);
     if (step->goal == AT_END_OF_APPROACH)
-      return -v / LAST(now->v);
+      return -v / LAST(guess->v);
     return v < 0 ? (step->target - start->W -
-                    work(start, length, scale, (const double *)to_end, now)) /
+                    work(start, length, scale, (const double *)to_end, guess)) /
                        v
                  : BLIND_WORK * length;
   }
 
   /* the slip at the end, and its rate there */
   const bool driving = step->goal == AT_STICK || (step->goal == AT_EVENT && driving_slips);
-  const part *zx = driving ? now->za_x : now->zb_x, *zy = driving ? now->za_y : now->zb_y;
+  const part *zx = driving ? guess->za_x : guess->zb_x, *zy = driving ? guess->za_y : guess->zb_y;
   const double last = 1 / (scale * LAST(step->z)), dx = LAST(zx) * last, dy = LAST(zy) * last;
   double x = (driving ? start->a_x : start->b_x) + dot(WEIGHT, zx),
          y = (driving ? start->a_y : start->b_y) + dot(WEIGHT, zy);
 
   /* stick: the slip along its direction over its rate */
   if (step->goal != AT_EVENT) {
-    const double u_x = driving ? LAST(now->u_x) : LAST(now->t_x),
-                 u_y = driving ? LAST(now->u_y) : LAST(now->t_y);
+    const double u_x = driving ? LAST(guess->u_x) : LAST(guess->t_x),
+                 u_y = driving ? LAST(guess->u_y) : LAST(guess->t_y);
     return -(x * u_x + y * u_y) / (dx * u_x + dy * u_y);
   }
 
@@ -358,7 +358,7 @@ always enum outcome collocate(const carom_terms *regime_terms, const planned_ste
                               const bool driving_slips, const bool loaded, const enum exact exact,
                               carom_point *point, int *iterations, double *advice) {
   const carom_terms terms = *regime_terms;
-  iterate now;
+  iterate guess;
   nodes per_E, ease, unit, to_end, inverse_a, inverse_b, slip_x, slip_y, D_x, D_y, zk, values,
       correction, correction_t;
   double for_u[NODES][NODES] __attribute__((aligned(PART_BYTES))),
@@ -367,10 +367,10 @@ always enum outcome collocate(const carom_terms *regime_terms, const planned_ste
   /* the planned directions; 1/E; `ease`, which stands for E(X)/E(X') of t; the weights of the
    * work */
   EACH {
-    now.u_x[i] = step->u_x[i];
-    now.u_y[i] = step->u_y[i];
-    now.t_x[i] = step->t_x[i];
-    now.t_y[i] = step->t_y[i];
+    guess.u_x[i] = step->u_x[i];
+    guess.u_y[i] = step->u_y[i];
+    guess.t_x[i] = step->t_x[i];
+    guess.t_y[i] = step->t_y[i];
     unit[i] = splat(1);
     ease[i] = inverse_a[i] = inverse_b[i] = splat(0);
     per_E[i] = driving_slips && exact == FOR_NONE ? 1 / step->E[i] : splat(1);
@@ -384,52 +384,53 @@ always enum outcome collocate(const carom_terms *regime_terms, const planned_ste
     forward = true;
     /* the rates at the nodes, and the correction of the length */
     ++*iterations;
-    rates(&terms, step->z, scale, driving_slips, loaded, &now);
+    rates(&terms, step->z, scale, driving_slips, loaded, &guess);
     const double change = step->goal == AT_LENGTH
                               ? 0
-                              : to_goal(&terms, point, step, &now, scale, to_end, driving_slips) /
+                              : to_goal(&terms, point, step, &guess, scale, to_end, driving_slips) /
                                     (scale * step->length);
     EACH correction[i] = splat(0);
 
     /* u from the slip at the driving contact */
     if (driving_slips) {
-      integrate_slip(point->a_x, point->a_y, now.za_x, now.za_y, slip_x, slip_y);
+      integrate_slip(point->a_x, point->a_y, guess.za_x, guess.za_y, slip_x, slip_y);
       /* z da'/dphi, of which u has a part in the load too */
       EACH {
-        const part zs = scale * step->z[i], w_u = loaded ? terms.w_u * now.u_x[i] : splat(0);
-        D_x[i] = -zs * madd(now.u_y[i], splat(terms.S_x), (terms.C_x * w_u) * now.t_x[i]);
-        D_y[i] = zs * madd(now.u_x[i], splat(terms.S_y), (-terms.C_y * w_u) * now.t_y[i]);
-        zk[i] = madd(now.u_y[i], D_x[i], -(now.u_x[i] * D_y[i]));
+        const part zs = scale * step->z[i], w_u = loaded ? terms.w_u * guess.u_x[i] : splat(0);
+        D_x[i] = -zs * madd(guess.u_y[i], splat(terms.S_x), (terms.C_x * w_u) * guess.t_x[i]);
+        D_y[i] = zs * madd(guess.u_x[i], splat(terms.S_y), (-terms.C_y * w_u) * guess.t_y[i]);
+        zk[i] = madd(guess.u_y[i], D_x[i], -(guess.u_x[i] * D_y[i]));
       }
       if (exact)
         forward = rotate_exactly(slip_x, slip_y, D_x, D_y, iteration == 0 || last > FRESH, for_u,
-                                 now.u_x, now.u_y, correction);
+                                 guess.u_x, guess.u_y, correction);
       else
-        rotate(slip_x, slip_y, zk, per_E, step->E, approximate, inverse_a, now.u_x, now.u_y,
+        rotate(slip_x, slip_y, zk, per_E, step->E, approximate, inverse_a, guess.u_x, guess.u_y,
                correction);
     }
 
     /* t from the slip on the cloth */
     if (loaded) {
-      integrate_slip(point->b_x, point->b_y, now.zb_x, now.zb_y, slip_x, slip_y);
+      integrate_slip(point->b_x, point->b_y, guess.zb_x, guess.zb_y, slip_x, slip_y);
       /* z db'/dphi, of which t has a part in the load where the driving contact holds */
       if (driving_slips && exact != FOR_BOTH)
-        EACH zk[i] = (scale * step->z[i]) * (terms.H_x * now.w[i]);
+        EACH zk[i] = (scale * step->z[i]) * (terms.H_x * guess.w[i]);
       else
         EACH {
-          const part zw = (scale * step->z[i]) * now.w[i];
-          const part zw_t =
-              driving_slips ? splat(0) : zw * terms.w_t * now.t_x[i] / (1 - terms.w_t * now.t_y[i]);
-          D_x[i] = terms.H_x * (zw * now.t_y[i] - zw_t * now.t_x[i]);
-          D_y[i] = -terms.H_y * (zw * now.t_x[i] + zw_t * now.t_y[i]);
-          zk[i] = now.t_y[i] * D_x[i] - now.t_x[i] * D_y[i];
+          const part zw = (scale * step->z[i]) * guess.w[i];
+          const part zw_t = driving_slips
+                                ? splat(0)
+                                : zw * terms.w_t * guess.t_x[i] / (1 - terms.w_t * guess.t_y[i]);
+          D_x[i] = terms.H_x * (zw * guess.t_y[i] - zw_t * guess.t_x[i]);
+          D_y[i] = -terms.H_y * (zw * guess.t_x[i] + zw_t * guess.t_y[i]);
+          zk[i] = guess.t_y[i] * D_x[i] - guess.t_x[i] * D_y[i];
         }
       /* by its linear equations, or by the kernel for t: ITERATION */
       if (exact == FOR_BOTH)
         forward &= rotate_exactly(slip_x, slip_y, D_x, D_y, iteration == 0 || last > FRESH, for_t,
-                                  now.t_x, now.t_y, correction_t);
+                                  guess.t_x, guess.t_y, correction_t);
       else {
-        rotate(slip_x, slip_y, zk, ease, unit, approximate, inverse_b, now.t_x, now.t_y,
+        rotate(slip_x, slip_y, zk, ease, unit, approximate, inverse_b, guess.t_x, guess.t_y,
                correction_t);
         if (iteration < SOFTENED) {
           integrate(zk, values);
@@ -462,30 +463,30 @@ always enum outcome collocate(const carom_terms *regime_terms, const planned_ste
     return DIVERGED;
 
   /* the point at the end */
-  rates(&terms, step->z, scale, driving_slips, loaded, &now);
+  rates(&terms, step->z, scale, driving_slips, loaded, &guess);
   const double length = scale * step->length;
-  EACH values[i] = step->z[i] * now.v[i];
-  carom_point reached = {.a_x = point->a_x + dot(WEIGHT, now.za_x),
-                         .a_y = point->a_y + dot(WEIGHT, now.za_y),
-                         .b_x = point->b_x + dot(WEIGHT, now.zb_x),
-                         .b_y = point->b_y + dot(WEIGHT, now.zb_y),
+  EACH values[i] = step->z[i] * guess.v[i];
+  carom_point reached = {.a_x = point->a_x + dot(WEIGHT, guess.za_x),
+                         .a_y = point->a_y + dot(WEIGHT, guess.za_y),
+                         .b_x = point->b_x + dot(WEIGHT, guess.zb_x),
+                         .b_y = point->b_y + dot(WEIGHT, guess.zb_y),
                          .v = point->v + scale * dot(WEIGHT, values),
-                         .W = point->W + work(point, length, scale, (const double *)to_end, &now),
+                         .W = point->W + work(point, length, scale, (const double *)to_end, &guess),
                          .p = point->p + length,
                          .growth = point->growth};
 
   /* the estimate of its error */
   double error = 0;
   if (driving_slips)
-    error += fabs(dot(HIGHEST, now.za_x)) + fabs(dot(HIGHEST, now.za_y));
+    error += fabs(dot(HIGHEST, guess.za_x)) + fabs(dot(HIGHEST, guess.za_y));
   if (loaded)
-    error += fabs(dot(HIGHEST, now.zb_x)) + fabs(dot(HIGHEST, now.zb_y));
+    error += fabs(dot(HIGHEST, guess.zb_x)) + fabs(dot(HIGHEST, guess.zb_y));
   *advice = error * error / ((exact ? TOLERANCE_EXACT : TOLERANCE) * step->tolerance * length);
   if (!(*advice < 1))
     return INACCURATE;
 
   /* whether the regime has lasted to the end */
-  events(&terms, &now, driving_slips, values);
+  events(&terms, &guess, driving_slips, values);
   const double event = largest(values), end = event_gap(&terms, &reached, driving_slips);
   const bool sticks = step->goal == AT_STICK || step->goal == AT_CLOTH_STICK;
   if (step->goal == AT_EVENT ? event > LATE
@@ -497,9 +498,9 @@ always enum outcome collocate(const carom_terms *regime_terms, const planned_ste
   /* where friction drives the slip on the cloth, an error of its direction grows by exp(int |H|
    * w / |b| dp) */
   if (loaded && terms.H_x < 0) {
-    integrate_slip(point->b_x, point->b_y, now.zb_x, now.zb_y, slip_x, slip_y);
+    integrate_slip(point->b_x, point->b_y, guess.zb_x, guess.zb_y, slip_x, slip_y);
     normalise(slip_x, slip_y, false, inverse_b);
-    EACH values[i] = step->z[i] * now.w[i] * inverse_b[i];
+    EACH values[i] = step->z[i] * guess.w[i] * inverse_b[i];
     reached.growth -= scale * terms.H_x * dot(WEIGHT, values);
   }
 
@@ -522,10 +523,12 @@ always enum outcome collocate(const carom_terms *regime_terms, const planned_ste
       const part none = splat(0);
       *(part_of_row *)&step->record->z[first] = (part_of_row)(scale * step->z[i]);
       *(part_of_row *)&step->record->p[first] = (part_of_row)(scale * step->p[i]);
-      *(part_of_row *)&step->record->u_x[first] = (part_of_row)(driving_slips ? now.u_x[i] : none);
-      *(part_of_row *)&step->record->u_y[first] = (part_of_row)(driving_slips ? now.u_y[i] : none);
-      *(part_of_row *)&step->record->t_x[first] = (part_of_row)(loaded ? now.t_x[i] : none);
-      *(part_of_row *)&step->record->t_y[first] = (part_of_row)(loaded ? now.t_y[i] : none);
+      *(part_of_row *)&step->record->u_x[first] =
+          (part_of_row)(driving_slips ? guess.u_x[i] : none);
+      *(part_of_row *)&step->record->u_y[first] =
+          (part_of_row)(driving_slips ? guess.u_y[i] : none);
+      *(part_of_row *)&step->record->t_x[first] = (part_of_row)(loaded ? guess.t_x[i] : none);
+      *(part_of_row *)&step->record->t_y[first] = (part_of_row)(loaded ? guess.t_y[i] : none);
     }
   *point = reached;
   return TAKEN;

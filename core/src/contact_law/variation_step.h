@@ -186,55 +186,57 @@ always void split_shift(const carom_trajectory *path, const carom_point *start, 
     EACH d[row][i] -= alpha[i] * rate[row];
 }
 
-always void take_rates(const carom_trajectory *path, bool driving_slips, step_rates *taken) {
+always void take_rates(const carom_trajectory *path, bool driving_slips, step_rates *at_nodes) {
   const carom_variation *variation = path->variation;
   const carom_kept_step *kept = &variation->record;
   const carom_terms *terms = &path->terms;
   EACH {
-    taken->z[i] = PART(kept->z, i);
-    taken->u_x[i] = PART(kept->u_x, i);
-    taken->u_y[i] = PART(kept->u_y, i);
-    taken->t_x[i] = PART(kept->t_x, i);
-    taken->t_y[i] = PART(kept->t_y, i);
-    taken->per[i] = 1 / (1 - terms->w_t * taken->t_y[i]);
-    taken->w[i] = (terms->w_0 + terms->w_u * taken->u_y[i]) * taken->per[i];
+    at_nodes->z[i] = PART(kept->z, i);
+    at_nodes->u_x[i] = PART(kept->u_x, i);
+    at_nodes->u_y[i] = PART(kept->u_y, i);
+    at_nodes->t_x[i] = PART(kept->t_x, i);
+    at_nodes->t_y[i] = PART(kept->t_y, i);
+    at_nodes->per[i] = 1 / (1 - terms->w_t * at_nodes->t_y[i]);
+    at_nodes->w[i] = (terms->w_0 + terms->w_u * at_nodes->u_y[i]) * at_nodes->per[i];
   }
-  taken->driving_slips = driving_slips;
-  taken->loaded = path->regime.loaded;
-  taken->parameters = (variation->requests & CAROM_PARAMETERS) != 0;
-  node_derivatives(terms, taken->z, taken->u_x, taken->u_y, taken->t_x, taken->t_y, taken->w,
-                   taken->per, taken->by_u, taken->by_t);
-  if (taken->parameters)
-    parameter_derivatives(terms, variation, taken->z, taken->u_x, taken->u_y, taken->t_x,
-                          taken->t_y, taken->w, taken->per, taken->by_parameters);
+  at_nodes->driving_slips = driving_slips;
+  at_nodes->loaded = path->regime.loaded;
+  at_nodes->parameters = (variation->requests & CAROM_PARAMETERS) != 0;
+  node_derivatives(terms, at_nodes->z, at_nodes->u_x, at_nodes->u_y, at_nodes->t_x, at_nodes->t_y,
+                   at_nodes->w, at_nodes->per, at_nodes->by_u, at_nodes->by_t);
+  if (at_nodes->parameters)
+    parameter_derivatives(terms, variation, at_nodes->z, at_nodes->u_x, at_nodes->u_y,
+                          at_nodes->t_x, at_nodes->t_y, at_nodes->w, at_nodes->per,
+                          at_nodes->by_parameters);
 }
 
 /* The inverse of the block of u, and phi as far as it does not depend on psi. */
-always void solve_u(const carom_terms *terms, const carom_point *start, step_rates *taken, nodes *d,
-                    matrix of_u, table phi) {
+always void solve_u(const carom_terms *terms, const carom_point *start, step_rates *at_nodes,
+                    nodes *d, matrix of_u, table phi) {
   table right;
   nodes rate_x, rate_y, along;
   EACH { /* the rates of the slip, z a' */
-    rate_x[i] =
-        taken->z[i] * (terms->S_x * taken->u_x[i] - terms->C_x * taken->w[i] * taken->t_x[i]);
-    rate_y[i] = taken->z[i] * (terms->A_0 + terms->S_y * taken->u_y[i] -
-                               terms->C_y * taken->w[i] * taken->t_y[i]);
+    rate_x[i] = at_nodes->z[i] *
+                (terms->S_x * at_nodes->u_x[i] - terms->C_x * at_nodes->w[i] * at_nodes->t_x[i]);
+    rate_y[i] = at_nodes->z[i] * (terms->A_0 + terms->S_y * at_nodes->u_y[i] -
+                                  terms->C_y * at_nodes->w[i] * at_nodes->t_y[i]);
   }
-  lengths(start->a_x, start->a_y, rate_x, rate_y, taken->u_x, taken->u_y, along);
-  block(taken->u_x, taken->u_y, taken->by_u[OF_A_X], taken->by_u[OF_A_Y], along, of_u);
+  lengths(start->a_x, start->a_y, rate_x, rate_y, at_nodes->u_x, at_nodes->u_y, along);
+  block(at_nodes->u_x, at_nodes->u_y, at_nodes->by_u[OF_A_X], at_nodes->by_u[OF_A_Y], along, of_u);
   invert(of_u);
-  right_sides(d, taken->by_parameters, OF_A_X, taken->parameters, taken->u_x, taken->u_y, right);
+  right_sides(d, at_nodes->by_parameters, OF_A_X, at_nodes->parameters, at_nodes->u_x,
+              at_nodes->u_y, right);
   multiply(of_u, right, phi);
 }
 
 /* Takes from the block and the right sides of t what phi takes from them: the Schur complement is
  * what remains of the block. of_ut becomes the product of the inverse and its block. */
-always void eliminate_u(step_rates *taken, matrix of_u, table phi, matrix of_ut, matrix of_t,
+always void eliminate_u(step_rates *at_nodes, matrix of_u, table phi, matrix of_ut, matrix of_t,
                         table right) {
   matrix of_tu;
   table share;
-  block(taken->u_x, taken->u_y, taken->by_t[OF_A_X], taken->by_t[OF_A_Y], NULL, of_ut);
-  block(taken->t_x, taken->t_y, taken->by_u[OF_B_X], taken->by_u[OF_B_Y], NULL, of_tu);
+  block(at_nodes->u_x, at_nodes->u_y, at_nodes->by_t[OF_A_X], at_nodes->by_t[OF_A_Y], NULL, of_ut);
+  block(at_nodes->t_x, at_nodes->t_y, at_nodes->by_u[OF_B_X], at_nodes->by_u[OF_B_Y], NULL, of_tu);
 
   /* column by column */
   for (int node = 0; node < NODES; node++) {
@@ -253,25 +255,26 @@ always void eliminate_u(step_rates *taken, matrix of_u, table phi, matrix of_ut,
 }
 
 /* psi by the Schur complement, and what psi takes from phi. */
-always void solve_t(const carom_terms *terms, const carom_point *start, step_rates *taken, nodes *d,
-                    matrix of_u, table phi, table psi) {
+always void solve_t(const carom_terms *terms, const carom_point *start, step_rates *at_nodes,
+                    nodes *d, matrix of_u, table phi, table psi) {
   matrix of_t, of_ut;
   table right;
   nodes rate_x, rate_y, along;
   EACH { /* the rates of the slip, z b' */
-    rate_x[i] =
-        taken->z[i] * (terms->R_x * taken->u_x[i] - terms->H_x * taken->w[i] * taken->t_x[i]);
-    rate_y[i] = taken->z[i] * (terms->B_0 + terms->R_y * taken->u_y[i] -
-                               terms->H_y * taken->w[i] * taken->t_y[i]);
+    rate_x[i] = at_nodes->z[i] *
+                (terms->R_x * at_nodes->u_x[i] - terms->H_x * at_nodes->w[i] * at_nodes->t_x[i]);
+    rate_y[i] = at_nodes->z[i] * (terms->B_0 + terms->R_y * at_nodes->u_y[i] -
+                                  terms->H_y * at_nodes->w[i] * at_nodes->t_y[i]);
   }
-  lengths(start->b_x, start->b_y, rate_x, rate_y, taken->t_x, taken->t_y, along);
-  block(taken->t_x, taken->t_y, taken->by_t[OF_B_X], taken->by_t[OF_B_Y], along, of_t);
-  right_sides(d, taken->by_parameters, OF_B_X, taken->parameters, taken->t_x, taken->t_y, right);
-  if (taken->driving_slips)
-    eliminate_u(taken, of_u, phi, of_ut, of_t, right);
+  lengths(start->b_x, start->b_y, rate_x, rate_y, at_nodes->t_x, at_nodes->t_y, along);
+  block(at_nodes->t_x, at_nodes->t_y, at_nodes->by_t[OF_B_X], at_nodes->by_t[OF_B_Y], along, of_t);
+  right_sides(d, at_nodes->by_parameters, OF_B_X, at_nodes->parameters, at_nodes->t_x,
+              at_nodes->t_y, right);
+  if (at_nodes->driving_slips)
+    eliminate_u(at_nodes, of_u, phi, of_ut, of_t, right);
   invert(of_t);
   multiply(of_t, right, psi);
-  if (!taken->driving_slips)
+  if (!at_nodes->driving_slips)
     return;
   multiply(of_ut, psi, right);
   for (int row = 0; row < NODES; row++)
@@ -281,7 +284,7 @@ always void solve_t(const carom_terms *terms, const carom_point *start, step_rat
 /* The changes of all rows over the step, by quadrature, where `end` of W begins as the change that
  * v brings about. Returns the estimate of the error, relative: that of the solver, the coefficient
  * of the highest Legendre polynomial of the rates. */
-always double integrate_rates(const carom_variation *variation, step_rates *taken, double length,
+always double integrate_rates(const carom_variation *variation, step_rates *at_nodes, double length,
                               table phi, table psi, nodes *end) {
   /* weights of the integral of an integral, which W is */
   double to_end[NODES];
@@ -300,12 +303,12 @@ always double integrate_rates(const carom_variation *variation, step_rates *take
     for (int node = 0; node < NODES; node++) {
       nodes rate;
       EACH rate[i] = splat(0);
-      if (taken->parameters)
-        EACH_PARAMETER rate[i] = taken->by_parameters[row][node][i];
-      if (taken->driving_slips)
-        EACH rate[i] = madd(splat(AT(taken->by_u[row], node)), phi[node][i], rate[i]);
-      if (taken->loaded)
-        EACH rate[i] = madd(splat(AT(taken->by_t[row], node)), psi[node][i], rate[i]);
+      if (at_nodes->parameters)
+        EACH_PARAMETER rate[i] = at_nodes->by_parameters[row][node][i];
+      if (at_nodes->driving_slips)
+        EACH rate[i] = madd(splat(AT(at_nodes->by_u[row], node)), phi[node][i], rate[i]);
+      if (at_nodes->loaded)
+        EACH rate[i] = madd(splat(AT(at_nodes->by_t[row], node)), psi[node][i], rate[i]);
 
       /* the sums, and for W that of v once more */
       EACH {
@@ -336,10 +339,10 @@ always double limit_of_step(bool stiff, int vanishes) {
 
 /* The rates at the end, which the next step needs. The direction of a slip that is zero there is
  * that of the polynomial. */
-always void take_end_rates(carom_trajectory *path, const step_rates *taken) {
+always void take_end_rates(carom_trajectory *path, const step_rates *at_nodes) {
   carom_variation *variation = path->variation;
-  const double last[4] = {dot(AT_END, taken->u_x), dot(AT_END, taken->u_y), dot(AT_END, taken->t_x),
-                          dot(AT_END, taken->t_y)};
+  const double last[4] = {dot(AT_END, at_nodes->u_x), dot(AT_END, at_nodes->u_y),
+                          dot(AT_END, at_nodes->t_x), dot(AT_END, at_nodes->t_y)};
   carom_variation_leads(&path->point, last, variation->lead);
   carom_variation_rates(&path->terms, variation->lead, path->point.v, variation->rate);
 }
@@ -363,25 +366,25 @@ static double variation_step(carom_trajectory *path, const carom_point *start, b
 
   /* the angles: of u as if t did not change, of t by the Schur complement, and the change of u
    * by t */
-  step_rates taken;
+  step_rates at_nodes;
   matrix of_u;
   table phi, psi;
-  take_rates(path, driving_slips, &taken);
-  if (taken.driving_slips)
-    solve_u(&path->terms, start, &taken, d, of_u, phi);
-  if (taken.loaded)
-    solve_t(&path->terms, start, &taken, d, of_u, phi, psi);
+  take_rates(path, driving_slips, &at_nodes);
+  if (at_nodes.driving_slips)
+    solve_u(&path->terms, start, &at_nodes, d, of_u, phi);
+  if (at_nodes.loaded)
+    solve_t(&path->terms, start, &at_nodes, d, of_u, phi, psi);
 
   /* refused where the estimate is too large, and the step can be shorter */
   nodes end[CAROM_VARIED];
   EACH end[OF_W][i] = length * d[OF_V][i];
-  const double error = integrate_rates(variation, &taken, length, phi, psi, end);
+  const double error = integrate_rates(variation, &at_nodes, length, phi, psi, end);
   const double worst = error * error / limit_of_step(stiff, vanishes);
   if (worst > 1 && length > SHORTEST)
     return worst;
 
   /* the derivatives at the end, with the shift along the motion there */
-  take_end_rates(path, &taken);
+  take_end_rates(path, &at_nodes);
   double sum = 0;
   for (int row = 0; row < CAROM_VARIED; row++) {
     EACH {

@@ -60,10 +60,10 @@ carom_status carom_cushion_euler(carom_contact *contact, int N, double least, in
   *run = (carom_cushion_run){.work_compression = NAN};
   /* compression */
   double P = fmax(approach / N, least);
-  for (int64_t taken = 0; contact->v_y > 0; taken++) {
+  for (int64_t steps = 0; contact->v_y > 0; steps++) {
     if (run->steps >= most)
       return CAROM_OK;
-    if (taken > (int64_t)MOST_TURNS * N)
+    if (steps > (int64_t)MOST_TURNS * N)
       return CAROM_ERROR_TOO_SLOW;
     /* a step that stays within compression is taken; the one that would end it is halved */
     carom_contact next = *contact;
@@ -86,8 +86,8 @@ carom_status carom_cushion_euler(carom_contact *contact, int N, double least, in
   const double work_c = run->work_compression = run->work,
                target = contact->e * contact->e * work_c;
   P = fmax(pooltool ? target / N : contact->e * approach / N, least);
-  for (int64_t taken = 0; run->work - work_c < target && run->steps < most; taken++) {
-    if (taken > (int64_t)MOST_TURNS * N)
+  for (int64_t steps = 0; run->work - work_c < target && run->steps < most; steps++) {
+    if (steps > (int64_t)MOST_TURNS * N)
       return CAROM_ERROR_TOO_SLOW;
     /* the last step does what is left of the work */
     const double left = target - (run->work - work_c), speed = fabs(contact->v_y) * contact->cosine;

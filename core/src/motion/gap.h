@@ -38,35 +38,35 @@ double carom_first_contact(const carom_separation *separation, double reach, dou
 double carom_first_contact_in_space(const carom_separation *separation, double reach,
                                     double horizon);
 
-/* The same for a gap of gap[0] + gap[1] t + gap[2] t^2, the first time when it is <= 0 and falling,
- * with `slack`, m, instead. */
+/* The same for a gap of gap[0] + gap[1] t + gap[2] t^2: its distance, its speed and its bend, which
+ * is half of its acceleration. The first time when it is <= 0 and falling, with `slack`, m,
+ * instead. */
 static inline double carom_first_touch(const double gap[3], double slack, double horizon) {
-  const double distance = gap[0], speed = gap[1], bend = gap[2];
-  if (distance <= slack && speed < -CAROM_NO_SPEED)
+  if (gap[0] <= slack && gap[1] < -CAROM_NO_SPEED)
     return 0.0;
   /* a gap that bends down and is open at the horizon has no zero before it */
-  if (bend <= 0.0 && distance + horizon * (speed + horizon * bend) > CAROM_SLACK)
+  if (gap[2] <= 0.0 && gap[0] + horizon * (gap[1] + horizon * gap[2]) > CAROM_SLACK)
     return INFINITY;
 
   double time;
-  if (distance > slack) {
+  if (gap[0] > slack) {
     /* of the two forms of this zero the one whose sum does not cancel: a gap of 2e-9 m that opens
        at 0.5 m/s and closes again was met 3e-9 s late by the other */
-    const double discriminant = speed * speed - 4.0 * bend * distance;
+    const double discriminant = gap[1] * gap[1] - 4.0 * gap[2] * gap[0];
     const double root = sqrt(carom_greater(discriminant, 0.0));
-    const double over = speed > 0.0 ? -speed - root : 2.0 * distance;
-    const double under = speed > 0.0 ? 2.0 * bend : root - speed;
+    const double over = gap[1] > 0.0 ? -gap[1] - root : 2.0 * gap[0];
+    const double under = gap[1] > 0.0 ? 2.0 * gap[2] : root - gap[1];
     time = discriminant >= 0.0 ? over / under : INFINITY;
     return time >= 0.0 && time <= horizon ? time : INFINITY;
   }
-  if (!(bend < 0.0))
+  if (!(gap[2] < 0.0))
     return INFINITY;
 
   /* touching and not closing: where it falls to 0 again; see PRESSED */
-  const double highest = speed > 0.0 ? distance - 0.25 * speed * speed / bend : distance;
+  const double highest = gap[1] > 0.0 ? gap[0] - 0.25 * gap[1] * gap[1] / gap[2] : gap[0];
   const double end = carom_lesser(highest - slack, 0.0);
-  const double square = carom_greater(speed * speed - 4.0 * bend * (distance - end), 0.0);
-  time = (-speed - sqrt(square)) / (2.0 * bend);
+  time = (-gap[1] - sqrt(carom_greater(gap[1] * gap[1] - 4.0 * gap[2] * (gap[0] - end), 0.0))) /
+         (2.0 * gap[2]);
   return time <= horizon ? time : INFINITY;
 }
 

@@ -195,6 +195,7 @@ static void run_on(const motion_law *law, double duration, double u[2], double w
 /* A pair of a ball that slides with the slip u, or rolls at that velocity. */
 __attribute__((noinline, cold)) static void
 begin_on_slope(carom_path *path, const carom_ball_rates *rates, double u_x, double u_y) {
+  static const double most = PAIR_ERROR_ON_SLOPE;
   /* the law of u. v' = share u' + (1 - share) c: a ball that slides has v' = 2/7 u' + 5/7 G, and
    * of one that rolls u is v */
   const double start[2] = {u_x, u_y}, speed = carom_plane_size(start);
@@ -218,19 +219,18 @@ begin_on_slope(carom_path *path, const carom_ball_rates *rates, double u_x, doub
   const double turns = share * downhill, drags = 2.0 * law.drag * speed * speed;
   const double time_square = speed * speed / (friction * friction);
   double u[2] = {start[0], start[1]}, way[2], duration;
-  path->last_pair =
-      time_square *
-              (LAST_PAIR_TURN * turns * friction / (friction - downhill) + drags / JERK_PER_ERROR) <
-          PAIR_ERROR_ON_SLOPE &&
-      downhill * law.drag * time_square * speed * speed < PAIR_ERROR_ON_SLOPE * friction;
+  path->last_pair = time_square * (LAST_PAIR_TURN * turns * friction / (friction - downhill) +
+                                   drags / JERK_PER_ERROR) <
+                        most &&
+                    downhill * law.drag * time_square * speed * speed < most * friction;
 
   /* to the end, if the position is good enough; otherwise for a part h of the speed */
   if (path->last_pair) {
     duration = run_out(&law, start, speed, way);
     u[0] = u[1] = 0.0;
   } else {
-    const double part = rough_cube_root(CUBE_ON_SLOPE * JERK_PER_ERROR * PAIR_ERROR_ON_SLOPE *
-                                        slowing * slowing / (speed * speed * (turns + drags)));
+    const double part = rough_cube_root(CUBE_ON_SLOPE * JERK_PER_ERROR * most * slowing * slowing /
+                                        (speed * speed * (turns + drags)));
     duration = carom_lesser(part / (1.0 + TURN_IN_PART * part), MOST_PART) * speed / slowing;
     run_on(&law, duration, u, way);
   }
