@@ -57,13 +57,14 @@ static bool read_via(const layout *l, const char *via, carom_pot *pot) {
     named |= part.kind == CAROM_PART_BALL && part.index == pot->ball;
     pot->via[pot->vias++] = part;
   }
+  if (good)
+    return true;
   snprintf(names + strlen(names), NAMES_TEXT - strlen(names), RAILS);
   did_you_mean(wrong, names, hint);
-  if (!good)
-    complain("--via is up to %d of balls, the one of --pocket last, and rails, such as 2,left, or "
-             "head,%s for a kick; '%s' is none that can be there; there are %s%s",
-             CAROM_VIA_MOST, l->name[pot->ball], wrong, names_there(names), hint);
-  return good;
+  complain("--via is up to %d of balls, the one of --pocket last, and rails, such as 2,left, or "
+           "head,%s for a kick; '%s' is none that can be there; there are %s%s",
+           CAROM_VIA_MOST, l->name[pot->ball], wrong, names_there(names), hint);
+  return false;
 }
 
 /* Says why there is no aim. */
