@@ -13,6 +13,7 @@ SOURCE = Path(sys.argv[1])
 sys.path.insert(0, str(SOURCE / "bindings"))
 
 from api import describe  # noqa: E402
+from match import Python, TypeScript  # noqa: E402
 from write import CSharp, Rust, called_by  # noqa: E402
 
 api = describe(SOURCE / "include")
@@ -23,8 +24,8 @@ called = {
     "C++": called_by("include/carom*.hpp", r"\b(carom_\w+)\("),
     "C#": CSharp(api).called(),
     "Rust": Rust(api).called(),
-    "Python": called_by("python/src/carom/**/*.py", r"\blib\.(carom_\w+)\("),
-    "npm": called_by("web/npm/src/*.ts", r"\.(carom_\w+)\("),
+    "Python": Python(api).called(),
+    "npm": TypeScript(api).called(),
 }
 exported = {
     line.removeprefix("exported: ")

@@ -16,6 +16,7 @@ from pathlib import Path
 ROOT = Path(sys.argv[1])
 sys.path.insert(0, str(ROOT / "bindings"))
 from api import describe  # noqa: E402
+from match import Python  # noqa: E402
 from rows import digits, numbers, options, parts, python, words  # noqa: E402
 
 api = describe(ROOT / "include")
@@ -143,12 +144,16 @@ for of in enums["carom_game_words"]:
     ):
         faults.append(f"{of['name']}: the library has {seen}, bindings/rows.py {ends}")
 
-# What is made of the rows, and kept.
-kept, text = ROOT / "python/src/carom/_described.py", python()
-if os.environ.get("UPDATE"):
-    kept.write_text(text, encoding="utf-8")
-if kept.read_text(encoding="utf-8") != text:
-    faults.append(f"{kept.relative_to(ROOT)} is not that of the rows; UPDATE=1 writes it")
+# What is made of the rows and of the headers, and kept.
+package = ROOT / "python/src/carom"
+for kept, text in (
+    (package / "_described.py", python()),
+    (package / "games/_described.py", Python(api).text()),
+):
+    if os.environ.get("UPDATE"):
+        kept.write_text(text, encoding="utf-8")
+    if not kept.exists() or kept.read_text(encoding="utf-8") != text:
+        faults.append(f"{kept.relative_to(ROOT)} is not what is made of it; UPDATE=1 writes it")
 
 print(
     "\n".join(faults)

@@ -50,11 +50,11 @@ shell_scripts() {
   } | sort -u
 }
 
-# python_sources: files of Python, by their name or by their first line, except the one that
-# bindings/rows.py writes.
+# python_sources: files of Python, by their name or by their first line, except those that bindings/
+# writes.
 python_sources() {
   {
-    tracked '*.py' | grep -v '^python/src/carom/_described\.py$'
+    tracked '*.py' | grep -v '/_described\.py$'
     tracked 'tools/*' | grep -v '\.[a-z]*$' | while read -r file; do
       if head -n 1 "$file" | grep -q '^#!/usr/bin/env python3$'; then echo "$file"; fi
     done

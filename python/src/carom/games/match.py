@@ -10,11 +10,11 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._described import Choice, Phase
-from carom._rows import Seed, choice, copied, listing, number, pointer, seed_of, several, whole
+from carom._rows import Seed, choice, copied, listing, pointer, seed_of, several, whole
 from carom._shot_options import Options, StopAt, chosen, options_of, shot_options
 from carom.dtypes import Records
-from carom.games.plans import ByMatch, Kind, plan, player
+from carom.games._described import BreakOrder, Kind, MatchActs
+from carom.games.plans import ByMatch, plan, player
 from carom.games.rules import (
     GAMES,
     LEAVES,
@@ -25,7 +25,6 @@ from carom.games.rules import (
     Rules,
     Ruling,
     hand_of,
-    of_set,
     ruling_of,
     words_of,
 )
@@ -44,10 +43,8 @@ __all__ = ["Bounds", "Match", "Seat", "Standing"]
 __dir__ = listing(__name__)
 
 _USUAL = Options()
-_PHASES = get_args(Phase)
-_CHOICES = get_args(Choice)
 _OWN = 1000  # the number of a game of one's own in recordings
-ORDERS = {"alternate": 0, "winner": 1, "loser": 2}
+ORDERS = {word: k for k, word in enumerate(get_args(BreakOrder))}
 
 
 class Bounds(NamedTuple):
@@ -141,7 +138,7 @@ def _seating(
     return seating
 
 
-class Match:
+class Match(MatchActs):
     """A game of 2 to 8 seats: the table, the balls, the rules, the players with their cues, the last
     shot and the recording in one object, which takes one act after another.
 
@@ -316,23 +313,6 @@ class Match:
         return np.frombuffer(state, dtypes.rules_state).copy().reshape(())
 
     @property
-    def phase(self) -> str:
-        """What the match waits for: a "stroke", a "place" of the cue ball in hand, the rest of a
-        shot that was stopped ("moving"), or nothing ("over").
-        """
-        return str(_PHASES[self._c.phase])
-
-    @property
-    def player(self) -> int:
-        """The side at the table: 0 or 1, or the seat in games that each plays for itself."""
-        return int(self._c.record.player)
-
-    @property
-    def seat(self) -> int:
-        """The seat at the table."""
-        return int(self._c.seat)
-
-    @property
     def seats(self) -> tuple[Seat, ...]:
         """Who plays."""
         seats = self._c.seating.seat[0 : self._c.seating.count]
@@ -376,49 +356,6 @@ class Match:
     def words(self) -> str:
         """What the match waits for, or how it ended; `match.ruling.words` says the last ruling."""
         return words_of(lambda *text: lib.carom_match_string(self._c, *text))
-
-    @property
-    def winner(self) -> int | None:
-        """The side that has won."""
-        is_won = 0 < self._c.winner < lib.CAROM_DRAWN
-        return int(self._c.winner) - 1 if is_won else None
-
-    @property
-    def drawn(self) -> bool:
-        """Whether the match is over without a winner."""
-        return bool(self._c.winner == lib.CAROM_DRAWN)
-
-    @property
-    def shots(self) -> int:
-        """How many strokes were played."""
-        return int(self._c.record.shots)
-
-    @property
-    def may(self) -> tuple[str, ...]:
-        """The choices for `choose`, of "pass", "push", "rack", "other_rack", "stay" and "spot"; a
-        "free_ball" is named by a call, and with "place" the cue ball is in hand.
-        """
-        return tuple(word for k, word in enumerate(_CHOICES) if self._c.may >> k & 1)
-
-    @property
-    def cue_ball(self) -> int:
-        """The ball that the player at the table strikes."""
-        return int(self._c.cue_ball)
-
-    @property
-    def cue(self) -> Records:
-        """The cue of the seat at the table, at the cue ball: aim it, `cue["phi"] = 90.0`."""
-        return cue_of(ffi.addressof(self._c, "cue"))
-
-    @property
-    def on(self) -> frozenset[int]:
-        """The balls that may be met first."""
-        return of_set(self._c.on)
-
-    @property
-    def touching(self) -> frozenset[int]:
-        """The balls that touch the cue ball."""
-        return of_set(self._c.touching)
 
     @property
     def bounds(self) -> Bounds | None:
@@ -545,18 +482,6 @@ class Match:
 
     # The seat that acts is by default the one at the table.
 
-    def choose(self, what: str, *, seat: int | None = None) -> None:
-        """Take a choice of `may`: "push" for the next stroke, the others instead of it."""
-        bit = choice({word: 1 << k for k, word in enumerate(_CHOICES)}, what, "what")
-        self._act(lambda: lib.carom_match_choose(self._c, self._seat(seat), bit), "what")
-
-    def place(self, x: float, y: float, *, seat: int | None = None) -> None:
-        """Put the cue ball in hand to a place within `bounds`, m; until the stroke it may be put
-        elsewhere.
-        """
-        point = number(x, "x"), number(y, "y")
-        self._act(lambda: lib.carom_match_place(self._c, self._seat(seat), *point), "place")
-
     def call(self, ball: int, pocket: int = -1, *, seat: int | None = None) -> None:
         """Call the ball and the pocket of the next stroke; ball -1: a safety. In snooker it names a
         colour or a free ball.
@@ -617,26 +542,6 @@ class Match:
             return True
         stroke = best["cue"] if cue is None else cue
         return self.stroke(stroke, t_final=t_final, stop_at=stop_at, seat=seat)
-
-    def concede(self, seat: int | None = None) -> None:
-        """A seat gives the game to the other side, or leaves a game that each plays for itself."""
-        self._act(lambda: lib.carom_match_concede(self._c, self._seat(seat)), "seat")
-
-    def clock(self, *, seat: int | None = None) -> None:
-        """The time of the seat at the table is over: a foul."""
-        self._act(lambda: lib.carom_match_clock(self._c, self._seat(seat)), "clock")
-
-    def extend(self, *, seat: int | None = None) -> None:
-        """Take an extension of the time for this stroke; `set` says how many a side has."""
-        self._act(lambda: lib.carom_match_extend(self._c, self._seat(seat)), "extend")
-
-    def timeout(self, *, seat: int | None = None) -> None:
-        """Take a timeout; `set` says how many a side has."""
-        self._act(lambda: lib.carom_match_timeout(self._c, self._seat(seat)), "timeout")
-
-    def next(self) -> None:
-        """Begin the next match of the set, with the same seats."""
-        self._act(lambda: lib.carom_match_next(self._c), "next")
 
     def end(self) -> str:
         """The whole recording, with its last line: nothing follows but the next match of a set."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import enum
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
@@ -20,7 +19,8 @@ from carom._rows import Array, Arrays, as_array, choice, copied, listing, number
 from carom._rows import Seed, seed_of, several, whole
 from carom._shot_options import Options, chosen, shot_options
 from carom.dtypes import Records
-from carom.games.rules import GAMES, LEAVES, Game, GivenState, Group, Hand, Made, Rules
+from carom.games._described import Group, Kind
+from carom.games.rules import GAMES, LEAVES, Game, GivenState, Hand, Made, Rules
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
 from carom.status import CaromError
@@ -48,33 +48,6 @@ __all__ = [
 __dir__ = listing(__name__)
 
 _USUAL = Options()
-
-
-class Kind(enum.IntEnum):
-    """What a stroke that `plan` proposes is: `Kind(choice["kind"]).text` is its word.
-
-    `carom_plan.h` explains each. The command, the page and the npm package use the same words.
-    """
-
-    POT = 0
-    SCAN = 1
-    FOUL = 2
-    GIVEN = 3
-    PUSH = 4
-    PASS = 5
-    BREAK = 6
-    BANK = 7
-    KICK = 8
-    COMBINATION = 9
-    CAROM = 10
-    SAFETY = 11
-    KISS = 12
-    RAIL_FIRST = 13
-
-    @property
-    def text(self) -> str:
-        """Its word, such as "bank"."""
-        return str(ffi.string(lib.carom_plan_kind_name(self)).decode())
 
 
 class Goal(NamedTuple):

@@ -4,7 +4,6 @@ drill, or by those of a game of one's own.
 
 from __future__ import annotations
 
-import enum
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, cast, get_args
@@ -32,6 +31,7 @@ from carom._rows import (
 )
 from carom._shot_options import Options
 from carom.dtypes import Records
+from carom.games._described import Foul, Group, Race
 from carom.layouts import LAST, Table, of_record, one_cue
 from carom.results import Label, Shot, Shots
 from carom.shots import simulate_batch
@@ -46,15 +46,14 @@ __all__ = ["Facts", "Foul", "Rules", "Ruling", "Turn", "Words", "referee"]
 __dir__ = listing(__name__)
 
 Game = RulesWord
-Group = Literal["open", "solids", "stripes"]
 State = NDArray[Any]
 GivenState = Mapping[str, Any] | ArrayLike
 Hand = Literal["no", "anywhere", "kitchen", "d", "baulk"]
 GAMES = {word: k for k, word in enumerate(get_args(RulesWord))}
-_GROUPS = {"open": 0, "solids": 1, "stripes": 2}
+_GROUPS = {word: k for k, word in enumerate(get_args(Group))}
 _TURNS = {word: k for k, word in enumerate(get_args(TurnWord))}
 LEAVES = {word: k for k, word in enumerate(get_args(LeaveWord))}
-_RACES = {"own": 0, "shared": 1, "alone": 2, "points": 3, "seats": 4}
+_RACES = {word: k for k, word in enumerate(get_args(Race))}
 _WORDS = 8  # of the state of rules of one's own
 _USUAL = Options()
 _NO_ROOM = "there is no room for a ball that comes back"
@@ -62,27 +61,6 @@ _MEMBERS = tuple(
     name for name in dtypes.rules_state.names or () if name not in ("user", "unused", "context")
 )
 _POCKETED, _OFF = int(Label.POCKETED), int(Label.OFF)  # with which NumPy compares in half the time
-
-
-class Foul(enum.IntEnum):
-    """Why a shot is a foul: the first of these that holds, but DOUBLE_HIT before CUSHION and BREAK."""
-
-    NONE = 0
-    CUE_BALL = 1
-    NO_BALL = 2
-    FIRST = 3
-    OFF = 4
-    CUSHION = 5
-    BREAK = 6
-    OTHER = 7
-    POT = 8
-    DOUBLE_HIT = 9
-    JUMP = 10
-
-    @property
-    def text(self) -> str:
-        """Why, in words."""
-        return text_of(lib.carom_foul_string(self))
 
 
 _A_LIST = "whole numbers are needed"
@@ -199,7 +177,7 @@ class Rules:
     seat at the table is `state.seat`, and `judge` sets it to the one that plays next.
     """
 
-    race: Literal["own", "shared", "alone", "points", "seats"] = "own"
+    race: Race = "own"
     """Whose balls are to be potted: each player has his own, both have the same, or there is no
     opponent. "points": both make points, and `left` says how many each needs. "seats": 2 to 8 seats
     play each for itself.

@@ -29,7 +29,7 @@ from carom._shot_options import BallModel, Friction, Options, ShotCushion
 from carom.collisions import alciatore
 from carom.dtypes import Records
 from carom.games.plans import plan, player as usual_player, with_errors
-from carom.games.rules import Group
+from carom.games._described import Group
 from carom.layouts import LAST, Table
 from carom.pooltool._fill import fill
 from carom.pooltool._models import ExactBallBall, ExactCircularCushion, ExactLinearCushion

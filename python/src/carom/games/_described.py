@@ -1,0 +1,208 @@
+"""Enumerations of games, acts of a match, and how it stands. Written by bindings/match.py:
+UPDATE=1 ctest -R bindings/rows.
+"""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Callable
+from typing import Any, Literal, get_args
+
+import numpy as np
+
+from carom import dtypes
+from carom._carom import ffi, lib
+from carom._described import Choice, Phase
+from carom._rows import choice, number, text_of
+from carom.dtypes import Records
+
+Group = Literal["open", "solids", "stripes"]
+Race = Literal["own", "shared", "alone", "points", "seats"]
+BreakOrder = Literal["alternate", "winner", "loser"]
+
+
+class Foul(enum.IntEnum):
+    """Why a shot is a foul. The first of these that holds counts, except that DOUBLE_HIT comes
+    before CUSHION and BREAK.
+    """
+
+    NONE = 0
+    CUE_BALL = 1
+    NO_BALL = 2
+    FIRST = 3
+    OFF = 4
+    CUSHION = 5
+    BREAK = 6
+    OTHER = 7
+    POT = 8
+    DOUBLE_HIT = 9
+    JUMP = 10
+
+    @property
+    def text(self) -> str:
+        """A foul in words, such as "the cue ball met no ball"."""
+        return text_of(lib.carom_foul_string(self))
+
+
+class Kind(enum.IntEnum):
+    """The kind of a choice, which follows from what happens in the shot. A pot has the first of the
+    kinds combination, carom, kiss, kick, rail first, bank and pot that holds, by approach and
+    banked of carom_facts.
+    """
+
+    POT = 0
+    SCAN = 1
+    FOUL = 2
+    GIVEN = 3
+    PUSH = 4
+    PASS = 5
+    BREAK = 6
+    BANK = 7
+    KICK = 8
+    COMBINATION = 9
+    CAROM = 10
+    SAFETY = 11
+    KISS = 12
+    RAIL_FIRST = 13
+
+    @property
+    def text(self) -> str:
+        """The word for a kind, such as "bank"."""
+        return text_of(lib.carom_plan_kind_name(self))
+
+
+_PHASES: tuple[Phase, ...] = get_args(Phase)
+_CHOICES: tuple[Choice, ...] = get_args(Choice)
+_BITS: dict[str, int] = {word: 1 << k for k, word in enumerate(_CHOICES)}
+
+
+class MatchActs:
+    """The acts of a match, and how it stands, as carom_match.h has them. The seat that acts is by
+    default the one at the table.
+    """
+
+    _c: Any
+
+    def _act(self, call: Callable[[], int], field: str) -> bool:
+        raise NotImplementedError
+
+    def _seat(self, seat: int | None) -> int:
+        raise NotImplementedError
+
+    @property
+    def phase(self) -> Phase:
+        """What the match waits for: "none", "stroke", "place", "moving", "over"."""
+        return _PHASES[int(self._c.phase)]
+
+    @property
+    def player(self) -> int:
+        """The side at the table: 0 or 1, or the seat in games that each plays for itself."""
+        return int(self._c.record.player)
+
+    @property
+    def seat(self) -> int:
+        """The seat at the table."""
+        return int(self._c.seat)
+
+    @property
+    def winner(self) -> int | None:
+        """The side that has won."""
+        return int(self._c.winner) - 1 if 0 < self._c.winner < lib.CAROM_DRAWN else None
+
+    @property
+    def drawn(self) -> bool:
+        """Whether the match is over without a winner."""
+        return bool(self._c.winner == lib.CAROM_DRAWN)
+
+    @property
+    def shots(self) -> int:
+        """Number of strokes and continuations so far."""
+        return int(self._c.record.shots)
+
+    @property
+    def may(self) -> tuple[Choice, ...]:
+        """The choices for `choose`. "free_ball" is named by a call, and with "place" the cue ball
+        is in hand.
+        """
+        return tuple(word for k, word in enumerate(_CHOICES) if self._c.may >> k & 1)
+
+    @property
+    def cue_ball(self) -> int:
+        """The ball that the player at the table strikes."""
+        return int(self._c.cue_ball)
+
+    @property
+    def cue(self) -> Records:
+        """The cue of the seat at the table, for the cue ball: aim it. Its stroke is the usual one
+        of the game.
+        """
+        return np.frombuffer(ffi.buffer(ffi.addressof(self._c.cue)), dtypes.cue).copy().reshape(())
+
+    @property
+    def on(self) -> frozenset[int]:
+        """The balls that may be met first in the next stroke."""
+        return frozenset(k for k in range(32) if self._c.on >> k & 1)
+
+    @property
+    def touching(self) -> frozenset[int]:
+        """The balls that touch the cue ball."""
+        return frozenset(k for k in range(32) if self._c.touching >> k & 1)
+
+    def next(self) -> None:
+        """Begin the next match of the set, with the same seats."""
+        self._act(
+            lambda: lib.carom_match_next(self._c),
+            "next",
+        )
+
+    def choose(self, what: str, *, seat: int | None = None) -> None:
+        """Take one of the choices `may`: "push" for the next stroke, the others instead of it."""
+        self._act(
+            lambda: lib.carom_match_choose(self._c, self._seat(seat), choice(_BITS, what, "what")),
+            "choose",
+        )
+
+    def place(self, x: float, y: float, *, seat: int | None = None) -> None:
+        """Put the cue ball in hand to a place within `bounds`, m. Until the stroke it may be put
+        elsewhere. The choice to leave it where it lies is then gone.
+        """
+        self._act(
+            lambda: lib.carom_match_place(self._c, self._seat(seat), number(x, "x"), number(y, "y")),
+            "place",
+        )
+
+    def extend(self, seat: int | None = None) -> None:
+        """Take an extension of the time for this stroke: the caller measures the time, and the
+        match counts the extensions. The act is refused where none is left.
+        """
+        self._act(
+            lambda: lib.carom_match_extend(self._c, self._seat(seat)),
+            "extend",
+        )
+
+    def timeout(self, seat: int | None = None) -> None:
+        """Take a timeout: the caller measures the time, and the match counts the timeouts. The act
+        is refused where none is left.
+        """
+        self._act(
+            lambda: lib.carom_match_timeout(self._c, self._seat(seat)),
+            "timeout",
+        )
+
+    def concede(self, seat: int | None = None) -> None:
+        """Give the game to the other side. A seat that plays for itself leaves the game. Any seat
+        may do this at any time.
+        """
+        self._act(
+            lambda: lib.carom_match_concede(self._c, self._seat(seat)),
+            "concede",
+        )
+
+    def clock(self, seat: int | None = None) -> None:
+        """End the time of the player at the table: the match rules this as a stroke that met no
+        ball, which is a foul.
+        """
+        self._act(
+            lambda: lib.carom_match_clock(self._c, self._seat(seat)),
+            "clock",
+        )
