@@ -1,6 +1,6 @@
 """The pages of the site that list every call: of C from the description of the headers
-(bindings/api.py), of npm, C# and Rust from their sources, of Python by mkdocstrings. pages(SOURCE)
-gives names and texts; options_of_command(PROGRAM) the options of `carom`, as its help has them.
+(bindings/api.py), of npm, C# and Rust from their sources and from what bindings/ makes of a match, of
+Python by mkdocstrings. pages(SOURCE) gives names and texts; options_of_command(PROGRAM) the options of `carom`, as its help has them.
 """
 
 import ast
@@ -163,14 +163,32 @@ def names_of_python(source):
     return [name for name in offered if not (package / f"{name}.py").is_file()]
 
 
+def members_of_match(source):
+    """What bindings/ makes of the class of a match, by the file that has the rest of the class."""
+    sys.path.insert(0, str(source / "bindings"))
+    from api import describe
+    from match import TypeScript
+    from write import CSharp, Rust
+
+    api = describe(source / "include")
+    npm, rust = TypeScript(api), Rust(api).match_lines()
+    lines = {
+        "web/npm/src/match.ts": npm.getter_lines() + npm.act_lines(),
+        "bindings/csharp/Runtime/Matches.cs": CSharp(api).match_lines(),
+        "bindings/rust/carom/src/match_game.rs": ["impl Match {", *rust, "}"],
+    }
+    return {file: "\n".join(several) + "\n" for file, several in lines.items()}
+
+
 def documented(source, files, comment, kind, title, named):
     """A page: each declaration with a comment of that form above it, in the order of the files.
 
     A member has the name of its class too.
     """
+    made = members_of_match(source)
     text, holder = f"# Reference: {title}\n\n", None
     for file in files:
-        whole = (source / file).read_text(encoding="utf-8")
+        whole = (source / file).read_text(encoding="utf-8") + made.get(file, "")
         for found in re.finditer(comment, whole, flags=re.M | re.S):
             words, line = found.groups()
             # In Rust a member is in the block of its type; those of a trait are public.
@@ -212,7 +230,9 @@ def documented(source, files, comment, kind, title, named):
 
 
 def of_npm(line, public):
-    if re.match(r"(?:const|let|private|constructor|import|#|readonly #|function|class)", line):
+    if re.match(
+        r"(?:const|let|private|protected|constructor|import|#|readonly #|function|class)", line
+    ):
         return None
     found = re.match(
         r"(export )?(?:static |async |get |readonly |abstract |const )*(?:class |interface |type |function )?([A-Za-z]\w*)",

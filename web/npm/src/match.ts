@@ -1,7 +1,7 @@
 // Matches of 2 to 8 seats: the calls of carom_match.h.
-import { Owner } from "./batches.js";
 import { CaromError } from "./error.js";
 import { layout, names, values } from "./generated/layout.js";
+import { MatchActs } from "./generated/match.js";
 import { HANDS, type Rules } from "./plans.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { Exports, Pointer } from "./memory.js";
@@ -9,7 +9,6 @@ import type { Host as RecordingHost } from "./recording.js";
 import type { Shot } from "./shot.js";
 import {
   indexOf,
-  members,
   readBalls,
   readStruct,
   readTable,
@@ -50,7 +49,7 @@ export type StrokeOptions = StopOptions & { seat?: number };
 const OWN = 1000;
 
 /** What a match waits for; "over": nothing. */
-export type Phase = "none" | "stroke" | "place" | "moving" | "over";
+export type Phase = C.MatchPhase;
 /** The choices besides a stroke: a line "act" has 2 to the power of the place in this list. */
 export const choices = names.carom_choice;
 export type Choice = (typeof choices)[number];
@@ -103,7 +102,7 @@ function inJavaScript(text: string): string {
  * says what would be right, and changes nothing. The seat that acts is by default the one at the
  * table.
  */
-export class Match extends Owner<Host> {
+export class Match extends MatchActs<Host> {
   /** But those in the text of C, of the last act. */
   readonly #lines: string[] = [];
   readonly #undone: string[][] = [];
@@ -166,7 +165,7 @@ export class Match extends Owner<Host> {
             seating: hasSeats ? seating : 0,
             set: options.set && set,
           });
-          this.#act((pointer, call) => call.carom_match_begin_with(pointer, setup));
+          this.act((pointer, call) => call.carom_match_begin_with(pointer, setup));
         } finally {
           memory.free(ballsAt);
         }
@@ -218,7 +217,7 @@ export class Match extends Owner<Host> {
    * rules, has other bits, or is an act of another seat; then nothing has changed.
    */
   read(line: string, seat?: number): void {
-    this.#read(line, seat === undefined ? -1 : this.#seatOf(seat));
+    this.#read(line, seat === undefined ? -1 : this.seatOf(seat));
     this.#undone.length = 0;
   }
 
@@ -303,18 +302,6 @@ export class Match extends Owner<Host> {
     const state = this.#pointer + MATCH.rules + layout.carom_plan_rules.offset.state;
     return this.#host.readState(state, this.#rules);
   }
-  /** A stroke, a place of the cue ball in hand, the rest of a shot that was stopped, or nothing. */
-  get phase(): Phase {
-    return names.carom_match_phase[this.#number("phase")] as Phase;
-  }
-  /** The side at the table: 0 or 1, or the seat in games that each plays for itself. */
-  get player(): number {
-    return this.#recorded("player");
-  }
-  /** The seat at the table. */
-  get seat(): number {
-    return this.#number("seat");
-  }
   /** Who plays. */
   get seats(): Seat[] {
     const { memory } = this.#host;
@@ -367,28 +354,6 @@ export class Match extends Owner<Host> {
       memory.free(text);
     }
   }
-  /** The side that has won. */
-  get winner(): number | undefined {
-    const winner = this.#number("winner");
-    return winner === 0 || this.drawn ? undefined : winner - 1;
-  }
-  /** Whether the match is over without a winner. */
-  get drawn(): boolean {
-    return this.#number("winner") === values.CAROM_DRAWN;
-  }
-  /** How many strokes were played. */
-  get shots(): number {
-    return this.#recorded("shots");
-  }
-  /** The choices for `choose`; a "free_ball" is named by a call. */
-  get may(): Choice[] {
-    const acts = this.#number("may");
-    return choices.filter((_, k) => (acts >> k) & 1) as Choice[];
-  }
-  /** The ball that the player at the table strikes. */
-  get cueBall(): number {
-    return this.#number("cueBall");
-  }
   /** The balls that the player at the table may strike: `cueBall`, or where the rules say so any. */
   get strikable(): number[] {
     const { anyCueBall } = layout.carom_plan_rules.offset;
@@ -397,13 +362,6 @@ export class Match extends Owner<Host> {
     return [...this.balls.entries()].flatMap(([ball, { state }]) =>
       state.label === "pocketed" || state.label === "off" ? [] : [ball],
     );
-  }
-  /** The balls that may be met first, and those that touch the cue ball. */
-  get on(): number[] {
-    return members(this.#number("on"));
-  }
-  get touching(): number[] {
-    return members(this.#number("touching"));
   }
   /** Where the rules let a cue ball in hand be put, until the stroke: `bounds` in a word. */
   get hand(): Ruling["hand"] {
@@ -418,10 +376,6 @@ export class Match extends Owner<Host> {
   get ruling(): Ruling | undefined {
     if (this.#number("rulings") === 0) return undefined;
     return this.#host.readRuling(this.#pointer + MATCH.ruling, this.#rules, this.balls);
-  }
-  /** The cue of the seat at the table, at the cue ball: of `stroke`, what is not given. */
-  get cue(): Cue {
-    return readStruct(this.#host.memory, this.#pointer + MATCH.cue, "carom_cue");
   }
   /** The last shot, or what was played of it, with its events: played here or read. */
   get shot(): Shot | undefined {
@@ -448,15 +402,6 @@ export class Match extends Owner<Host> {
 
   // ---- Acts
 
-  /** Takes a choice: "push" for the next stroke, the others instead of it. */
-  choose(what: Choice, seat?: number): void {
-    const bit = 1 << value("carom_choice", what, "what");
-    this.#act((pointer, call) => call.carom_match_choose(pointer, this.#seatOf(seat), bit));
-  }
-  /** Puts the cue ball in hand within `bounds`, m; until the stroke it may be put elsewhere. */
-  place(x: number, y: number, seat?: number): void {
-    this.#act((pointer, call) => call.carom_match_place(pointer, this.#seatOf(seat), x, y));
-  }
   /** Calls the ball and the pocket of the next stroke; ball -1: a safety. */
   call(ball: number, pocket = -1, seat?: number): void {
     for (const [name, number] of Object.entries({ ball, pocket }))
@@ -464,7 +409,7 @@ export class Match extends Owner<Host> {
         throw new TypeError(`${name}: it must be a whole number, not ${JSON.stringify(number)}`);
     this.#using(["carom_call"], ([called]) => {
       this.#host.memory.i32.set([ball, pocket], called / 4);
-      this.#act((pointer, call) => call.carom_match_call(pointer, this.#seatOf(seat), called));
+      this.act((pointer, call) => call.carom_match_call(pointer, this.seatOf(seat), called));
     });
   }
   /**
@@ -475,8 +420,8 @@ export class Match extends Owner<Host> {
     return this.#using(["carom_cue"], ([struck]) => {
       this.#fillCue(struck, cue);
       const stops = this.#host.writeShotOptions(stop);
-      return this.#act((pointer, call) =>
-        call.carom_match_stroke(pointer, this.#seatOf(seat), struck, stops, 0),
+      return this.act((pointer, call) =>
+        call.carom_match_stroke(pointer, this.seatOf(seat), struck, stops, 0),
       );
     });
   }
@@ -486,7 +431,7 @@ export class Match extends Owner<Host> {
   /** Goes on with a shot that was stopped, likewise. */
   continue(stop: StopOptions = {}): boolean {
     const stopOptions = this.#host.writeShotOptions(stop);
-    return this.#act((pointer, call) => call.carom_match_continue(pointer, stopOptions, 0));
+    return this.act((pointer, call) => call.carom_match_continue(pointer, stopOptions, 0));
   }
   /**
    * Does what a choice of a plan asks for before its stroke: places, pushes out and calls; or
@@ -498,7 +443,7 @@ export class Match extends Owner<Host> {
       const numbers = { kind: value("carom_plan_kind", kind, "kind"), ball, pocket };
       setStruct(memory, choice, "carom_plan_stroke", numbers);
       memory.f64.set(place, (choice + layout.carom_plan_stroke.offset.place) / 8);
-      this.#act((pointer, call) => call.carom_match_prepare(pointer, this.#seatOf(seat), choice));
+      this.act((pointer, call) => call.carom_match_prepare(pointer, this.seatOf(seat), choice));
     });
   }
   /**
@@ -509,29 +454,9 @@ export class Match extends Owner<Host> {
     this.prepare(choice, options.seat);
     return choice.kind === "pass" || this.stroke(cue, options);
   }
-  /** A seat gives the game to the other side, or leaves a game that each plays for itself. */
-  concede(seat?: number): void {
-    this.#act((pointer, call) => call.carom_match_concede(pointer, this.#seatOf(seat)));
-  }
-  /** The time of the seat at the table is over: a foul. */
-  clock(seat?: number): void {
-    this.#act((pointer, call) => call.carom_match_clock(pointer, this.#seatOf(seat)));
-  }
-  /** Takes an extension of the time for this stroke; `set` says how many a side has. */
-  extend(seat?: number): void {
-    this.#act((pointer, call) => call.carom_match_extend(pointer, this.#seatOf(seat)));
-  }
-  /** Takes a timeout; `set` says how many a side has. */
-  timeout(seat?: number): void {
-    this.#act((pointer, call) => call.carom_match_timeout(pointer, this.#seatOf(seat)));
-  }
-  /** Begins the next match of the set, with the same seats. */
-  next(): void {
-    this.#act((pointer, call) => call.carom_match_next(pointer));
-  }
   /** The whole text, with its last line: nothing follows, and the memory is given back. */
   end(): string {
-    this.#act((pointer, call) => call.carom_match_end(pointer));
+    this.act((pointer, call) => call.carom_match_end(pointer));
     const text = this.lines.join("");
     this.free();
     return text;
@@ -602,10 +527,10 @@ export class Match extends Owner<Host> {
   #record64(field: keyof typeof layout.carom_record.offset): bigint {
     return this.#host.memory.i64[this.#record(field) / 8]!;
   }
-  #recorded(field: "count" | "rules" | "player" | "shots"): number {
+  #recorded(field: "count" | "rules"): number {
     return Number(this.#record64(field));
   }
-  #seatOf(seat: number | undefined): number {
+  protected override seatOf(seat: number | undefined): number {
     return seat === undefined ? this.seat : whole(seat, "seat", values.CAROM_SEATS_MOST - 1);
   }
   /** Room for structs, all zero, while a function runs. */
@@ -639,7 +564,7 @@ export class Match extends Owner<Host> {
     return new TextDecoder().decode(bytes).match(/.*\n/g) ?? [];
   }
   /** Does what C does. Returns whether a shot has ended. */
-  #act(act: (pointer: Pointer, call: Exports) => number): boolean {
+  protected override act(act: (pointer: Pointer, call: Exports) => number): boolean {
     const known = this.#written;
     const code = this.#called(act);
     this.#lines.push(...known);

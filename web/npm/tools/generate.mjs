@@ -12,7 +12,7 @@ const note = "// Written by tools/generate.mjs from the headers and rows of the 
 
 // The package gets the layouts and values that its sources name, and enumerations that it looks
 // names up in.
-const sources = readdirSync("src")
+const sources = [...readdirSync("src"), "generated/match.ts"]
   .filter((name) => name.endsWith(".ts"))
   .map((name) => readFileSync(`src/${name}`, "utf8"))
   .join("");
