@@ -230,7 +230,7 @@ class MatchActs:
     GETTERS = {
         "index": ("int", "int({at})"),
         "count": ("int", "int({at})"),
-        "word": ("{type}", "{words}[{at}]"),
+        "word": ("{type}", "{words}[int({at})]"),
         "words": (
             "tuple[{type}, ...]",
             "tuple(word for k, word in enumerate({words}) if {at} >> k & 1)",
@@ -269,7 +269,7 @@ class MatchActs:
 
     def about(self, words, indent):
         # A docstring begins with what a call is to do: "Takes" becomes "Take".
-        text = re.sub(r"^(Take|Put|Give|End|Begin)s ", r"\1 ", self.said(words))
+        text = re.sub(r"^([A-Z][a-z]+)s ", r"\1 ", self.said(words))
         one_line = f'{indent}    """{text}"""'
         if len(one_line) <= 100:
             return [one_line]

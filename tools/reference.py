@@ -238,7 +238,9 @@ def documented(source, files, comment, kind, title, named):
 
 
 def of_npm(line, public):
-    if re.match(r"(?:const|let|private|protected|constructor|import|#|readonly #|function|class)", line):
+    if re.match(
+        r"(?:const|let|private|protected|constructor|import|#|readonly #|function|class)", line
+    ):
         return None
     found = re.match(
         r"(export )?(?:static |async |get |readonly |abstract |const )*(?:class |interface |type |function )?([A-Za-z]\w*)",

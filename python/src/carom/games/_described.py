@@ -92,7 +92,7 @@ class MatchActs:
     @property
     def phase(self) -> Phase:
         """What the match waits for: "none", "stroke", "place", "moving", "over"."""
-        return _PHASES[self._c.phase]
+        return _PHASES[int(self._c.phase)]
 
     @property
     def player(self) -> int:
