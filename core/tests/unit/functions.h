@@ -355,16 +355,23 @@ static OWN carom_drill drill;
 static OWN carom_series series;
 static OWN carom_odds odds;
 static OWN carom_why why;
+/* How many balls searches have: all at no variant and before a release, else few. In a pack few
+ * strokes pot, and where none does a search of ways tries 18,000 directions. */
+static int balls_of_searches(void) {
+  enum { FEW = 4 };
+  const bool is_whole = variant == 0 || draws_of_test(0, 1) > 0;
+  return is_whole || count < FEW ? count : FEW;
+}
 static const carom_ways_job *ways_job(void) {
   static OWN carom_ways_job searched;
   searched = (carom_ways_job){.table = &table,
                               .balls = balls,
-                              .count = count,
+                              .count = balls_of_searches(),
                               .cues = &cue,
                               .strokes = 1,
                               .player = &player,
                               .shot = &options,
-                              .scan = 90,
+                              .scan = 1800,
                               .ball = -1,
                               .pocket = -1,
                               .rails = 2,
@@ -414,7 +421,7 @@ static void set_up_games(void) {
   pot.via[1] = (carom_part){CAROM_PART_RAIL, 2};
   plan = (carom_plan_job){.table = &table,
                           .balls = balls,
-                          .count = count,
+                          .count = balls_of_searches(),
                           .cue = &cue,
                           .player = &player,
                           .rules = &rules,
