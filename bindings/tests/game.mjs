@@ -25,24 +25,64 @@ function bitsOf(number) {
  * The numbers of each kind of line in order, and those of the objects in its lists. Whole numbers
  * end with "#", lists of n numbers with "*n".
  */
-const keys = (text) => text.split(" ");
 const NUMBERS = {
-  recording: keys("format# revision#"),
-  table: keys("width length ball_radius rail_width pocket_back rails jaws pockets slope_x slope_y"),
-  rails: keys("p*2 q*2 height line*3 side# mu_cushion restitution"),
-  jaws: keys("centre*2 radius height mu_cushion restitution"),
-  pockets: keys("centre*2 radius depth"),
-  options: keys(
-    "world# ball_model# cushion_model# friction# steps# space# simultaneous# cluster_steps#",
-  ),
+  recording: ["format#", "revision#"],
+  table: [
+    "width",
+    "length",
+    "ball_radius",
+    "rail_width",
+    "pocket_back",
+    "rails",
+    "jaws",
+    "pockets",
+    "slope_x",
+    "slope_y",
+  ],
+  rails: ["p*2", "q*2", "height", "line*3", "side#", "mu_cushion", "restitution"],
+  jaws: ["centre*2", "radius", "height", "mu_cushion", "restitution"],
+  pockets: ["centre*2", "radius", "depth"],
+  options: [
+    "world#",
+    "ball_model#",
+    "cushion_model#",
+    "friction#",
+    "steps#",
+    "space#",
+    "simultaneous#",
+    "cluster_steps#",
+  ],
   balls: ["list"],
   list: [
     ...kindKeys.map((key) => key.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)),
-    ...keys("r*3 v*3 w*3 label#"),
+    "r*3",
+    "v*3",
+    "w*3",
+    "label#",
   ],
-  shot: keys(
-    "speed phi theta a b mass end_mass tip_restitution tip_radius ball# miscue tip_time follow time_most stop_at# first_of# events_most# status# events# time hash",
-  ),
+  shot: [
+    "speed",
+    "phi",
+    "theta",
+    "a",
+    "b",
+    "mass",
+    "end_mass",
+    "tip_restitution",
+    "tip_radius",
+    "ball#",
+    "miscue",
+    "tip_time",
+    "follow",
+    "time_most",
+    "stop_at#",
+    "first_of#",
+    "events_most#",
+    "status#",
+    "events#",
+    "time",
+    "hash",
+  ],
 };
 const LINES = { recording: 1n, table: 2n, options: 3n, balls: 4n, shot: 6n };
 

@@ -7,10 +7,34 @@ import { load } from "../dist/index.js";
 const root = fileURLToPath(new URL("../../../", import.meta.url));
 const [head, ...lines] = readFileSync(`${root}data/collisions-204.csv`, "utf8").trim().split("\n");
 const names = head.split(",");
-const columns =
-  "r1x r1y r1z v1x v1y v1z w1x w1y w1z R M u_s1 r2x r2y r2z v2x v2y v2z w2x w2y w2z R M u_s2 u_b e_b".split(
-    " ",
-  );
+const columns = [
+  "r1x",
+  "r1y",
+  "r1z",
+  "v1x",
+  "v1y",
+  "v1z",
+  "w1x",
+  "w1y",
+  "w1z",
+  "R",
+  "M",
+  "u_s1",
+  "r2x",
+  "r2y",
+  "r2z",
+  "v2x",
+  "v2y",
+  "v2z",
+  "w2x",
+  "w2y",
+  "w2z",
+  "R",
+  "M",
+  "u_s2",
+  "u_b",
+  "e_b",
+];
 const row = lines.flatMap((line) =>
   columns.map((column) => Number(line.split(",")[names.indexOf(column)])),
 );

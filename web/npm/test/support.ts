@@ -85,10 +85,34 @@ export function golden(what: string): string {
 /** The 204 reference collisions, 26 numbers each. */
 export function cases(): { ids: string[]; rows: Float64Array } {
   const table = csv("collisions-204.csv");
-  const columns =
-    "r1x r1y r1z v1x v1y v1z w1x w1y w1z R M u_s1 r2x r2y r2z v2x v2y v2z w2x w2y w2z R M u_s2 u_b e_b".split(
-      " ",
-    );
+  const columns = [
+    "r1x",
+    "r1y",
+    "r1z",
+    "v1x",
+    "v1y",
+    "v1z",
+    "w1x",
+    "w1y",
+    "w1z",
+    "R",
+    "M",
+    "u_s1",
+    "r2x",
+    "r2y",
+    "r2z",
+    "v2x",
+    "v2y",
+    "v2z",
+    "w2x",
+    "w2y",
+    "w2z",
+    "R",
+    "M",
+    "u_s2",
+    "u_b",
+    "e_b",
+  ];
   return {
     ids: table.map((row) => row.id!),
     rows: Float64Array.from(table.flatMap((row) => columns.map((column) => Number(row[column])))),
@@ -97,7 +121,20 @@ export function cases(): { ids: string[]; rows: Float64Array } {
 
 /** The results of a reference file, 12 numbers each. */
 export function references(name: string): Float64Array {
-  const columns = "v1x v1y v1z w1x w1y w1z v2x v2y v2z w2x w2y w2z".split(" ");
+  const columns = [
+    "v1x",
+    "v1y",
+    "v1z",
+    "w1x",
+    "w1y",
+    "w1z",
+    "v2x",
+    "v2y",
+    "v2z",
+    "w2x",
+    "w2y",
+    "w2z",
+  ];
   return Float64Array.from(
     csv(name).flatMap((row) => columns.map((column) => Number(row[column]))),
   );

@@ -231,8 +231,8 @@ describePages("kept games", () => {
   });
 
   test.runIf(thereIsACommand)("an equalizing inning is told, and a drawn game", async () => {
-    const rules = "match --rules straightrail --target 1 --equal-innings".split(" ");
-    const players = "--fargo 800,800 --shots 100 --seed 6".split(" ");
+    const rules = ["match", "--rules", "straightrail", "--target", "1", "--equal-innings"];
+    const players = ["--fargo", "800,800", "--shots", "100", "--seed", "6"];
     const lines = run([...rules, ...players], "")
       .trim()
       .split("\n");
