@@ -1,9 +1,9 @@
-// generate.mjs MADE OUT: what the build knows, as TypeScript: structs and enumerators of the
-// headers, numbers of a ball, both modules. bindings/README.md says what MADE/api.json and
-// MADE/rows.json have.
+// generate.mjs MADE OUT BUILDS...: what the build knows, as TypeScript: structs and enumerators of
+// the headers, numbers of a ball, and the modules of BUILDS. bindings/README.md says what
+// MADE/api.json and MADE/rows.json have.
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 
-const [build, out] = process.argv.slice(2);
+const [build, out, ...builds] = process.argv.slice(2);
 const api = JSON.parse(readFileSync(`${build}/api.json`, "utf8"));
 const rows = JSON.parse(readFileSync(`${build}/rows.json`, "utf8"));
 const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
@@ -219,8 +219,8 @@ writeFileSync(
 );
 for (const name of ["plain", "simd"]) {
   // The type is written out: else the declarations would have the module once more.
-  writeFileSync(
-    `${out}/${name}.ts`,
-    `${note}const module: string = ${JSON.stringify(readFileSync(`${build}/${name}.wasm.gz`).toString("base64"))};\nexport default module;\n`,
-  );
+  const text = builds.includes(name)
+    ? `const module: string = ${JSON.stringify(readFileSync(`${build}/${name}.wasm.gz`).toString("base64"))};\n`
+    : `const module: string = "";\nthrow new Error("carom: this package was made without the build '${name}'; web/npm/build makes all builds");\n`;
+  writeFileSync(`${out}/${name}.ts`, `${note}${text}export default module;\n`);
 }
