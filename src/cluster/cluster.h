@@ -103,21 +103,21 @@ typedef struct carom_cluster_ball {
 } carom_cluster_ball;
 
 typedef struct carom_cluster_contact_state {
-  carom_cluster_ball *p, *q;
-  int8_t i, j;            /* of these in ball[] */
-  bool touched;           /* now or before: n is known */
-  bool may_stick;         /* within this step */
-  int touch;              /* its last one, in touch[] */
-  double n[3];            /* unit vector from i to j */
-  double offset;          /* d = offset + (s_i - s_j) . n */
-  double d, d_max;        /* d_max: 0 while open */
-  double size;            /* the compression that it has, or will have */
-  double K, e, quick;     /* quick: (e T)^-4 of a compression of 1 m */
+  carom_cluster_ball *ball_i, *ball_j;
+  int8_t i, j;                          /* of these in ball[] */
+  bool touched;                         /* now or before: n is known */
+  bool may_stick;                       /* within this step */
+  int touch;                            /* its last one, in touch[] */
+  double n[3];                          /* unit vector from i to j */
+  double offset;                        /* d = offset + (s_i - s_j) . n */
+  double overlap, overlap_max;          /* d_max: 0 while open */
+  double size;                          /* the compression that it has, or will have */
+  double stiffness, restitution, quick; /* quick: (e T)^-4 of a compression of 1 m */
   double tilted, freedom; /* phi by height and tilt, and with what the slate bears; read in space */
-  double mu, U;
-  double J, f[2];            /* impulses of a step along n, and of friction along t and the
+  double mu, greatest_slip;
+  double J, friction[2];     /* impulses of a step along n, and of friction along t and the
                                 third; between steps f/J */
-  double u[2], closing;      /* slip and closing speed as a step begins */
+  double slip[2], closing;   /* slip and closing speed as a step begins */
   double time;               /* tau of the first touch */
   double impulse, rubbed[2]; /* sums of J and f */
 } carom_cluster_contact_state;
@@ -135,15 +135,16 @@ typedef struct carom_cluster_tip {
   double axis[3];          /* c */
   double along[3], arm[3]; /* c' and q */
   double inverse_mass, V;  /* 1/M; the speed of the cue, m/s */
-  double T, k, e;          /* duration with the ball alone, s; stiffness, N/m; restitution */
-  double reach;            /* m: how far the cue goes on after it has parted; the caller sets it */
-  int ball;                /* of ball[] */
-  bool slides;             /* a further touch: n, kappa, mu and end are read, c' and q are not */
-  double n[3], kappa;      /* from the place of the touch to the centre; n . c */
-  double mu, end;          /* friction; 1/m_e */
-  double place[3];         /* of the touch, from the centre, R */
+  double duration, stiffness,
+      restitution;    /* duration with the ball alone, s; stiffness, N/m; restitution */
+  double reach;       /* m: how far the cue goes on after it has parted; the caller sets it */
+  int ball;           /* of ball[] */
+  bool slides;        /* a further touch: n, kappa, mu and end are read, c' and q are not */
+  double n[3], kappa; /* from the place of the touch to the centre; n . c */
+  double mu, end;     /* friction; 1/m_e */
+  double place[3];    /* of the touch, from the centre, R */
   /* of the integrator */
-  double d, d_max, J, closing, lost;
+  double overlap, overlap_max, J, closing, lost;
   double y[3];          /* of the end mass across the axis, m/s */
   double travel, delay; /* int V dtau, m; how far the ball is behind, along the axis, as contacts of
                            balls last, m: places.c */
@@ -156,9 +157,9 @@ typedef struct carom_cluster_tip {
 
 /* The contact of the slate and a ball, tip.h. The caller sets e. */
 typedef struct carom_cluster_slate {
-  double e; /* restitution; 0: the ball flies, and there is none */
+  double restitution; /* restitution; 0: the ball flies, and there is none */
   /* of the integrator */
-  double d, d_max, J, closing, impulse;
+  double overlap, overlap_max, J, closing, impulse;
 } carom_cluster_slate;
 
 /* The caller sets balls, ball[] up to `which`, steps and slow; of a strike also tip and slate[];
@@ -184,56 +185,58 @@ typedef struct carom_cluster_state {
 
 /* members.c: compression of a contact of stiffness K and 1/reduced mass B that closes at v, and
  * the duration of one of that compression, by its pace. */
-double carom_cluster_compression(double K, double B, double v);
+double carom_cluster_compression(double stiffness, double mobility, double closing);
 double carom_cluster_duration(double pace, double size);
 
 /* members.c: keeps of ball[] those that a contact which begins can reach, and lists their
  * contacts. The contact is that of two balls, indices in ball[]; or, where `first` is below 0,
  * that of the fastest of the pairs that touch and close. Returns the number of contacts: 0 where
  * no pair touches and closes at `slow` or faster, -1 where there are too many. */
-int carom_cluster_members(carom_cluster_state *c, int first, int second);
+int carom_cluster_members(carom_cluster_state *cluster, int first, int second);
 
 /* members.c: keeps of ball[] the struck one, tip.ball, and those that it can reach while the cue
  * pushes it, if `most` is the speed that it gets, and lists their contacts. Returns how many
  * contacts there are, -1 where there are too many; 0: it is alone. */
-int carom_cluster_members_of_tip(carom_cluster_state *c, double most);
+int carom_cluster_members_of_tip(carom_cluster_state *cluster, double most);
 
 /* push.c: the tip of a cue at ball[struck], which touches a ball that is alone for T. cue[] has the
  * numbers of carom_cue from speed to tip_restitution, in their order. */
-void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T);
+void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double cue[8],
+                          double duration);
 
 /* push.c: makes that a further touch, of a tip with the friction mu; `end_mass` is that of cue[].
  */
-void carom_cluster_tip_slides(carom_cluster_state *c, const double cue[8], double mu);
+void carom_cluster_tip_slides(carom_cluster_state *cluster, const double cue[8], double mu);
 
 /* push.c: a push of a ball that nothing else touches, in closed form. */
-void carom_cluster_push_alone(carom_cluster_state *c);
+void carom_cluster_push_alone(carom_cluster_state *cluster);
 
 /* push.c: begins slate[], whose e the caller sets then of balls that do not fly; and the impulse of
  * the slate on a ball. */
-void carom_cluster_put_on_slate(carom_cluster_state *c);
-double carom_cluster_slate_impulse(const carom_cluster_state *c, int ball);
+void carom_cluster_put_on_slate(carom_cluster_state *cluster);
+double carom_cluster_slate_impulse(const carom_cluster_state *cluster, int ball);
 
 /* places.c: takes note of a touch of a contact that begins, -1 of the tip, and returns its place in
  * touch[], which for one too many is that of the `last` touch of the contact, -1 where it is the
  * first; what the touches move the balls by, their `shift`; and how far the tip of a push is ahead
  * of the ball then, if both are seen to move from the start as they do after it. */
-int carom_cluster_begin_touch(carom_cluster_state *c, int contact, int last, double time,
+int carom_cluster_begin_touch(carom_cluster_state *cluster, int contact, int last, double time,
                               double approach);
-void carom_cluster_find_places(carom_cluster_state *c);
-double carom_cluster_tip_lead(const carom_cluster_state *c);
+void carom_cluster_find_places(carom_cluster_state *cluster);
+double carom_cluster_tip_lead(const carom_cluster_state *cluster);
 
 /* The impulse of a contact, friction's share with it. */
-static inline double carom_cluster_size_of_impulse(const carom_cluster_contact_state *x) {
-  return sqrt(x->impulse * x->impulse + x->rubbed[0] * x->rubbed[0] + x->rubbed[1] * x->rubbed[1]);
+static inline double carom_cluster_size_of_impulse(const carom_cluster_contact_state *contact) {
+  return sqrt(contact->impulse * contact->impulse + contact->rubbed[0] * contact->rubbed[0] +
+              contact->rubbed[1] * contact->rubbed[1]);
 }
 
 /* places.c: 1 of a cluster whose touches do not overlap; 0 of one in which they share more than a
  * 500th of the largest impulse, of a push, and of more than CAROM_CLUSTER_IN_TURN balls. */
-double carom_cluster_separation(const carom_cluster_state *c);
+double carom_cluster_separation(const carom_cluster_state *cluster);
 
 /* cluster.c: v, W and shift of ball[]; time, impulse and friction of contact[]. False where it
  * takes too many steps. */
-bool carom_cluster_solve(carom_cluster_state *c);
+bool carom_cluster_solve(carom_cluster_state *cluster);
 
 #endif

@@ -21,55 +21,62 @@
 #define CAROM_HERTZ_DURATION 2.9432
 
 /* d_max grows with d. */
-static inline double carom_hertz_force(double K, double e, double d, double *d_max) {
-  CAROM_PROMISE(!(d <= 0.0 || *d_max < 0.0) && e > 0.0 && e <= 1.0);
-  if (d >= *d_max) {
-    *d_max = d;
-    return K * d * sqrt(d);
+static inline double carom_hertz_force(double stiffness, double restitution, double overlap,
+                                       double *overlap_max) {
+  CAROM_PROMISE(!(overlap <= 0.0 || *overlap_max < 0.0) && restitution > 0.0 && restitution <= 1.0);
+  if (overlap >= *overlap_max) {
+    *overlap_max = overlap;
+    return stiffness * overlap * sqrt(overlap);
   }
-  const double y = d - (1.0 - e * e) * *d_max;
-  return y > 0.0 ? K / (e * e * e) * y * sqrt(y) : 0.0;
+  const double elastic = overlap - (1.0 - restitution * restitution) * *overlap_max;
+  return elastic > 0.0
+             ? stiffness / (restitution * restitution * restitution) * elastic * sqrt(elastic)
+             : 0.0;
 }
 
 /* k over the mass of a contact with linear branches that lasts so long alone, against that mass. */
-static inline double carom_linear_stiffness(double time, double e) {
-  const double rate = 1.57079632679489662 * (1.0 + e) / time;
+static inline double carom_linear_stiffness(double time, double restitution) {
+  const double rate = 1.57079632679489662 * (1.0 + restitution) / time;
   return rate * rate;
 }
 
 /* The centroid in time of the impulse of a contact with linear branches that lasts so long alone.
  */
-static inline double carom_linear_lag(double time, double e) {
-  return time / (1.0 + e) * (0.63661977236758134 * (1.0 - e) + e);
+static inline double carom_linear_lag(double time, double restitution) {
+  return time / (1.0 + restitution) * (0.63661977236758134 * (1.0 - restitution) + restitution);
 }
 
 /* Hertz's force with linear branches. */
-static inline double carom_linear_force(double k, double e, double d, double *d_max) {
-  CAROM_PROMISE(!(d <= 0.0 || *d_max < 0.0) && e > 0.0 && e <= 1.0);
-  if (d >= *d_max) {
-    *d_max = d;
-    return k * d;
+static inline double carom_linear_force(double stiffness, double restitution, double overlap,
+                                        double *overlap_max) {
+  CAROM_PROMISE(!(overlap <= 0.0 || *overlap_max < 0.0) && restitution > 0.0 && restitution <= 1.0);
+  if (overlap >= *overlap_max) {
+    *overlap_max = overlap;
+    return stiffness * overlap;
   }
-  const double y = d - (1.0 - e * e) * *d_max;
-  return y > 0.0 ? k / (e * e) * y : 0.0;
+  const double elastic = overlap - (1.0 - restitution * restitution) * *overlap_max;
+  return elastic > 0.0 ? stiffness / (restitution * restitution) * elastic : 0.0;
 }
 
 /* d_max of a contact whose force has reached 0: its set recovers as d falls, so that it loads again
  * along the line of unloading. It is open where d is 0. */
-static inline double carom_set_left(double e, double d, double d_max) {
-  const double lost = 1.0 - e * e;
-  if (d > lost * d_max)
-    return d_max;
-  return d > 0.0 && lost > 0.0 ? d / lost : 0.0;
+static inline double carom_set_left(double restitution, double overlap, double overlap_max) {
+  const double lost = 1.0 - restitution * restitution;
+  if (overlap > lost * overlap_max)
+    return overlap_max;
+  return overlap > 0.0 && lost > 0.0 ? overlap / lost : 0.0;
 }
 
 /* d_max after a step of h, in the middle of which the overlap was d, and which took the closing
  * speed from v0 to v1: where that changes its sign, the vertex of a parabola. */
-static inline double carom_hertz_vertex(double d, double d_max, double h, double v0, double v1) {
-  if (!(v0 > 0.0 && v1 <= 0.0 && d >= d_max))
-    return d_max;
-  const double vertex = d - 0.5 * h * v0 + 0.5 * h * v0 * v0 / (v0 - v1);
-  return d > vertex ? d : vertex;
+static inline double carom_hertz_vertex(double overlap, double overlap_max, double step,
+                                        double closing_before, double closing_after) {
+  if (!(closing_before > 0.0 && closing_after <= 0.0 && overlap >= overlap_max))
+    return overlap_max;
+  const double vertex =
+      overlap - 0.5 * step * closing_before +
+      0.5 * step * closing_before * closing_before / (closing_before - closing_after);
+  return overlap > vertex ? overlap : vertex;
 }
 
 #endif

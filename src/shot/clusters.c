@@ -338,7 +338,7 @@ static void put_on_slate(const carom_sim *sim, carom_cluster_state *c) {
   carom_cluster_put_on_slate(c);
   for (int k = 0; k < c->balls; k++)
     if (!c->ball[k].flies)
-      c->slate[k].e = carom_slate_under(sim->layout->kind[c->ball[k].index]);
+      c->slate[k].restitution = carom_slate_under(sim->layout->kind[c->ball[k].index]);
 }
 
 /* The tip of a cue at ball[struck]. */
