@@ -25,6 +25,7 @@ double carom_nose_shift(double height, double reference) {
 }
 
 double carom_reach_on_cloth(const carom_ball_kind *kind, double height, double reference) {
-  const double R = kind->radius, h = carom_nose_height(kind, height);
-  return R == reference ? R : carom_nose_shift(h, reference) + sqrt(h * (2.0 * R - h));
+  const double radius = kind->radius, h = carom_nose_height(kind, height);
+  return radius == reference ? radius
+                             : carom_nose_shift(h, reference) + sqrt(h * (2.0 * radius - h));
 }
