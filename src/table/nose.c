@@ -25,7 +25,8 @@ double carom_nose_shift(double height, double reference) {
 }
 
 double carom_reach_on_cloth(const carom_ball_kind *kind, double height, double reference) {
-  const double radius = kind->radius, h = carom_nose_height(kind, height);
+  const double radius = kind->radius, nose_height = carom_nose_height(kind, height);
   return radius == reference ? radius
-                             : carom_nose_shift(h, reference) + sqrt(h * (2.0 * radius - h));
+                             : carom_nose_shift(nose_height, reference) +
+                                   sqrt(nose_height * (2.0 * radius - nose_height));
 }

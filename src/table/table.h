@@ -64,7 +64,7 @@ int carom_seams_of(const carom_table *table, int index, carom_seam seam[CAROM_SE
 /* Changes the friction and the restitution of a jaw, for a ball of a kind, to those at the place
  * that the ball at r touches. */
 void carom_blend_jaw(const carom_table *table, int index, const carom_ball_kind *kind,
-                     const double r[3], double *mu, double *e);
+                     const double centre[3], double *mu, double *restitution);
 
 /* part_names.c: whether a rail is the cut of a pocket, and no cushion: those are short. */
 bool carom_is_cut(const carom_table *table, int rail);
