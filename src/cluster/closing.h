@@ -15,8 +15,10 @@
 
 #include "cluster/slate.h"
 
-static const double long_tip = 1e-4;   /* s: a shorter tip that is open takes steps of this one */
-static const double far_behind = 20.0; /* of how far the cue goes in the duration of the tip */
+/* s: a tip that lasts shorter takes the steps of this one while it is open, as it has no force */
+static const double long_tip = 1e-4;
+/* of how far the cue goes in the duration of the tip: beyond it the tip will not touch soon */
+static const double far_behind = 20.0;
 
 /* The longest step of a strike. A cue that is far behind does not count, as contacts of balls may
  * last long where they are slow. */
@@ -25,22 +27,25 @@ static inline double strike_step(const carom_cluster_state *cluster) {
   const bool open = tip->touches > 0 && tip->overlap <= 0.0;
   const double duration = open ? carom_greater(tip->duration, long_tip) : tip->duration;
   const bool far = open && tip->overlap < -far_behind * duration * tip->first;
-  double step = far ? (double)INFINITY : push_step(cluster, duration, tip->restitution);
+
+  /* the shorter of those of the tip, and of each slate that acts or carries the struck ball */
+  double step = far ? INFINITY : push_step(cluster, duration, tip->restitution);
   for (int index = 0; cluster->on_slate && index < cluster->balls; index++)
     if (cluster->slate[index].restitution > 0.0 &&
         ((index == tip->ball && !far) || cluster->slate[index].J > 0.0))
-      step = carom_lesser(
-          step, push_step(cluster, (double)CAROM_SLATE_TIME, cluster->slate[index].restitution) /
-                    cluster->steepness);
+      step = carom_lesser(step,
+                          push_step(cluster, CAROM_SLATE_TIME, cluster->slate[index].restitution) /
+                              cluster->steepness);
   return step;
 }
 
-/* Where neither tip nor balls act in a step of h, whether the slate has let the balls go. */
+/* Where neither tip nor balls act in a step, whether the slate has let the balls go. */
 static inline bool slate_ends(carom_cluster_state *cluster, double step) {
   const carom_cluster_tip *tip = &cluster->tip;
   const carom_cluster_ball *ball = &cluster->ball[tip->ball];
   const double least = too_slow * tip->first, closing = tip_closing(tip, ball),
                up = slate_releases(&cluster->slate[tip->ball], ball->v[2], step) - ball->v[2];
+  /* the condition of the head: the ball would come back to the tip */
   if (!tip->gone && closing <= least && closing - tip_upward(tip) * up > least)
     return false;
   slate_lets_go(cluster, step);
@@ -52,7 +57,7 @@ static inline double recovery(const carom_cluster_state *cluster) {
   const carom_cluster_tip *tip = &cluster->tip;
   const double closing = tip_closing(tip, &cluster->ball[tip->ball]);
   return tip->overlap > 0.0 && closing < 0.0 ? carom_lesser(-tip->overlap / closing, tip->duration)
-                                             : (double)0.0;
+                                             : 0.0;
 }
 
 /* Whether the tip would close without the slate too. */
@@ -69,7 +74,9 @@ static inline bool go_to_touch(bool flat, carom_cluster_state *cluster, double o
                                double *tau) {
   carom_cluster_tip *tip = &cluster->tip;
   const double of_tip =
-      cluster->on_slate && !follows_through(cluster) ? wait_of_tip(cluster) : (double)INFINITY;
+      cluster->on_slate && !follows_through(cluster) ? wait_of_tip(cluster) : INFINITY;
+
+  /* the first touch: of the tip, of a ball and the slate, or of two balls */
   double wait = of_tip;
   for (int index = 0; cluster->on_slate && index < cluster->balls; index++)
     wait = carom_lesser(wait, wait_of_slate(cluster, index));

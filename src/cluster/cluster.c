@@ -1,6 +1,11 @@
 /* The integrator of a cluster, cluster.h: leapfrog in tau, with the friction of a step by fixed
  * iterations. A step of h:
  *
+ *          0            h/2             h
+ *          |-------------|--------------|     tau
+ *       v, u0        d, F, J = h F       v', u
+ *          s += h/2 v         s += h/2 v'
+ *
  *     s += h/2 v;  d and F there, so J = h F for every contact that acts;  v by J
  *     friction, `iterations` times, for all contacts from the same velocities (Jacobi), so that
  *     the numbering does not count:
@@ -36,6 +41,7 @@
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
 #include "friction/laws.h"
+#include "motion/sphere.h"
 #include "platform/promise.h"
 #include "platform/ranges.h"
 
@@ -53,35 +59,50 @@ typedef struct pushes {
   uint8_t press[CAROM_CLUSTER_CONTACTS], push[CAROM_CLUSTER_CONTACTS], pushed[CAROM_CLUSTER_BALLS];
 } pushes;
 
-static const double open_overlap =
-    1e-12; /* m: overlaps below it are none; their forces could underflow */
+/* m: overlaps below it are none; their forces could underflow */
+static const double open_overlap = 1e-12;
+
+/* (2 . 2)^2, for squares of twice a mean: a slip of a mean below twice what friction takes may turn
+ * back within the step. */
+#define CAROM_MAY_TURN_BACK 16.0
+/* Rounding, by which a little more is taken from the energy than it has risen: of speeds, and of an
+ * impulse that comes of a difference of near numbers. */
+#define CAROM_ROUNDED_SPEED 1e-15
+#define CAROM_ROUNDED_IMPULSE 1e-12
 
 /* ---- A contact's geometry and motion */
 
+/* All go on along their velocities: s of a time. */
 static inline void move(bool flat, cluster_state *cluster, double time) {
   for (int index = 0; index < cluster->balls; index++)
     cluster_add(flat, cluster->ball[index].s, time, cluster->ball[index].v);
 }
 
-static inline double mobility(const contact_state *contact) { /* B */
+/* B */
+static inline double mobility(const contact_state *contact) {
   return contact->ball_i->inverse_mass + contact->ball_j->inverse_mass;
 }
 
+/* d' */
 static inline double closing_of(bool flat, const contact_state *contact) {
   double relative[3];
   cluster_minus(flat, contact->ball_i->v, contact->ball_j->v, relative);
   return cluster_dot(flat, relative, contact->n);
 }
 
+/* d */
 static inline double overlap_of(bool flat, const contact_state *contact) {
   double moved[3];
   cluster_minus(flat, contact->ball_i->s, contact->ball_j->s, moved);
   return contact->offset + cluster_dot(flat, moved, contact->n);
 }
 
+/* u, along t and t x n. The second has the share phi of the velocity, and on the cloth none. */
 static inline void slip_of(bool flat, const contact_state *contact, double slip[2]) {
   const ball_state *ball_i = contact->ball_i, *ball_j = contact->ball_j;
   double relative[3], tangent[3], third[3];
+
+  /* v_i - v_j and W_i + W_j, of which (W_i + W_j) x n has -(t x n) . W along t, and t . W across */
   cluster_minus(flat, ball_i->v, ball_j->v, relative);
   const double spin[3] = {ball_i->W[0] + ball_j->W[0], ball_i->W[1] + ball_j->W[1],
                           ball_i->W[2] + ball_j->W[2]};
@@ -96,37 +117,43 @@ static inline void slip_of(bool flat, const contact_state *contact, double slip[
   }
 }
 
-/* Friction's impulse f on i, and -f on j. */
+/* Friction's impulse f on i, and -f on j, along t and t x n. */
 static inline void rub(bool flat, const contact_state *contact, const double impulse[2]) {
   ball_state *ball_i = contact->ball_i, *ball_j = contact->ball_j;
+  /* the changes of velocity of both, each along both directions */
   const double tangent_i = impulse[0] * ball_i->inverse_mass,
                third_i = impulse[1] * ball_i->inverse_mass;
   const double tangent_j = impulse[0] * ball_j->inverse_mass,
                third_j = impulse[1] * ball_j->inverse_mass;
   double tangent[3], third[3];
   cluster_across(flat, contact->n, tangent, third);
+
+  /* along t, and the turn about t by what goes along t x n, alike for both */
   cluster_add(flat, ball_i->v, tangent_i, tangent);
   cluster_add(flat, ball_j->v, -tangent_j, tangent);
-  cluster_add(flat, ball_i->W, 2.5 * third_i, tangent);
-  cluster_add(flat, ball_j->W, 2.5 * third_j, tangent);
+  cluster_add(flat, ball_i->W, CAROM_SPHERE_TURN * third_i, tangent);
+  cluster_add(flat, ball_j->W, CAROM_SPHERE_TURN * third_j, tangent);
+
+  /* along t x n, which the cloth holds by the share 1 - phi, and the turn about t x n */
   if (flat) {
-    ball_i->W[2] -= 2.5 * tangent_i;
-    ball_j->W[2] -= 2.5 * tangent_j;
+    ball_i->W[2] -= CAROM_SPHERE_TURN * tangent_i;
+    ball_j->W[2] -= CAROM_SPHERE_TURN * tangent_j;
     ball_i->load -= impulse[1];
     ball_j->load += impulse[1];
   } else {
     const double held = (1.0 - contact->freedom) * impulse[1];
     cluster_add(false, ball_i->v, contact->freedom * third_i, third);
     cluster_add(false, ball_j->v, -contact->freedom * third_j, third);
-    cluster_add(false, ball_i->W, -2.5 * tangent_i, third);
-    cluster_add(false, ball_j->W, -2.5 * tangent_j, third);
+    cluster_add(false, ball_i->W, -CAROM_SPHERE_TURN * tangent_i, third);
+    cluster_add(false, ball_j->W, -CAROM_SPHERE_TURN * tangent_j, third);
     ball_i->load -= held;
     ball_j->load += held;
   }
 }
 
-/* Two balls that move past each other: they touch where |d + v time|^2 = R^2, which is
- * A time^2 + 2 B time + C = 0, and D = B^2 - A C. */
+/* Two balls that move past each other, apart by x and at the relative velocity v. With the sum R of
+ * their radii as the distance, they touch where |x + v time|^2 = R^2, which is
+ * A time^2 + 2 B time + C = 0, with the discriminant B^2 - A C. */
 typedef struct passing {
   double apart[3], velocity[3];
   double distance, A, B, discriminant;
@@ -151,6 +178,8 @@ static inline passing passing_of(bool flat, const contact_state *contact) {
  * the normal of the contact from then on, which is that of the touch, at most a step ago. */
 static void touch(bool flat, contact_state *contact, double half) {
   const passing pass = passing_of(flat, contact);
+
+  /* n at the touch, which is so long ago; balls that only graze are at their nearest then */
   const double discriminant = carom_greater(pass.discriminant, 0.0);
   const double back =
       pass.A > 0.0 ? carom_greater((-pass.B - sqrt(discriminant)) / pass.A, -2.0 * half) : 0.0;
@@ -182,13 +211,14 @@ static inline bool meet(bool flat, const contact_state *contact, double time) {
   return square < distance * distance;
 }
 
-/* What a contact of a compression adds to the norm of steps; and the step of a sum of these. */
+/* What a contact of a compression adds to the norm of steps, (1/(e T))^32 = quick^8 size^8; and the
+ * step of a sum of these, its 32nd root. */
 static inline double quickness(const contact_state *contact, double size) {
   const double pace = contact->quick * size, pace2 = pace * pace, pace4 = pace2 * pace2;
   return pace4 * pace4;
 }
 static inline double step_of(double norm, double steps) {
-  return norm > 0.0 ? 1.0 / (steps * sqrt(sqrt(sqrt(sqrt(sqrt(norm)))))) : (double)INFINITY;
+  return norm > 0.0 ? 1.0 / (steps * sqrt(sqrt(sqrt(sqrt(sqrt(norm)))))) : INFINITY;
 }
 
 /* ---- Forces */
@@ -208,20 +238,26 @@ static inline double find_pressed(bool flat, cluster_state *cluster, double step
   CAROM_PROMISE(!(step < 0.0));
   for (int index = 0; index < cluster->contacts; index++) {
     contact_state *contact = &cluster->contact[index];
+
+    /* one that was pressed still is */
     if (contact->overlap_max > 0.0) {
       pushed->press[pushed->pressed++] = (uint8_t)index;
       continue;
     }
+
     /* one that touched as all began, and has parted without an impulse, touches as any other */
     if (contact->touched && contact->time < 0.0 && overlap_of(flat, contact) < -open_overlap &&
         !meet(flat, contact, 0.0))
       contact->touched = false;
+
+    /* one that has never touched: whether it does within the step, and by now */
     const bool first = !contact->touched;
     if (first && !meet(flat, contact, 0.5 * step))
       continue;
     const bool meets = first && meet(flat, contact, 0.0);
     if (meets)
       touch(flat, contact, 0.5 * step);
+
     /* one that has touched is open since it parted: it has no overlap before it closes again */
     const double closing = closing_of(flat, contact);
     if (!first && closing <= 0.0)
@@ -229,6 +265,8 @@ static inline double find_pressed(bool flat, cluster_state *cluster, double step
     const double overlap = overlap_of(flat, contact);
     if (overlap + 0.5 * step * closing <= open_overlap)
       continue;
+
+    /* it is pressed by now, or will be at the end of the step: its size asks for a step */
     if (overlap > open_overlap && (meets || !first))
       pushed->press[pushed->pressed++] = (uint8_t)index;
     contact->size = closing > 0.0
@@ -239,21 +277,25 @@ static inline double find_pressed(bool flat, cluster_state *cluster, double step
   return step_of(norm, cluster->steps);
 }
 
-/* The set of a contact that is d deep, where its force has reached 0. */
+/* The set of a contact of an overlap, where its force has reached 0. */
 static inline void recover(contact_state *contact, double overlap) {
   contact->overlap_max = overlap > open_overlap
                              ? carom_set_left(contact->restitution, overlap, contact->overlap_max)
-                             : (double)0.0;
+                             : 0.0;
 }
 
-/* A contact touches, d deep by now. */
+/* A contact touches, of an overlap by now: it has since it was 0. */
 static inline void begin_contact(bool flat, cluster_state *cluster, contact_state *contact,
                                  double overlap, double tau) {
   const double closing = closing_of(flat, contact);
+
+  /* neither slip nor friction yet */
   double moved[3];
   cluster_minus(flat, contact->ball_i->s, contact->ball_j->s, moved);
   contact->greatest_slip = -1.0; /* less than any slip: the first one sets mu */
   contact->friction[0] = contact->friction[1] = 0.0;
+
+  /* the instant, and how far the two have come together until then */
   const double time = carom_greater(tau - (closing > 0.0 ? overlap / closing : 0.0), 0.0);
   contact->touch = carom_cluster_begin_touch(cluster, (int)(contact - cluster->contact),
                                              contact->time < 0.0 ? -1 : contact->touch, time,
@@ -315,7 +357,8 @@ static bool touch_again(bool flat, cluster_state *cluster) {
 /* The friction of the cloth in a step, in closed form: it stops the slip on the cloth, or acts
  * against its mean. */
 static inline void rub_on_cloth(ball_state *ball) {
-  const double most = ball->mu_slide * ball->load, slip_each = 3.5 * ball->inverse_mass;
+  const double most = ball->mu_slide * ball->load,
+               slip_each = CAROM_SPHERE_SLIP * ball->inverse_mass;
   double friction[2] = {0.0, 0.0};
   if (most > 0.0) {
     /* the slip at the end without this friction */
@@ -330,7 +373,7 @@ static inline void rub_on_cloth(ball_state *ball) {
        * no mean direction */
       const double mean_x = ball->base[0] + slip_x, mean_y = ball->base[1] + slip_y,
                    mean2 = mean_x * mean_x + mean_y * mean_y;
-      const bool by_end = mean2 < 16.0 * stops * stops;
+      const bool by_end = mean2 < CAROM_MAY_TURN_BACK * stops * stops;
       const double scale = -most / sqrt(by_end ? end2 : mean2);
       friction[0] = scale * (by_end ? slip_x : mean_x);
       friction[1] = scale * (by_end ? slip_y : mean_y);
@@ -338,12 +381,14 @@ static inline void rub_on_cloth(ball_state *ball) {
   } else if (ball->g[0] == 0.0 && ball->g[1] == 0.0) {
     return;
   }
+
+  /* instead of the last iterate */
   const double change_x = ball->inverse_mass * (friction[0] - ball->g[0]),
                change_y = ball->inverse_mass * (friction[1] - ball->g[1]);
   ball->v[0] += change_x;
   ball->v[1] += change_y;
-  ball->W[0] += 2.5 * change_y;
-  ball->W[1] -= 2.5 * change_x;
+  ball->W[0] += CAROM_SPHERE_TURN * change_y;
+  ball->W[1] -= CAROM_SPHERE_TURN * change_x;
   ball->g[0] = friction[0];
   ball->g[1] = friction[1];
 }
@@ -372,9 +417,9 @@ static inline void iterate(bool flat, contact_state *contact, double change[2]) 
   /* it holds where friction can stop the slip, and else acts against the mean */
   if (contact->may_stick) {
     const ball_state *ball_i = contact->ball_i, *ball_j = contact->ball_j;
-    const double share =
-        1.0 /
-        (3.5 * (ball_i->acting * ball_i->inverse_mass + ball_j->acting * ball_j->inverse_mass));
+    /* a ball with two contacts gives each of them half of the way */
+    const double share = 1.0 / (CAROM_SPHERE_SLIP * (ball_i->acting * ball_i->inverse_mass +
+                                                     ball_j->acting * ball_j->inverse_mass));
     friction[0] = contact->friction[0] - share * slip[0];
     friction[1] = contact->friction[1] - share * slip[1];
 
@@ -415,9 +460,11 @@ static inline void begin_step(bool flat, cluster_state *cluster, pushes *pushed)
   for (int index = 0; index < cluster->balls; index++)
     cluster->ball[index].acting = 0;
   pushed->balls = 0;
+
   double pressing[CAROM_CLUSTER_BALLS]; /* sums of J */
   for (int index = 0; index < pushed->contacts; index++) {
     contact_state *contact = &cluster->contact[pushed->push[index]];
+
     /* speeds, and mu, which falls only where the slip is the greatest so far */
     contact->closing = closing_of(flat, contact);
     slip_of(flat, contact, contact->slip); /* with the freedom of the step before */
@@ -429,11 +476,13 @@ static inline void begin_step(bool flat, cluster_state *cluster, pushes *pushed)
       contact->mu = carom_friction_at(contact->ball_i->friction, law, slip);
     }
 
+    /* phi, and whether friction could stop twice the slip: it takes half of it at a time */
     if (cluster->on_slate)
       contact->freedom = carom_lesser(
           contact->tilted + share_of_tip(cluster, contact->i, contact->j, contact->mu * contact->J),
           1.0);
-    contact->may_stick = slip <= 7.0 * mobility(contact) * contact->mu * contact->J;
+    contact->may_stick =
+        slip <= 2.0 * CAROM_SPHERE_SLIP * mobility(contact) * contact->mu * contact->J;
     contact->impulse += contact->J;
 
     /* its two balls, each listed once, as the step begins */
@@ -445,6 +494,8 @@ static inline void begin_step(bool flat, cluster_state *cluster, pushes *pushed)
       ball->acting = (int8_t)(ball->acting < 2 ? ball->acting + 1 : 2);
     }
   }
+
+  /* the balls that the slate pushes */
   for (int index = 0; cluster->on_slate && index < cluster->balls; index++)
     if (cluster->slate[index].J > 0.0)
       list_pushed(cluster, pushed, &cluster->ball[index]);
@@ -458,6 +509,8 @@ static inline void begin_step(bool flat, cluster_state *cluster, pushes *pushed)
     cluster_add(flat, contact->ball_i->v, -contact->J * contact->ball_i->inverse_mass, contact->n);
     cluster_add(flat, contact->ball_j->v, contact->J * contact->ball_j->inverse_mass, contact->n);
   }
+
+  /* those of tip and slate, which is the load of the cloth's friction */
   if (cluster->struck)
     tip_push(flat, cluster);
   for (int index = 0; cluster->on_slate && index < cluster->balls; index++) {
@@ -470,6 +523,7 @@ static inline void begin_step(bool flat, cluster_state *cluster, pushes *pushed)
 /* The friction of a step, of all contacts and of the cloth. */
 static inline void rub_all(bool flat, cluster_state *cluster, const pushes *pushed) {
   double change[CAROM_CLUSTER_CONTACTS][2];
+
   /* first that of the step before */
   for (int index = 0; index < pushed->contacts; index++) {
     contact_state *contact = &cluster->contact[pushed->push[index]];
@@ -477,6 +531,8 @@ static inline void rub_all(bool flat, cluster_state *cluster, const pushes *push
     contact->friction[1] *= contact->J;
     rub(flat, contact, contact->friction);
   }
+
+  /* the cloth, and all contacts from the same velocities, alternately; the cloth is the last */
   for (int iteration = 0; iteration <= ITERATIONS; iteration++) {
     for (int index = 0; index < pushed->balls; index++)
       rub_on_cloth(&cluster->ball[pushed->pushed[index]]);
@@ -492,6 +548,8 @@ static inline void rub_all(bool flat, cluster_state *cluster, const pushes *push
 /* The other half of the step, after which contacts may be open. */
 static inline void end_step(bool flat, cluster_state *cluster, double step, const pushes *pushed) {
   move(flat, cluster, 0.5 * step);
+
+  /* sums of friction, which is kept over J for the next step; and the greatest overlap */
   for (int index = 0; index < pushed->contacts; index++) {
     contact_state *contact = &cluster->contact[pushed->push[index]];
     const double each = 1.0 / contact->J;
@@ -504,6 +562,7 @@ static inline void end_step(bool flat, cluster_state *cluster, double step, cons
     contact->overlap_max = carom_hertz_vertex(contact->overlap, contact->overlap_max, step,
                                               contact->closing, closing_of(flat, contact));
   }
+
   /* where the force has reached 0 the set recovers as the overlap falls */
   for (int index = 0; index < pushed->pressed; index++) {
     contact_state *contact = &cluster->contact[pushed->press[index]];
@@ -517,16 +576,17 @@ static inline void end_step(bool flat, cluster_state *cluster, double step, cons
 
 /* ---- All of it */
 
+/* Of the balls, and of a cue with its end mass. */
 static double energy_of(const cluster_state *cluster) {
   const carom_cluster_tip *tip = &cluster->tip;
-  double sum = cluster->struck ? 0.5 * tip->V * tip->V / tip->inverse_mass : (double)0.0;
+  double sum = cluster->struck ? 0.5 * tip->V * tip->V / tip->inverse_mass : 0.0;
   if (cluster->struck && tip->slides)
     sum += 0.5 * cluster_dot(false, tip->y, tip->y) / tip->end;
   for (int index = 0; index < cluster->balls; index++) {
     const ball_state *ball = &cluster->ball[index];
-    sum +=
-        (0.5 * cluster_dot(false, ball->v, ball->v) + 0.2 * cluster_dot(false, ball->W, ball->W)) /
-        ball->inverse_mass;
+    sum += (0.5 * cluster_dot(false, ball->v, ball->v) +
+            CAROM_SPHERE_ENERGY * cluster_dot(false, ball->W, ball->W)) /
+           ball->inverse_mass;
   }
   return sum;
 }
@@ -537,6 +597,7 @@ static void take_back(cluster_state *cluster, double energy) {
   const double new_energy = energy_of(cluster);
   if (!(new_energy > energy))
     return;
+
   /* of the balls that were touched; a bystander keeps its motion */
   bool touched[CAROM_CLUSTER_BALLS] = {false};
   for (int index = 0; index < cluster->contacts; index++)
@@ -553,6 +614,8 @@ static void take_back(cluster_state *cluster, double energy) {
   }
   if (!(mass > 0.0))
     return;
+
+  /* the motion about the centre of mass */
   const double centre[3] = {momentum[0] / mass, momentum[1] / mass, momentum[2] / mass};
   for (int index = 0; index < cluster->balls; index++) {
     if (!touched[index])
@@ -564,35 +627,40 @@ static void take_back(cluster_state *cluster, double energy) {
 
   /* a little less than all of it, so that rounding adds nothing */
   const double share =
-      sqrt(carom_greater(1.0 - (new_energy - energy) / about, 0.0)) * (1.0 - 1e-15);
+      sqrt(carom_greater(1.0 - (new_energy - energy) / about, 0.0)) * (1.0 - CAROM_ROUNDED_SPEED);
   for (int index = 0; index < cluster->balls; index++)
     for (int axis = 0; axis < 3 && touched[index]; axis++)
       cluster->ball[index].v[axis] =
           centre[axis] + share * (cluster->ball[index].v[axis] - centre[axis]);
 }
 
-/* The same of a strike: by an impulse -J of the tip, which takes J |b| - J^2 k/2. A tip that slides
- * gives it along n. */
+/* The same of a strike: by an impulse -J of the tip, which takes J |b| - J^2 k/2 where b is the speed
+ * at which the tip parts, below 0, and k is by how much J changes it. A tip that slides gives J along
+ * n. */
 static void take_back_from_tip(bool flat, cluster_state *cluster, double energy) {
   carom_cluster_tip *tip = &cluster->tip;
   ball_state *ball = &cluster->ball[tip->ball];
   const double *way = tip->slides ? tip->n : tip->along, none[3] = {0.0, 0.0, 0.0},
-               *arm = tip->slides ? none : tip->arm, kappa = tip->slides ? tip->kappa : (double)1.0;
+               *arm = tip->slides ? none : tip->arm, kappa = tip->slides ? tip->kappa : 1.0;
+
+  /* only what is more, and while they part */
   const double more = energy_of(cluster) - energy;
   const double parting =
       kappa * tip->V - cluster_dot(flat, ball->v, way) - cluster_dot(false, ball->W, arm);
   if (!(more > 0.0 && parting < 0.0))
     return;
+
+  /* the lesser zero of J |b| - J^2 k/2 - more, a little more, so that rounding adds nothing */
   const double inverse_mass = ball->inverse_mass, of_cue = kappa * tip->inverse_mass,
-               response = kappa * of_cue + inverse_mass * (cluster_dot(flat, way, way) +
-                                                           2.5 * cluster_dot(false, arm, arm));
+               response = kappa * of_cue +
+                          inverse_mass * (cluster_dot(flat, way, way) +
+                                          CAROM_SPHERE_TURN * cluster_dot(false, arm, arm));
   const double left = sqrt(carom_greater(parting * parting - 2.0 * response * more, 0.0));
-  const double J = (parting + left) / response *
-                   (1.0 + 1e-12); /* a little more, so that rounding adds nothing */
+  const double J = (parting + left) / response * (1.0 + CAROM_ROUNDED_IMPULSE);
   tip->V -= of_cue * J;
   tip->impulse += kappa * J;
   cluster_add(flat, ball->v, J * inverse_mass, way);
-  cluster_add(false, ball->W, 2.5 * J * inverse_mass, arm);
+  cluster_add(false, ball->W, CAROM_SPHERE_TURN * J * inverse_mass, arm);
   cluster_add(flat, cluster->touch[tip->touch].P, J, way);
 }
 
@@ -601,7 +669,7 @@ static inline double first_step(bool flat, const cluster_state *cluster) {
   double norm = 0.0;
   for (int index = 0; index < cluster->contacts; index++) {
     const contact_state *contact = &cluster->contact[index];
-    const double closing = contact->touched ? closing_of(flat, contact) : (double)0.0;
+    const double closing = contact->touched ? closing_of(flat, contact) : 0.0;
     if (closing > 0.0)
       norm += quickness(contact,
                         carom_cluster_compression(contact->stiffness, mobility(contact), closing));
@@ -613,7 +681,7 @@ static inline double first_step(bool flat, const cluster_state *cluster) {
 static inline double wait_of_first(bool flat, const contact_state *contact) {
   const passing pass = passing_of(flat, contact);
   if (!(pass.B < 0.0 && pass.discriminant > 0.0))
-    return (double)INFINITY;
+    return INFINITY;
   return carom_greater((-pass.B - sqrt(pass.discriminant)) / pass.A, 0.0);
 }
 
@@ -705,7 +773,7 @@ static inline bool solve(bool flat, cluster_state *cluster) {
     rub_all(flat, cluster, &pushed);
     end_step(flat, cluster, step, &pushed);
     tau += 0.5 * step;
-    step = step_of(balls ? norm : (double)0.0, cluster->steps);
+    step = step_of(balls ? norm : 0.0, cluster->steps);
     if (cluster->struck)
       step = step_to_touch(cluster, carom_lesser(step, strike_step(cluster)));
   }

@@ -5,6 +5,12 @@
  * d, which starts at minus its gap, the unit vector n from i to j, B = 1/m_i + 1/m_j, and the slip
  * u of the surface of i on that of j. With ' = d/dtau and W = R w:
  *
+ *        .---.   .---.         d   overlap: here below 0, minus the gap
+ *       '  i  ' '  j  '        n   from i to j
+ *       (  o--+-+> o  )        t   horizontal, across n (vectors.h)
+ *       .     . . n   .        f   friction along t and t x n
+ *        '---'   '---'
+ *
  *     d' = (v_i - v_j) . n
  *     K  = (4/3) E sqrt(R),  1/E = 1/E_i + 1/E_j,  1/R = 1/R_i + 1/R_j
  *          E_i the modulus of a ball, N/m^2
@@ -58,19 +64,20 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define CAROM_TOUCHING 1e-9       /* m: a ball that is nearer touches */
+/* m: a ball that is nearer touches, as places are rounded to less than that */
+#define CAROM_TOUCHING 1e-9
 #define CAROM_LEAST_OVERLAP 1e-15 /* m: of tip or slate where they touch anew */
 
 /* BETWEEN THE TWO, above: how free of the cloth a ball is by its height, m, and a contact of two
  * balls by the greater height and by the tilt. */
 static inline double carom_freedom_of_height(double height) {
   static const double full_height = 1e-3; /* m */
-  return height > 0.0 ? height / full_height : (double)0.0;
+  return height > 0.0 ? height / full_height : 0.0;
 }
 static inline double carom_freedom_of_balls(double height, double n_z) {
   static const double steep = 0.1;
   const double tilt = n_z / steep, freedom = carom_freedom_of_height(height) + tilt * tilt;
-  return freedom < 1.0 ? freedom : (double)1.0;
+  return freedom < 1.0 ? freedom : 1.0;
 }
 
 enum {
@@ -84,6 +91,7 @@ enum {
   CAROM_CLUSTER_STEPS_MOST = 4000 /* of a cluster, for each of a contact's duration */
 };
 
+/* A ball. Letters are the symbols above. */
 typedef struct carom_cluster_ball {
   double r[3], v[3], W[3];     /* W = R w, m/s */
   double radius, inverse_mass; /* m, 1/kg */
@@ -102,6 +110,7 @@ typedef struct carom_cluster_ball {
                                  friction and of the load */
 } carom_cluster_ball;
 
+/* A contact of balls i and j. */
 typedef struct carom_cluster_contact_state {
   carom_cluster_ball *ball_i, *ball_j;
   int8_t i, j;                          /* of these in ball[] */

@@ -21,38 +21,52 @@
 static const double reach = 2.0; /* of delta */
 static const double far = 5.0;   /* of delta: the reach, and as far as a ball gets in T; those
                                         that are farther apart meet later */
-static const double least_restitution = 0.2;
+static const double least_restitution = 0.2; /* below it unloading would take too short steps */
+static const double least_reach = 1e-3;      /* of delta: where even this has too many contacts */
 
-/* x^(1/5) for x >= 0, by the same operations everywhere: a fifth of the exponent, then Newton's
+/* The factor of Hertz's contact: delta^2.5 = 5/4 v^2/(K B). */
+#define CAROM_HERTZ_DEPTH 1.25
+/* Smaller numbers count as 0: their fifth roots are below those of any contact. */
+#define CAROM_LEAST_POWER 1e-300
+
+/* square^(1/5) for square >= 0, by the same operations everywhere: a fifth of the exponent, then Newton's
  * method. */
 static double fifth_root(double square) {
-  if (!(square > 1e-300))
+  if (!(square > CAROM_LEAST_POWER))
     return 0.0;
+
+  /* a first guess, good to some percent: the exponent and the mantissa by 5 */
   uint64_t bits;
   memcpy(&bits, &square, sizeof bits);
   bits = bits / 5 + 0x3326666666666666u; /* 4/5 of the bits of 1 */
   double root = 0.0;
   memcpy(&root, &bits, sizeof bits);
+
+  /* Newton's method for root^5 = square */
   for (int iteration = 0; iteration < 5; iteration++) {
     const double root2 = root * root;
-    root = 0.2 * (4.0 * root + square / (root2 * root2));
+    root = (1.0 / 5.0) * (4.0 * root + square / (root2 * root2));
   }
   return root;
 }
 
+/* delta = (5 v^2/(4 K B))^0.4, by the fifth root of the square. */
 double carom_cluster_compression(double stiffness, double mobility, double closing) {
-  const double ratio = 1.25 * closing * closing / (stiffness * mobility);
+  const double ratio = CAROM_HERTZ_DEPTH * closing * closing / (stiffness * mobility);
   return fifth_root(ratio * ratio);
 }
 
+/* T sqrt(delta) of a contact without losses, which does not depend on how fast it closes: T = 2.943
+ * delta/v, and v = delta^1.25 sqrt(4 K B/5). */
 static double pace_of(double stiffness, double mobility) {
-  return CAROM_HERTZ_DURATION * sqrt(1.25 / (stiffness * mobility));
+  return CAROM_HERTZ_DURATION * sqrt(CAROM_HERTZ_DEPTH / (stiffness * mobility));
 }
 
 double carom_cluster_duration(double pace, double size) {
   return pace / sqrt(sqrt(size));
 }
 
+/* K of two balls. */
 static double stiffness(const carom_cluster_ball *ball_i, const carom_cluster_ball *ball_j) {
   const double modulus = 1.0 / (1.0 / ball_i->modulus + 1.0 / ball_j->modulus);
   return 4.0 / 3.0 * modulus *
@@ -131,16 +145,20 @@ static void follow(const carom_cluster_state *cluster, const first_contact *firs
   CAROM_PROMISE(found <= cluster->balls);
 }
 
+/* Above the cloth, m. */
 static double height_of(const carom_cluster_ball *ball) {
-  return ball->flies ? ball->r[2] - ball->radius : (double)0.0;
+  return ball->flies ? ball->r[2] - ball->radius : 0.0;
 }
 
+/* Begins contact[] of balls i < j. */
 static void make_contact(carom_cluster_state *cluster, int i, int j, const two_balls *two,
                          carom_cluster_contact_state *contact) {
   carom_cluster_ball *ball_i = &cluster->ball[i], *ball_j = &cluster->ball[j];
   const double restitution = 0.5 * (ball_i->restitution + ball_j->restitution);
   CAROM_PROMISE(i < j && j < cluster->balls);
   memset(contact, 0, sizeof *contact);
+
+  /* its balls, and where they are */
   contact->ball_i = ball_i;
   contact->ball_j = ball_j;
   contact->i = (int8_t)i;
@@ -148,13 +166,15 @@ static void make_contact(carom_cluster_state *cluster, int i, int j, const two_b
   contact->touched = two->gap < CAROM_TOUCHING;
   contact->offset = contact->touched ? 0.0 : -two->gap;
   memcpy(contact->n, two->n, sizeof contact->n);
+
+  /* its law */
   contact->stiffness = stiffness(ball_i, ball_j);
   contact->restitution = restitution > least_restitution ? restitution : least_restitution;
   /* unloading has K/e^3 over e^2 of the overlap, and so lasts e times as long as loading */
   const double pace = contact->restitution *
                       pace_of(contact->stiffness, ball_i->inverse_mass + ball_j->inverse_mass);
   contact->quick = 1.0 / (pace * pace * (pace * pace));
-  contact->time = -1.0;
+  contact->time = -1.0; /* not touched yet */
   const double height = carom_greater(height_of(ball_i), height_of(ball_j));
   contact->tilted = contact->freedom = carom_freedom_of_balls(height, two->n[2]);
 }
@@ -190,7 +210,7 @@ static int keep(carom_cluster_state *cluster, const first_contact *first,
   /* small balls around a large one may have more neighbours than there is room for: then only
    * the nearest */
   int count = -1;
-  for (double limit = far; count < 0 && limit > 1e-3; limit *= 0.5)
+  for (double limit = far; count < 0 && limit > least_reach; limit *= 0.5)
     count = list_contacts(cluster, first, limit);
   cluster->contacts = count > 0 ? count : 0;
   return count;

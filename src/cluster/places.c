@@ -12,6 +12,14 @@
  *
  *     r' = r - sum over k of dv_k t_k,
  *
+ *      place |                  _.-
+ *            |              _.-'       r' + v' t, of a ball at rest before
+ *          r +----------+.-'
+ *            |      _.-'|
+ *         r' +__.-'     |
+ *            +----------+------------- tau
+ *            0         t_k
+ *
  * so that r' + v' t is where it would have been. Balls that touch from the start have D = 0 and do
  * not move; where a gap is so wide that its contact begins as the one before ends, r' + v' t_k is
  * the place of the second of two events in turn. What slate and cloth give counts at t = 0, as in
@@ -62,7 +70,7 @@ static void impulse_of(const carom_cluster_state *cluster, const carom_cluster_t
                        double P[3]) {
   const bool flat = !cluster->in_space;
   for (int axis = 0; axis < 3; axis++)
-    P[axis] = touch->contact < 0 ? touch->P[axis] : (double)0.0;
+    P[axis] = touch->contact < 0 ? touch->P[axis] : 0.0;
   if (touch->contact < 0)
     return;
   const carom_cluster_contact_state *contact = &cluster->contact[touch->contact];
@@ -88,6 +96,8 @@ static void add(const carom_cluster_state *cluster, const carom_cluster_touch *t
     balls[0] = cluster->contact[touch->contact].i;
     balls[1] = cluster->contact[touch->contact].j;
   }
+
+  /* P on the first ball, or on the one that the tip strikes, and -P on the second one */
   double P[3];
   impulse_of(cluster, touch, P);
   for (int side = 0; side < 2 && balls[side] >= 0; side++) {
@@ -109,7 +119,8 @@ static void begin(const carom_cluster_state *cluster, changes *sum) {
     add(cluster, &cluster->touch[index], -1.0, 0.0, sum);
 }
 
-/* The instant of a touch of two balls. */
+/* The instant t_k of a touch of two balls: where the way that is left of D_k, at the velocities after
+ * the touches before, ends. */
 static double instant_of(const carom_cluster_state *cluster, const carom_cluster_touch *touch,
                          const changes *sum) {
   const carom_cluster_contact_state *contact = &cluster->contact[touch->contact];
@@ -153,7 +164,7 @@ void carom_cluster_find_places(carom_cluster_state *cluster) {
           touch->time - carom_linear_lag(cluster->tip.duration, cluster->tip.restitution), 0.0);
     } else {
       instant = instant_of(cluster, touch, &sum);
-      cluster->tip.delay += cluster->struck ? delay_of(cluster, touch) : (double)0.0;
+      cluster->tip.delay += cluster->struck ? delay_of(cluster, touch) : 0.0;
     }
     add(cluster, touch, 1.0, instant, &sum);
   }
@@ -162,17 +173,18 @@ void carom_cluster_find_places(carom_cluster_state *cluster) {
     for (int axis = 0; axis < 3; axis++)
       ball->shift[axis] = -sum.moment[index][axis];
     /* one on the slate starts from there, and none from below it */
-    ball->shift[2] =
-        ball->flies ? carom_greater(ball->shift[2], ball->radius - ball->r[2]) : (double)0.0;
+    ball->shift[2] = ball->flies ? carom_greater(ball->shift[2], ball->radius - ball->r[2]) : 0.0;
   }
 }
 
 double carom_cluster_tip_lead(const carom_cluster_state *cluster) {
   const carom_cluster_tip *tip = &cluster->tip;
   const carom_cluster_ball *ball = &cluster->ball[tip->ball];
+
+  /* t_m: less by the lag of the centroid, as far as the ball moves by the push */
   const double by_tip = tip->impulse * ball->inverse_mass,
                ahead = cluster_dot(false, ball->v0, tip->axis);
-  const double share = ahead > 0.0 ? by_tip / (by_tip + ahead) : (double)1.0;
+  const double share = ahead > 0.0 ? by_tip / (by_tip + ahead) : 1.0;
   const double late = cluster->duration - carom_linear_lag(tip->duration, tip->restitution) * share;
   double place[3]; /* of the ball from where it starts on, against where it is */
   for (int axis = 0; axis < 3; axis++)
@@ -181,12 +193,12 @@ double carom_cluster_tip_lead(const carom_cluster_state *cluster) {
 }
 
 double carom_cluster_separation(const carom_cluster_state *cluster) {
-  static const double overlap = 2e-3; /* of the largest impulse */
+  static const double overlap = 2e-3; /* a 500th of the largest impulse */
   if (cluster->struck || cluster->balls > CAROM_CLUSTER_IN_TURN)
     return 0.0;
   double most = 0.0;
   for (int index = 0; index < cluster->contacts; index++)
     most = carom_greater(most, cluster->contact[index].impulse);
   const double left = 1.0 - cluster->shared / (overlap * most);
-  return left > 0.0 ? left * left : (double)0.0;
+  return left > 0.0 ? left * left : 0.0;
 }

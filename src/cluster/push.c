@@ -1,25 +1,46 @@
-/* The tip of a cue as a contact of a cluster: directions, arm and stiffness; tip.h has the law. */
+/* The tip of a cue as a contact of a cluster: directions, arm and stiffness; tip.h has the law.
+ *
+ * The place p of a touch has the offsets a to the left of the axis c and b above it, in radii R:
+ *
+ *          above
+ *            ^        .-''''-.           seen along c, which points away from the reader
+ *            |      .'   a    '.
+ *   left <---+     /  p----+    \        p   a left + b above - sqrt(1 - a^2 - b^2) c
+ *                 |        | b   |       q   p x c/R = b left - a above, the arm of the push
+ *                 |        o     |
+ *                  \            /
+ *                   '.        .'
+ *                     '-....-'
+ *
+ * Squirt (motion/strike.h): the end mass m_e of the cue follows the side of the ball, so
+ *
+ *     c' = ((1 + m/m_e + 5/2 (1 - a^2)) c - 5/2 a sqrt(1 - a^2) left), made a unit vector. */
 #include "cluster/cluster.h"
 #include "cluster/cue.h"
 #include "cluster/tip.h"
 #include "cluster/vectors.h"
+#include "motion/sphere.h"
 
 #include <math.h>
 #include <string.h>
 
 static const double least_tip_restitution = 0.05; /* a tip that gives nothing back parts at once */
 
+/* The places of the numbers of a cue in cue[], which are in the order of carom_cue. */
+enum { SPEED, PHI, THETA, OFFSET_A, OFFSET_B, MASS, END_MASS, RESTITUTION };
+
 void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double cue[8],
                           double duration) {
   carom_cluster_tip *tip = &cluster->tip;
   memset(tip, 0, sizeof *tip);
-  const double a = cue[3], b = cue[4], inverse = cluster->ball[struck].inverse_mass;
-  const double ratio = 1.0 / (inverse * cue[6]), inside = 1.0 - a * a;
+  const double a = cue[OFFSET_A], b = cue[OFFSET_B], inverse = cluster->ball[struck].inverse_mass;
+  const double ratio = 1.0 / (inverse * cue[END_MASS]), inside = 1.0 - a * a;
   double cue_axis[3], left[3], above[3];
-  carom_cue_axes(cue[1], cue[2], cue_axis, left, above);
+  carom_cue_axes(cue[PHI], cue[THETA], cue_axis, left, above);
 
-  /* squirt turns the push, motion/strike.h; the arm p x c / R */
-  const double aside = -2.5 * a * sqrt(inside), ahead = 1.0 + ratio + 2.5 * inside;
+  /* the direction of the push, which squirt turns, and its arm */
+  const double aside = -CAROM_SPHERE_TURN * a * sqrt(inside),
+               ahead = 1.0 + ratio + CAROM_SPHERE_TURN * inside;
   const double size = sqrt(aside * aside + ahead * ahead);
   for (int axis = 0; axis < 3; axis++) {
     tip->along[axis] = (ahead * cue_axis[axis] + aside * left[axis]) / size;
@@ -27,18 +48,21 @@ void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double
     tip->axis[axis] = cue_axis[axis];
   }
 
+  /* the cue as a body */
   tip->ball = struck;
-  tip->inverse_mass = 1.0 / cue[5];
-  tip->V = cue[0];
+  tip->inverse_mass = 1.0 / cue[MASS];
+  tip->V = cue[SPEED];
   tip->duration = duration;
   /* a restitution of 0 stands for 1, and keeps its derivatives */
   tip->restitution = least_tip_restitution;
-  if (cue[7] > least_tip_restitution)
-    tip->restitution = cue[7];
-  else if (cue[7] == 0.0)
-    tip->restitution = 1.0 + cue[7];
+  if (cue[RESTITUTION] > least_tip_restitution)
+    tip->restitution = cue[RESTITUTION];
+  else if (cue[RESTITUTION] == 0.0)
+    tip->restitution = 1.0 + cue[RESTITUTION];
+
+  /* the stiffness by the duration against 1/M + (1 + 5/2 |q|^2)/m; the speed at which it closes */
   tip->stiffness = carom_linear_stiffness(duration, tip->restitution) /
-                   (tip->inverse_mass + (1.0 + 2.5 * (a * a + b * b)) * inverse);
+                   (tip->inverse_mass + (1.0 + CAROM_SPHERE_TURN * (a * a + b * b)) * inverse);
   tip->first = tip->V - cluster_dot(false, cluster->ball[struck].v, tip->along) -
                cluster_dot(false, cluster->ball[struck].W, tip->arm);
 }
@@ -46,13 +70,16 @@ void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double
 void carom_cluster_tip_slides(carom_cluster_state *cluster, const double cue[8], double mu) {
   carom_cluster_tip *tip = &cluster->tip;
   double left[3], above[3];
-  carom_cue_axes(cue[1], cue[2], tip->axis, left, above);
+  carom_cue_axes(cue[PHI], cue[THETA], tip->axis, left, above);
   tip->slides = true;
   tip->mu = mu;
-  tip->end = 1.0 / cue[6];
-  tip->kappa = sqrt(1.0 - cue[3] * cue[3] - cue[4] * cue[4]);
+  tip->end = 1.0 / cue[END_MASS];
+
+  /* from the place of the touch to the centre */
+  tip->kappa = sqrt(1.0 - cue[OFFSET_A] * cue[OFFSET_A] - cue[OFFSET_B] * cue[OFFSET_B]);
   for (int axis = 0; axis < 3; axis++)
-    tip->n[axis] = tip->kappa * tip->axis[axis] - cue[3] * left[axis] - cue[4] * above[axis];
+    tip->n[axis] =
+        tip->kappa * tip->axis[axis] - cue[OFFSET_A] * left[axis] - cue[OFFSET_B] * above[axis];
   for (int axis = 0; axis < 3; axis++)
     tip->place[axis] = -tip->n[axis];
   tip->first = tip_closing(tip, &cluster->ball[tip->ball]);
@@ -61,8 +88,9 @@ void carom_cluster_tip_slides(carom_cluster_state *cluster, const double cue[8],
 void carom_cluster_push_alone(carom_cluster_state *cluster) {
   carom_cluster_tip *tip = &cluster->tip;
   carom_cluster_ball *ball = &cluster->ball[tip->ball];
+  /* the impulse takes the closing speed, and e of it again */
   const double arm2 = cluster_dot(false, tip->arm, tip->arm);
-  const double mobility = tip->inverse_mass + (1.0 + 2.5 * arm2) * ball->inverse_mass;
+  const double mobility = tip->inverse_mass + (1.0 + CAROM_SPHERE_TURN * arm2) * ball->inverse_mass;
   tip->J = tip->impulse = (1.0 + tip->restitution) * tip->first / mobility;
   tip->touches = 1;
   tip->last = tip->duration;
@@ -76,10 +104,12 @@ void carom_cluster_push_alone(carom_cluster_state *cluster) {
     ball->s[axis] = tip->duration * ball->v[axis];
     ball->shift[axis] = 0.0;
   }
+
+  /* the impulse, as if all of it had come at its centroid */
   cluster_add(!cluster->in_space, ball->s, rest * tip->J * ball->inverse_mass, tip->along);
   tip->V -= tip->J * tip->inverse_mass;
   cluster_add(!cluster->in_space, ball->v, tip->J * ball->inverse_mass, tip->along);
-  cluster_add(false, ball->W, 2.5 * tip->J * ball->inverse_mass, tip->arm);
+  cluster_add(false, ball->W, CAROM_SPHERE_TURN * tip->J * ball->inverse_mass, tip->arm);
 }
 
 void carom_cluster_put_on_slate(carom_cluster_state *cluster) {

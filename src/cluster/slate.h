@@ -11,6 +11,7 @@
 
 #include "carom_shot.h"
 #include "cluster/tip.h"
+#include "motion/sphere.h"
 
 /* Half a step of the overlaps of all, and their impulses; whether one acts. */
 static inline bool slate_acts(carom_cluster_state *cluster, double step) {
@@ -18,12 +19,16 @@ static inline bool slate_acts(carom_cluster_state *cluster, double step) {
   for (int index = 0; index < cluster->balls; index++) {
     carom_cluster_slate *slate = &cluster->slate[index];
     const carom_cluster_ball *ball = &cluster->ball[index];
+
+    /* half a step, by the speed at which it begins */
     slate->J = 0.0;
     slate->closing = -ball->v[2];
     slate->overlap += 0.5 * step * slate->closing;
     if (slate->overlap <= 0.0 || !(slate->restitution > 0.0))
       continue;
-    const double stiff = carom_linear_stiffness((double)CAROM_SLATE_TIME, slate->restitution);
+
+    /* the force of a unit of mass, on the mass of the ball */
+    const double stiff = carom_linear_stiffness(CAROM_SLATE_TIME, slate->restitution);
     slate->J = step *
                carom_linear_force(stiff, slate->restitution, slate->overlap, &slate->overlap_max) /
                ball->inverse_mass;
@@ -42,9 +47,10 @@ static inline double share_of_tip(const carom_cluster_state *cluster, int i, int
   const double down = -tip_upward(tip) * tip->J;
   if (!(down > 0.0))
     return 0.0;
-  return down < most ? down / most : (double)1.0;
+  return down < most ? down / most : 1.0;
 }
 
+/* The other half of a step, after which contacts may be open. */
 static inline void slate_parts(carom_cluster_state *cluster, double step) {
   for (int index = 0; index < cluster->balls; index++) {
     carom_cluster_slate *slate = &cluster->slate[index];
@@ -64,24 +70,29 @@ static inline double wait_of_slate(const carom_cluster_state *cluster, int ball)
   const double down = -cluster->ball[ball].v[2];
   const bool comes =
       slate->restitution > 0.0 && slate->overlap <= 0.0 && down > too_slow * cluster->tip.first;
-  return comes ? -slate->overlap / down : (double)INFINITY;
+  return comes ? -slate->overlap / down : INFINITY;
 }
 
+/* A wait of the push, in which nothing acts; `touches` at its end. */
 static inline void slate_waits(carom_cluster_slate *slate, double down, double wait, bool touches) {
-  slate->overlap = touches ? (double)CAROM_LEAST_OVERLAP : slate->overlap + wait * down;
+  slate->overlap = touches ? CAROM_LEAST_OVERLAP : slate->overlap + wait * down;
   slate->overlap_max = carom_set_left(slate->restitution, slate->overlap, slate->overlap_max);
 }
 
-/* The speed upwards at which the slate lets a ball go that moves at v_z, as a step of h begins, if
+/* The speed upwards at which the slate lets a ball go that moves at v_z, as a step begins, if
  * nothing else acts: by the energy that is stored along the branch it is on. */
 static inline double slate_releases(const carom_cluster_slate *slate, double v_z, double step) {
   const double overlap = slate->overlap - 0.5 * step * slate->closing;
   if (!(overlap > 0.0 && slate->restitution > 0.0))
     return v_z;
-  const double stiffness = carom_linear_stiffness((double)CAROM_SLATE_TIME, slate->restitution),
+  const double stiffness = carom_linear_stiffness(CAROM_SLATE_TIME, slate->restitution),
                returned = slate->restitution * slate->restitution;
+
+  /* it loads: all of this energy and of the speed comes back by e^2 */
   if (overlap >= slate->overlap_max && v_z < 0.0)
     return slate->restitution * sqrt(stiffness * overlap * overlap + v_z * v_z);
+
+  /* it unloads, from d_max: the energy without what the set has lost */
   const double top = carom_greater(overlap, slate->overlap_max),
                elastic = carom_greater(overlap - (1.0 - returned) * top, 0.0);
   const double square = v_z * v_z + stiffness / returned * elastic * elastic,
@@ -91,26 +102,30 @@ static inline double slate_releases(const carom_cluster_slate *slate, double v_z
   return elastic > 0.0 || v_z < 0.0 ? sqrt(square) : v_z;
 }
 
-/* Lets all balls go at once, before a step of h; the cloth rubs their feet meanwhile. */
+/* Lets all balls go at once, before a step; the cloth rubs their feet meanwhile. */
 static inline void slate_lets_go(carom_cluster_state *cluster, double step) {
   for (int index = 0; index < cluster->balls; index++) {
     carom_cluster_slate *slate = &cluster->slate[index];
     carom_cluster_ball *ball = &cluster->ball[index];
     if (!(slate->overlap > 0.0 && slate->restitution > 0.0))
       continue;
+
+    /* the rest of the impulse, in place of that of this step */
     const double up = slate_releases(slate, ball->v[2], step), gain = up - ball->v[2];
     ball->v[2] = up;
     slate->impulse += gain / ball->inverse_mass - slate->J;
     slate->overlap = slate->overlap_max = slate->J = 0.0;
+
+    /* friction against the slip of the foot, which it stops at most */
     const double slip_x = ball->v[0] - ball->W[1], slip_y = ball->v[1] + ball->W[0],
                  slip = sqrt(slip_x * slip_x + slip_y * slip_y);
-    const double friction = carom_lesser(ball->mu_slide * gain, slip / 3.5);
+    const double friction = carom_lesser(ball->mu_slide * gain, slip / CAROM_SPHERE_SLIP);
     if (!(friction > 0.0))
       continue;
     ball->v[0] -= friction * slip_x / slip;
     ball->v[1] -= friction * slip_y / slip;
-    ball->W[0] -= 2.5 * friction * slip_y / slip;
-    ball->W[1] += 2.5 * friction * slip_x / slip;
+    ball->W[0] -= CAROM_SPHERE_TURN * friction * slip_y / slip;
+    ball->W[1] += CAROM_SPHERE_TURN * friction * slip_x / slip;
   }
 }
 

@@ -10,6 +10,15 @@
  *     F = k/e^2 (delta - (1 - e^2) delta_max), or 0      below it
  *     M V' = -F      m v' = F c'      (2/5) m W' = F q
  *
+ *           cue, M     delta = int V dt - the way of the touched place along c'
+ *     ================>.-'''-.
+ *           c -->    .'p      '.          p    from the centre to the touch, |p| = R
+ *                   /   '.      \         q    p x c / R: into the page for a touch above
+ *                   |     'o    |              the centre
+ *                   \           /
+ *                    '.       .'
+ *                      '-...-'
+ *
  * so e^2 of the work comes back. k is that of a contact which lasts T with the ball alone:
  *
  *     T = pi/2 (1 + e) sqrt(m_e / k),     1/m_e = 1/M + (1 + 5/2 |q|^2)/m.
@@ -29,6 +38,12 @@
  *     u = r - delta' c, across n;  f stops it in a step, or is mu N
  *     M V' = -P . c      m_e y' = -(P - (P . c) c)      m v' = P      (2/5) m W' = p x P
  *
+ *     c -->  ======\ m_e        n     from the touch to the centre, |n| = 1
+ *                   \.-'''-.   kappa  n . c: 1 where the axis meets the centre
+ *                  .'  '.   '.  y     of the end m_e, across c, which the shaft holds
+ *                 /      'n   \        where it would be drawn into the ball
+ *                 |        'o |
+ *
  * and mu = a/sqrt(1 - a^2), a the offset of a miscue. The power P . r is that of the spring and of
  * friction. A tip that does not slide has r = delta' c, as the first touch has it, whose push goes
  * along c' too. Where friction holds back as much as it pushes, N is at most 2 k delta/kappa: the
@@ -42,15 +57,23 @@
 #include "carom_shot.h"
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
+#include "motion/sphere.h"
 #include "platform/ranges.h"
 
 /* Steps of the duration of tip or slate, for each of a contact of balls: 200 by default, which are
  * 5 us of a leather tip, with errors of 2e-4, and 9e-4 at most. Fewer are not taken. */
 enum { CAROM_TIP_STEPS = 200, CAROM_TIP_STEPS_EACH = 8 };
+/* Iterations for the impulse that stands for the bounces of the end: one where it slips or sticks
+ * throughout, further ones where the slip ends. */
+enum { CAROM_TIP_ITERATIONS = 3 };
 static const double too_slow = 1e-9;   /* of the speed of the cue: contacts that close slower are
                                         none */
 static const double least_kappa = 0.1; /* a tip that slides past it misses */
 
+/* The part of kappa that friction leaves at least, where it holds back; N is 1 over it at most. */
+#define CAROM_LEAST_PUSH 0.5
+
+/* delta': the speed at which the tip closes. */
 static inline double tip_closing(const carom_cluster_tip *tip, const carom_cluster_ball *ball) {
   if (tip->slides)
     return tip->V +
@@ -64,7 +87,8 @@ static inline double tip_upward(const carom_cluster_tip *tip) {
   return tip->slides ? tip->n[2] / tip->kappa : tip->along[2];
 }
 
-/* The longest step that suits a contact of tip or slate: unloading is shorter than loading by e. */
+/* The longest step that suits a contact of tip or slate that lasts so long: unloading, which takes
+ * e/(1 + e) of the duration, has half as many steps. */
 static inline double push_step(const carom_cluster_state *cluster, double duration,
                                double restitution) {
   const double steps =
@@ -83,8 +107,14 @@ static inline double step_to_touch(const carom_cluster_state *cluster, double st
   return closing > 0.0 ? carom_lesser(step, free_step - tip->overlap / closing) : step;
 }
 
-/* FURTHER TOUCH: the impulse P of which J is the part along the axis. With g = 1/m_e + 1/m, u after
- * a step is u0 - (1/m_e + 7/2/m) f + g (N/kappa) c_t, c_t the part of c across n. */
+/* FURTHER TOUCH: the impulse P of which J is the part along the axis. With c_t the part of c across
+ * n (`aside`), A = 1/m_e + 7/2/m (`across`) and g = 1/m_e + 1/m, the slip after a step is
+ *
+ *     u = u0 - A f + g (N/kappa) c_t,     N = (J - f . c_t)/kappa.
+ *
+ * So f = u0/A + share c_t stops it, with G = g/kappa^2 (`gain`) and
+ *
+ *     share = G (J - u0 . c_t/A) / (A + G c_t . c_t). */
 static inline void slide(const carom_cluster_tip *tip, const carom_cluster_ball *ball,
                          double P[3]) {
   const double *normal = tip->n, *cue_axis = tip->axis, kappa = tip->kappa;
@@ -92,8 +122,9 @@ static inline void slide(const carom_cluster_tip *tip, const carom_cluster_ball 
                turn[3] = {ball->W[2] * normal[1] - ball->W[1] * normal[2],
                           ball->W[0] * normal[2] - ball->W[2] * normal[0],
                           ball->W[1] * normal[0] - ball->W[0] * normal[1]};
-  double velocity[3], slip[3], aside[3],
-      friction[3]; /* v of the ball against the end; aside: c_t */
+
+  /* the slip u0 as the step begins: the end against the ball, less delta' c */
+  double velocity[3], slip[3], aside[3], friction[3];
   cluster_minus(false, ball->v, tip->y, velocity);
   const double closing = cluster_dot(false, velocity, normal) / kappa;
   for (int axis = 0; axis < 3; axis++) {
@@ -102,7 +133,7 @@ static inline void slide(const carom_cluster_tip *tip, const carom_cluster_ball 
   }
 
   /* the friction that stops the slip: along c_t it counts more, as N does too */
-  const double across = tip->end + 3.5 * inverse_mass,
+  const double across = tip->end + CAROM_SPHERE_SLIP * inverse_mass,
                gain = (inverse_mass + tip->end) / (kappa * kappa);
   const double share = gain * (tip->J - cluster_dot(false, slip, aside) / across) /
                        (across + gain * cluster_dot(false, aside, aside));
@@ -112,10 +143,10 @@ static inline void slide(const carom_cluster_tip *tip, const carom_cluster_ball 
                size = sqrt(cluster_dot(false, friction, friction));
   double N = (tip->J - friction_along) / kappa;
 
-  /* or as large as N lets it be */
+  /* or as large as N lets it be: P . c = N (kappa + mu part) is J, unless the tip wedges */
   if (size > 0.0 && !(size <= tip->mu * N)) {
     const double part = friction_along / size, push = kappa + tip->mu * part;
-    const bool wedges = push < 0.5 * kappa;
+    const bool wedges = push < CAROM_LEAST_PUSH * kappa;
     N = wedges ? 2.0 * tip->J / kappa : tip->J / push;
     const double rub = wedges ? -tip->J / part : tip->mu * N;
     for (int axis = 0; axis < 3; axis++)
@@ -125,10 +156,12 @@ static inline void slide(const carom_cluster_tip *tip, const carom_cluster_ball 
     P[axis] = N * normal[axis] + friction[axis];
 }
 
-/* The end mass after an impulse -P: it gives way, and is not drawn into the ball. */
+/* The end mass after an impulse -P: it gives way across c, and is not drawn into the ball. */
 static inline void end_gives_way(carom_cluster_tip *tip, const double P[3]) {
   cluster_add(false, tip->y, -tip->end, P);
   cluster_add(false, tip->y, tip->end * tip->J, tip->axis);
+
+  /* the shaft takes what leads inward, across c: n - kappa c, of the square 1 - kappa^2 */
   const double inward = cluster_dot(false, tip->y, tip->n), across = 1.0 - tip->kappa * tip->kappa;
   if (!(inward > 0.0 && across > 0.0))
     return;
@@ -144,7 +177,7 @@ static inline void slide_on(carom_cluster_state *cluster, const double P[3]) {
   double turn[3];
   carom_cross(P, normal, turn);
   cluster_add(!cluster->in_space, ball->v, inverse_mass, P);
-  cluster_add(false, ball->W, 2.5 * inverse_mass, turn);
+  cluster_add(false, ball->W, CAROM_SPHERE_TURN * inverse_mass, turn);
   cluster_add(false, cluster->touch[tip->touch].P, 1.0, P);
 }
 
@@ -162,10 +195,12 @@ static inline void tip_push(bool flat, carom_cluster_state *cluster) {
     slide_on(cluster, P);
     return;
   }
+
+  /* a first touch: along c' and by the arm; on the cloth the part downwards is lost */
   const double gain = tip->J * ball->inverse_mass;
   cluster_add(flat, ball->v, gain, tip->along);
   tip->lost += flat ? gain * tip->along[2] : 0.0;
-  cluster_add(false, ball->W, 2.5 * gain, tip->arm);
+  cluster_add(false, ball->W, CAROM_SPHERE_TURN * gain, tip->arm);
   cluster_add(false, cluster->touch[tip->touch].P, tip->J, tip->along);
 }
 
@@ -176,6 +211,8 @@ static inline void end_springs_back(carom_cluster_state *cluster) {
   carom_cluster_tip *tip = &cluster->tip;
   const carom_cluster_ball *ball = &cluster->ball[tip->ball];
   double normal[3], P[3];
+
+  /* n from where the tip has slid to; past the side of the ball it misses */
   for (int axis = 0; axis < 3; axis++) {
     tip->y[axis] = 0.0;
     normal[axis] =
@@ -197,11 +234,13 @@ static inline void end_springs_back(carom_cluster_state *cluster) {
     return;
   tip->end = 0.0;
   tip->J = closing / (tip->inverse_mass + inverse_mass / (kappa * kappa));
-  for (int iteration = 0; iteration < 3; iteration++) {
+  for (int iteration = 0; iteration < CAROM_TIP_ITERATIONS; iteration++) {
     slide(tip, ball, P);
     tip->J *= closing / (tip->J * tip->inverse_mass +
                          inverse_mass * cluster_dot(!cluster->in_space, P, tip->n) / kappa);
   }
+
+  /* given at once */
   slide(tip, ball, P);
   tip->end = end;
   tip->V -= tip->J * tip->inverse_mass;
@@ -214,19 +253,25 @@ static inline void end_springs_back(carom_cluster_state *cluster) {
 static inline bool tip_acts(carom_cluster_state *cluster, double step, double tau) {
   carom_cluster_tip *tip = &cluster->tip;
   const bool pressed = tip->J > 0.0;
+
+  /* half a step, by the speed at which it begins */
   tip->J = 0.0;
   tip->closing = tip_closing(tip, &cluster->ball[tip->ball]);
   tip->overlap += 0.5 * step * tip->closing;
   tip->travel += 0.5 * step * tip->V;
   if (tip->overlap <= 0.0 || tip->gone)
     return false;
-  if (tip->overlap_max == 0.0) { /* it touches */
+
+  /* it touches */
+  if (tip->overlap_max == 0.0) {
     tip->touch =
         carom_cluster_begin_touch(cluster, -1, tip->touches > 0 ? tip->touch : -1, tau, 0.0);
     tip->touches++;
     if (tip->touches == 2)
       tip->second = tip->closing;
   }
+
+  /* the impulse of the step */
   tip->J =
       step * carom_linear_force(tip->stiffness, tip->restitution, tip->overlap, &tip->overlap_max);
   tip->impulse += tip->J;
@@ -262,8 +307,7 @@ static inline void tip_parts(carom_cluster_state *cluster, double step) {
 /* A wait of the push, in which nothing acts; `touches` at its end. */
 static inline void tip_waits(carom_cluster_tip *tip, const carom_cluster_ball *ball, double wait,
                              bool touches) {
-  tip->overlap =
-      touches ? (double)CAROM_LEAST_OVERLAP : tip->overlap + wait * tip_closing(tip, ball);
+  tip->overlap = touches ? CAROM_LEAST_OVERLAP : tip->overlap + wait * tip_closing(tip, ball);
   tip->travel += wait * tip->V;
   tip_recovers(tip);
 }
@@ -275,7 +319,7 @@ static inline double wait_of_tip(const carom_cluster_state *cluster) {
   if (tip->gone || tip->overlap > 0.0 || !(closing > too_slow * tip->first))
     return INFINITY;
   const double wait = -tip->overlap / closing;
-  return wait * tip->V <= tip->reach ? wait : (double)INFINITY;
+  return wait * tip->V <= tip->reach ? wait : INFINITY;
 }
 
 #endif

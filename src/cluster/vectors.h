@@ -19,7 +19,7 @@ static inline void cluster_minus(bool flat, const double a[3], const double b[3]
   out[2] = flat ? 0.0 : a[2] - b[2];
 }
 
-/* a += x b */
+/* sum += factor term */
 static inline void cluster_add(bool flat, double sum[3], double factor, const double term[3]) {
   sum[0] += factor * term[0];
   sum[1] += factor * term[1];
@@ -27,12 +27,21 @@ static inline void cluster_add(bool flat, double sum[3], double factor, const do
     sum[2] += factor * term[2];
 }
 
-/* Two unit vectors across n and each other: t, horizontal, or along n x e_x where n is nearly
- * upright, and t x n, which is up on the cloth. */
+/* Two unit vectors across the normal n and each other: the tangent t, horizontal, or along n x e_x
+ * where n is nearly upright, and the third one, t x n, which is up on the cloth.
+ *
+ *      third ^   from above, t is to the right of n
+ *            |
+ *            o-----> n
+ *           /
+ *          t
+ *
+ * n is nearly upright where its horizontal part is below 0.1, as rounding would turn t there. */
+#define CAROM_NEARLY_UPRIGHT 0.1
 static inline void cluster_across(bool flat, const double normal[3], double tangent[3],
                                   double third[3]) {
   const double level = flat ? 1.0 : carom_plane_size(normal);
-  if (level >= 0.1) {
+  if (level >= CAROM_NEARLY_UPRIGHT) {
     const double size = flat ? 1.0 : 1.0 / level;
     tangent[0] = flat ? normal[1] : normal[1] * size;
     tangent[1] = flat ? -normal[0] : -normal[0] * size;

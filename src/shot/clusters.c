@@ -129,7 +129,7 @@ void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball
   const double first = carom_greater(since[0], since[1]);
   double time = first, gap = 0.0, closing = 0.0, normal[3];
   for (int iteration = 0; iteration <= ITERATIONS; iteration++) {
-    time = carom_greater(time + (iteration > 0 ? gap / closing : (double)0.0), first);
+    time = carom_greater(time + (iteration > 0 ? gap / closing : 0.0), first);
     for (int side = 0; side < 2; side++)
       carom_path_at(&path[side], &rates[side], time, &now[side]);
     carom_line_of_centres(kind[0], &now[0], kind[1], &now[1], normal);
@@ -168,7 +168,7 @@ double carom_share_in_turn(double before, double touched, double started) {
   const double most = (1.0 - rounding) * before;
   if (!(started > most))
     return 1.0;
-  return touched < most ? (most - touched) / (started - touched) : (double)0.0;
+  return touched < most ? (most - touched) / (started - touched) : 0.0;
 }
 
 void carom_start_in_turn(const carom_ball_kind *kind, double since, double share,
@@ -252,7 +252,7 @@ static void pass_on(const carom_sim *sim, const carom_in_turn *turn, double shar
   for (int index = 0; index < cluster->contacts; index++) {
     carom_cluster_contact_state *contact = &cluster->contact[index];
     const double size = carom_cluster_size_of_impulse(contact);
-    const double factor = size > 0.0 ? 1.0 + share * (impulse[index] - size) / size : (double)1.0;
+    const double factor = size > 0.0 ? 1.0 + share * (impulse[index] - size) / size : 1.0;
     contact->impulse *= factor;
     contact->rubbed[0] *= factor;
     contact->rubbed[1] *= factor;
@@ -293,7 +293,7 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_in_turn *turn,
     return -1;
 
   int count = in_order(cluster, order);
-  const double share = count > 1 ? carom_cluster_separation(cluster) : (double)0.0;
+  const double share = count > 1 ? carom_cluster_separation(cluster) : 0.0;
   if (share > 0.0 && !turn->known) {
     note_touches(cluster, turn);
     return CAROM_TAKE_IN_TURN;

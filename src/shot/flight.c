@@ -147,7 +147,7 @@ static int cross_circle(const flight *track, const double centre[2], double radi
   if (track->bend > 0.0) {
     const carom_separation separation = {
         {x, y, 0.0}, {track->v[0], track->v[1], 0.0}, {track->a[0], track->a[1], 0.0}};
-    times[0] = c > 0.0 ? carom_first_crossing(&separation, radius, horizon) : (double)0.0;
+    times[0] = c > 0.0 ? carom_first_crossing(&separation, radius, horizon) : 0.0;
     if (!(times[0] <= horizon))
       return 0;
     const double soon = times[0] + 1e-9; /* s: inside, unless the track only grazes the circle */

@@ -6,6 +6,12 @@
  *
  *     |p| = R,   p = p0 + t V c - v t - a t^2
  *
+ *                           p
+ *      ======== c =======>  <----- o  ball, at v t + a t^2
+ *      |        |        |         R
+ *      |  along | V t    tip, now
+ *      where it struck
+ *
  * (gap.c). There it pushes as tip.h has it, with the (a, b) of p, and goes on at the speed that is
  * left. It is looked for from the first contact of the cue ball with another ball or a cushion
  * after a touch on: before that the ball runs away from the cue, but in slow draws, in which an arm
@@ -18,11 +24,18 @@
 
 #include <math.h>
 
+/* A touch: the centre is at least half of the radius from the tip, so that the way did not lead
+ * through the ball, and ahead of it by more than this part of the distance. */
+static const double least_distance2 = 0.25; /* of R^2 */
+static const double least_ahead = 0.1;
+
 void carom_follow_on(carom_play *play, double speed, double lead) {
   const carom_sim *sim = &play->sim;
   const carom_cue *cue = sim->cue;
   carom_follow *follow = &play->follow;
   follow->along += lead;
+
+  /* how far it still goes; balls must last as it touches them */
   const double left = cue->follow - follow->along;
   follow->end = -1.0;
   if (!(left > 0.0 && speed > 0.0) || cue->tip_time < 0.0 || !sim->rules->clusters ||
@@ -62,12 +75,15 @@ void carom_follow_find(carom_play *play) {
   const int struck = sim->struck;
   const carom_path *path = &sim->path[struck];
   const bool out = carom_is_out(path->from.label);
+
+  /* none where the ball is out, or has met nothing since the last touch */
   follow->time = INFINITY;
   if (out)
     follow->end = -1.0;
   if (out || !sim->turned)
     return;
 
+  /* until the cue stops or the path of the ball ends */
   carom_separation separation;
   double axes[3][3];
   begin(play, axes, &separation);
@@ -85,11 +101,13 @@ bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue) {
   double axes[3][3], to_tip[3], offset[3];
   carom_path_at(&sim->path[struck], &sim->rates[struck], sim->time, &state);
   tip_of(play, state.r, axes, to_tip);
+
+  /* the cue with what is left of its way, at this touch */
   const double square = carom_tip_on(axes, to_tip, offset);
   *moved_cue = *sim->cue;
   moved_cue->speed = play->follow.V;
   moved_cue->follow -= play->follow.along + play->follow.V * (sim->time - play->follow.start);
   moved_cue->a = offset[1];
   moved_cue->b = offset[2];
-  return square > 0.25 * radius * radius && offset[0] < -0.1;
+  return square > least_distance2 * radius * radius && offset[0] < -least_ahead;
 }

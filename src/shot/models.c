@@ -235,7 +235,7 @@ static carom_status balls_on_tilted_cloth(const carom_sim *sim, const carom_due 
 }
 
 static double height_above_cloth(const carom_ball_kind *kind, const carom_ball_state *state) {
-  return carom_flies(state) ? state->r[2] - kind->radius : (double)0.0;
+  return carom_flies(state) ? state->r[2] - kind->radius : 0.0;
 }
 
 double carom_freedom_of_pair(const carom_sim *sim, const carom_due *pending_event,

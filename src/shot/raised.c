@@ -312,8 +312,8 @@ static void begin_phase(const push_state *push, push_phase *phase) {
   /* s' as a sum of x'' and y'' */
   const double both = push->B - push->S * (push->S + push->mu * push->D);
   phase->of_tip =
-      push->slips && both != 0.0 ? -(push->D - 3.5 * push->mu * push->S) / both : (double)0.0;
-  phase->of_slate = push->slips ? phase->of_tip * S + 3.5 * push->mu : (double)0.0;
+      push->slips && both != 0.0 ? -(push->D - 3.5 * push->mu * push->S) / both : 0.0;
+  phase->of_slate = push->slips ? phase->of_tip * S + 3.5 * push->mu : 0.0;
 }
 
 static void instant_at(const push_state *push, const push_phase *phase, const swing *swung,
@@ -357,7 +357,7 @@ static int first_ending(const push_state *push, const instant *start, const inst
     const bool ends = candidate == FOOT ? foot_ends(push, start, end, step, is_unclear, &found)
                                         : branch_ends(&push->spring[candidate], candidate, start,
                                                       end, step, is_unclear, &found);
-    const double share = ends ? part_of_step(&found, step) : (double)2.0;
+    const double share = ends ? part_of_step(&found, step) : 2.0;
     if (!(share < *part))
       continue;
     *part = share;
@@ -408,8 +408,8 @@ static void end_phase(push_state *push, const push_phase *phase, swing swung, do
   double rate;
   instant_at(push, phase, &swung, &values);
   const double value = value_of(push, contact, next, &values, &rate);
-  double off = rate != 0.0 ? -value / rate : (double)0.0;
-  off = fabs(off) < 0.2 * step ? carom_greater(off, -elapsed) : (double)0.0;
+  double off = rate != 0.0 ? -value / rate : 0.0;
+  off = fabs(off) < 0.2 * step ? carom_greater(off, -elapsed) : 0.0;
   const swing change = swing_by(phase, off), total = swing_on(phase, &swung, &change);
   push->time = push->time + elapsed + off;
   push->stuck = elapsed + off > 1e-9 * step ? 0 : push->stuck + 1;
@@ -506,12 +506,12 @@ static double impulse_of_tip(const push_state *push) {
 static double wait_of(const push_state *push, int contact) {
   const push_spring *spring = &push->spring[contact];
   if (spring->branch == LEAVES)
-    return spring->rate > 0.0 ? (double)0.0 : (double)INFINITY;
+    return spring->rate > 0.0 ? 0.0 : INFINITY;
   if (spring->branch == GONE || !(spring->rate > too_slow * push->V))
     return INFINITY;
   const double wait = -spring->compression / spring->rate;
   const double speed = push->V - push->mass_ratio * impulse_of_tip(push);
-  return contact == TIP && wait * speed > push->follow ? (double)INFINITY : wait;
+  return contact == TIP && wait * speed > push->follow ? INFINITY : wait;
 }
 
 /* Nothing acts: on to where a contact does. False: none will. */
@@ -618,5 +618,5 @@ void carom_leave_slate(const carom_ball_kind *kind, double J, carom_ball_state *
   state->w[2] = fabs(state->w[2]) <= fall ? 0.0 : state->w[2] - copysign(fall, state->w[2]);
   if (state->v[2] > 0.0)
     state->v[2] = carom_rebound(
-        state->v[2] * (restitution < least_e ? restitution / least_e : (double)1.0), 1.0);
+        state->v[2] * (restitution < least_e ? restitution / least_e : 1.0), 1.0);
 }

@@ -305,7 +305,7 @@ static void find_contact(const carom_sim *sim, const carom_due *pending_event, c
     contact->freedom =
         contact->in_space
             ? carom_lesser(carom_freedom_of_height(a->r[2] - contact->kind_a->radius), 1.0)
-            : (double)0.0;
+            : 0.0;
     return;
   }
   contact->kind_b = sim->layout->kind[pending_event->b];

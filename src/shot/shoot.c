@@ -269,7 +269,7 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   if (*status == CAROM_OK)
     *status = of_contacts;
   /* a tip that is gone stands still */
-  carom_follow_on(play, cluster.tip.gone ? (double)0.0 : cluster.tip.V,
+  carom_follow_on(play, cluster.tip.gone ? 0.0 : cluster.tip.V,
                   carom_cluster_tip_lead(&cluster));
   return true;
 }

@@ -4,6 +4,13 @@
  *   J = m (v_n + v')   u = v - v_n N + R w x N   J_t = min(mu J, 2/7 m |u|)   t = u/|u|
  *   v := v - (J N + J_t t) / m                   w := w - 5 J_t / (2 m R) N x t
  *
+ *          .-'''-.
+ *        .'   v   '.        v_n   along N, closing
+ *       (    o-->   )       u     slip of the surface at the touch, across N
+ *        '.  |N   .'        J     from the surface, against N
+ *    ______'-V-.-'______    J_t   from its friction, against t = u/|u|
+ *       <-- J_t   u -->
+ *
  * The size of u falls by 7/2 J_t / m and its direction stays, so one branch is exact for
  * Coulomb's friction, with the restitution of Newton, Poisson or Stronge alike. The work is
  *
@@ -26,28 +33,36 @@
  * equally. s is a convention; half of it, 10 mm/s, gives one hop more of 5 um
  * (tests/physics/air.c counts them). */
 #include "cushion/contact.h"
+#include "motion/sphere.h"
 #include "platform/ranges.h"
 #include "shot/sim.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-static const double hop_loss = 0.02, least_hop = 1e-9; /* m/s: s, and the least speed of a hop */
+/* END OF HOPS, m/s: s; and the least speed of a hop, below which rounding decides */
+static const double hop_loss = 0.02, least_hop = 1e-9;
 
+/* The touch of a surface along N: closing speed, slip and its direction. */
 carom_touch carom_touch_of(const double N[3], double radius, const carom_ball_state *state) {
   const double *velocity = state->v, *rotation = state->w, closing = carom_space_dot(velocity, N);
+
+  /* u: the velocity across N, and that of the turn */
   double turn[3], sliding[3];
   carom_cross(rotation, N, turn);
   for (int axis = 0; axis < 3; axis++)
     sliding[axis] = velocity[axis] - closing * N[axis] + radius * turn[axis];
-  const double slip = carom_space_size(sliding), size = slip > 0.0 ? slip : (double)1.0;
+
+  /* t: of any size where there is no slip, as friction is 0 then */
+  const double slip = carom_space_size(sliding), size = slip > 0.0 ? slip : 1.0;
   return (carom_touch){
       {N[0], N[1], N[2]}, closing, slip, {sliding[0] / size, sliding[1] / size, sliding[2] / size}};
 }
 
+/* Impulses over the mass: J against N and J_t against t. */
 void carom_take_impulse(const carom_touch *touch, double radius, double J, double J_t,
                         carom_ball_state *state) {
-  const double *N = touch->N, *t = touch->t, turn = 2.5 * J_t / radius;
+  const double *N = touch->N, *t = touch->t, turn = CAROM_SPHERE_TURN * J_t / radius;
   double across[3];
   carom_cross(N, t, across);
   for (int axis = 0; axis < 3; axis++) {
@@ -56,6 +71,7 @@ void carom_take_impulse(const carom_touch *touch, double radius, double J, doubl
   }
 }
 
+/* v', END OF HOPS. */
 double carom_rebound(double v_n, double restitution) {
   const double square = restitution * restitution * v_n * v_n - hop_loss * hop_loss;
   return square > least_hop * least_hop ? sqrt(square) : 0.0;
@@ -67,7 +83,9 @@ void carom_answer_of_slate(const carom_ball_kind *kind, const carom_touch *touch
   const double J = touch->closing + up;
   carom_take_impulse(touch, kind->radius, J, J_t, state);
   state->v[2] = up; /* without the rounding of -v + (v + up) */
-  const double fall = 2.5 * kind->mu_spin * J / kind->radius;
+
+  /* the turn about the vertical falls, not below 0 */
+  const double fall = CAROM_SPHERE_TURN * kind->mu_spin * J / kind->radius;
   state->w[2] = fabs(state->w[2]) <= fall ? 0.0 : state->w[2] - copysign(fall, state->w[2]);
 }
 
@@ -79,6 +97,7 @@ carom_touch carom_touch_slate(const carom_ball_kind *kind, const carom_ball_stat
   return touch;
 }
 
+/* A ball falls on the slate, and hops or lies. */
 void carom_hit_slate(const carom_ball_kind *kind, carom_ball_state *state) {
   const double restitution = carom_slate_restitution(kind->restitution_table);
   const carom_touch touch = carom_touch_slate(kind, state);

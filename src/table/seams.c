@@ -44,8 +44,8 @@ int carom_seams_of(const carom_table *table, int index, carom_seam seam[CAROM_SE
   int count = 0;
   if (jaw->radius == 0.0) /* a corner, which has no arc */
     return 0;
-  for (int number = 0; number < table->rails && count < CAROM_SEAMS_MOST; number++) {
-    const carom_rail *rail = &table->rail[number];
+  for (int rail_index = 0; rail_index < table->rails && count < CAROM_SEAMS_MOST; rail_index++) {
+    const carom_rail *rail = &table->rail[rail_index];
     const double *end = rail->p;
     if (!continues(jaw, rail, end)) {
       end = rail->q;
@@ -55,7 +55,7 @@ int carom_seams_of(const carom_table *table, int index, carom_seam seam[CAROM_SE
     /* rails that meet at one place share a seam */
     if (count > 0 && square_of_distance(end, seam[0].end) <= tolerance * tolerance)
       continue;
-    seam[count].rail = number;
+    seam[count].rail = rail_index;
     for (int axis = 0; axis < 2; axis++)
       seam[count].end[axis] = end[axis];
     count++;
