@@ -1,6 +1,7 @@
 /* Contacts that last, src/cluster/, for the balls of a shot, and carom_cluster(). */
 #include "shot/clusters.h"
 #include "cluster/vectors.h"
+#include "motion/sphere.h"
 #include "platform/promise.h"
 #include "shot/rules.h"
 
@@ -91,6 +92,8 @@ bool carom_third_is_near(const carom_sim *sim, int i, int j) {
                yi = sim->y[i] + ti * (sim->v_y[i] + ti * sim->a_y[i]);
   const double xj = sim->x[j] + tj * (sim->v_x[j] + tj * sim->a_x[j]),
                yj = sim->y[j] + tj * (sim->v_y[j] + tj * sim->a_y[j]);
+
+  /* without branches, so that compilers turn the loop into vectors */
   int near_them = 0; /* i and j are near themselves */
   for (int index = 0; index < sim->count; index++) {
     const double elapsed = sim->time - sim->start[index];
@@ -147,6 +150,8 @@ void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball
   if (!(gap < CAROM_TOUCHING && time <= last) ||
       carom_model_balls(sim, pair, normal, in_space, &now[0], &now[1]) < 0)
     return;
+
+  /* the impulse, and both after it */
   double change[3];
   cluster_minus(false, now[0].v, before, change);
   *impulse += kind[0]->mass * sqrt(cluster_dot(false, change, change));
@@ -159,7 +164,7 @@ void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball
 
 double carom_energy_in_turn(const carom_ball_kind *kind, const carom_ball_state *state) {
   const double spin = kind->radius * kind->radius * cluster_dot(false, state->w, state->w);
-  return kind->mass * (0.5 * cluster_dot(false, state->v, state->v) + 0.2 * spin +
+  return kind->mass * (0.5 * cluster_dot(false, state->v, state->v) + CAROM_SPHERE_ENERGY * spin +
                        carom_rates_of(kind).gravity * state->r[2]);
 }
 
@@ -207,6 +212,8 @@ void carom_take_in_turn(const carom_sim *sim, carom_in_turn *turn) {
     before += carom_energy_in_turn(sim->layout->kind[ball], &turn->ball[index].state);
     since[index] = 0.0;
   }
+
+  /* touch by touch, each ball at the time of its last one */
   for (int index = 0; index < turn->touches; index++) {
     carom_in_turn_touch *touch = &turn->touch[index];
     carom_in_turn_ball *ball_a = &turn->ball[touch->a], *ball_b = &turn->ball[touch->b];
@@ -218,6 +225,8 @@ void carom_take_in_turn(const carom_sim *sim, carom_in_turn *turn) {
     since[touch->a] = times[0];
     since[touch->b] = times[1];
   }
+
+  /* followed back to now: all of the change, or the share that does not raise the energy */
   for (int index = 0; index < turn->balls; index++) {
     const carom_ball_kind *kind = sim->layout->kind[turn->ball[index].index];
     carom_ball_state state = turn->ball[index].state;

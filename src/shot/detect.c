@@ -8,6 +8,12 @@
  * CHORD. On [0, T] the separation d = p + e t + a t^2 has the chord T c, c = e + T a, and differs
  * from it by -a t (T - t), which is a T^2/4 at most. So it stays farther from the origin than
  *
+ *            .--''''--.     the path, T^2/4 a at most beside its chord
+ *          o---- T c --->o
+ *        p  \           /  p + T c
+ *            \         /
+ *             '-- o --'     the origin
+ *
  *   (|p x c| - |a x e| T^2/4) / |c|               across the chord, and along it
  *   (p . c - |a . c| T^2/4) / |c|                 where it leads away, or
  *   (-(p + T c) . c - |a . c| T^2/4) / |c|        where it ends before it comes near. */
@@ -24,6 +30,7 @@ typedef struct line_of_motion {
   double r[2], v[2], a[2];
 } line_of_motion;
 
+/* The path of a ball, from its columns. */
 static line_of_motion motion_now(const carom_sim *sim, int ball) {
   const double elapsed = sim->time - sim->start[ball];
   return (line_of_motion){{sim->x[ball] + elapsed * (sim->v_x[ball] + elapsed * sim->a_x[ball]),
@@ -33,7 +40,7 @@ static line_of_motion motion_now(const carom_sim *sim, int ball) {
                           {sim->a_x[ball], sim->a_y[ball]}};
 }
 
-/* The range of one coordinate on [0, T]. */
+/* The range of one coordinate up to the horizon: of its ends, and of its vertex where it turns. */
 static void range_of(double start, double speed, double half_acceleration, double horizon,
                      double *low, double *high) {
   const double end = start + horizon * (speed + horizon * half_acceleration);
@@ -47,17 +54,20 @@ static void range_of(double start, double speed, double half_acceleration, doubl
   }
 }
 
+/* Distance from a line, or place along a rail. */
 static double place(const double line[3], const line_of_motion *track, double time) {
   return line[0] * (track->r[0] + time * (track->v[0] + time * track->a[0])) +
          line[1] * (track->r[1] + time * (track->v[1] + time * track->a[1])) + line[2];
 }
 
-/* When the ball touches rail k, at `reach` from its line, up to T; or infinity. */
+/* When the ball touches a rail, at `reach` from its line, up to the horizon; or infinity. */
 static double meet_rail(const carom_sim *sim, int rail, double reach, const line_of_motion *track,
                         double horizon) {
   const double *line = sim->features->line[rail], *along = sim->features->along[rail];
   const double gap[3] = {carom_plane_dot(line, track->r) + line[2] - reach,
                          carom_plane_dot(line, track->v), carom_plane_dot(line, track->a)};
+
+  /* the first of these times at which it is between the ends of the rail */
   double times[2];
   const int count = sim->rules->touch_rail(gap, horizon, times);
   CAROM_PROMISE(count >= 0 && count <= 2);
@@ -69,6 +79,7 @@ static double meet_rail(const carom_sim *sim, int rail, double reach, const line
   return INFINITY;
 }
 
+/* The way from a point to the ball. */
 static carom_separation from_point(const double centre[2], const line_of_motion *track) {
   return (carom_separation){{track->r[0] - centre[0], track->r[1] - centre[1], 0.0},
                             {track->v[0], track->v[1], 0.0},
@@ -76,18 +87,23 @@ static carom_separation from_point(const double centre[2], const line_of_motion 
 }
 
 /* Positive where a path p + e t + a t^2 surely stays farther from the origin than `reach` on [0,
- * T]: see CHORD. In squares, times |c|^2; a part in 1e9 of reach^2 is for rounding. */
+ * T]: see CHORD. In squares, times |c|^2. */
+#define FOR_ROUNDING 1e-9 /* of reach^2: so much farther counts as not sure */
 static inline double clearance(const double p[2], const double e[2], const double a[2],
                                double reach, double T) {
+  /* c, and T^2/4 */
   const double c_x = e[0] + T * a[0], c_y = e[1] + T * a[1], square = c_x * c_x + c_y * c_y;
   const double quarter = 0.25 * T * T, along = p[0] * c_x + p[1] * c_y;
+
+  /* along the chord: it leads away, or ends before; less the bulge. Across it likewise */
   const double bulge = quarter * fabs(a[0] * c_x + a[1] * c_y);
   const double ahead = -along - T * square;
   const double off = fabs(p[0] * c_y - p[1] * c_x) - quarter * fabs(a[0] * e[1] - a[1] * e[0]);
   const double gap = (along > ahead ? along : ahead) - bulge, most = off > gap ? off : gap;
-  return most * fabs(most) - (1.0 + 1e-9) * reach * reach * square;
+  return most * fabs(most) - (1.0 + FOR_ROUNDING) * reach * reach * square;
 }
 
+/* When the ball touches a jaw, up to the horizon; or infinity. */
 static double meet_jaw(const carom_sim *sim, int index, double radius, const line_of_motion *track,
                        double horizon) {
   const carom_jaw *jaw = &sim->table->jaw[index];
@@ -98,6 +114,7 @@ static double meet_jaw(const carom_sim *sim, int index, double radius, const lin
              : sim->rules->touch_jaw(&separation, reach, horizon);
 }
 
+/* When the centre comes over the circle of a pocket, up to the horizon; or infinity. */
 static double meet_pocket(const carom_sim *sim, int index, const line_of_motion *track,
                           double horizon) {
   const carom_pocket *pocket = &sim->table->pocket[index];
@@ -107,7 +124,7 @@ static double meet_pocket(const carom_sim *sim, int index, const line_of_motion 
              : sim->rules->enter_pocket(&separation, pocket->radius, horizon);
 }
 
-/* When the centre leaves the hull, up to T; or infinity. */
+/* When the centre leaves the hull, up to the horizon; or infinity. */
 static double leave_hull(const carom_features *features, const line_of_motion *track,
                          double horizon) {
   double first = INFINITY;
@@ -122,7 +139,7 @@ static double leave_hull(const carom_features *features, const line_of_motion *t
   return first;
 }
 
-/* The box of a path up to T: its range of x, then that of y. */
+/* The box of a path up to the horizon: its range of x, then that of y. */
 static inline void box_of(const line_of_motion *track, double horizon, double box[4]) {
   range_of(track->r[0], track->v[0], track->a[0], horizon, &box[0], &box[1]);
   range_of(track->r[1], track->v[1], track->a[1], horizon, &box[2], &box[3]);
@@ -148,7 +165,7 @@ static inline int list_near(const carom_features *features, const double box[4],
   return count;
 }
 
-/* When ball i meets feature k, up to T. `unlike`, a constant: whether noses and jaws are reached at
+/* When a ball meets a feature of the table, up to the horizon. `unlike`, a constant: whether noses and jaws are reached at
  * distances of their own, nose.c. */
 static inline __attribute__((always_inline)) carom_meeting
 meet_feature(const carom_sim *sim, int ball, int feature, const line_of_motion *track,
@@ -214,7 +231,7 @@ static carom_meeting meet_table(const carom_sim *sim, int ball, const line_of_mo
                      : meet_table_as(sim, ball, track, horizon, false);
 }
 
-/* When balls i and j meet, up to T from now on. */
+/* When two balls meet, up to the horizon from now on. */
 static double meet_ball(const carom_sim *sim, int ball, const line_of_motion *track, int other,
                         double horizon) {
   const line_of_motion other_track = motion_now(sim, other);
@@ -236,7 +253,7 @@ static double meet_ball(const carom_sim *sim, int ball, const line_of_motion *tr
   return carom_first_contact_in_space(&separation, reach, horizon);
 }
 
-/* Pairs of ball i with all others but `done`: rejected in one loop that compilers turn into
+/* Pairs of a ball with all others but `done`: rejected in one loop that compilers turn into
  * vectors, then solved. */
 static void meet_balls(carom_sim *sim, int ball, int done) {
   const line_of_motion track = motion_now(sim, ball);
@@ -244,6 +261,8 @@ static void meet_balls(carom_sim *sim, int ball, int done) {
   const double time = sim->time, horizon = sim->horizon[ball] - time,
                reach = sim->rates[ball].radius + sim->widest;
   double clear[CAROM_BALLS_MOST], end[CAROM_BALLS_MOST];
+
+  /* how far they surely stay apart up to their common horizon, by p + e t + a t^2 (CHORD) */
   for (int other = 0; other < count; other++) {
     const double elapsed = time - sim->start[other];
     const double p[2] = {
@@ -256,6 +275,8 @@ static void meet_balls(carom_sim *sim, int ball, int done) {
     clear[other] = clearance(p, e, a, reach, common);
     end[other] = common;
   }
+
+  /* those that may meet; each pair stands at the lower index */
   for (int other = 0; other < count; other++) {
     if (other == ball || other == done)
       continue;
@@ -269,7 +290,7 @@ static void meet_balls(carom_sim *sim, int ball, int done) {
   }
 }
 
-/* The first of row i again. */
+/* The first of a row again. */
 static void scan_row(carom_sim *sim, int row) {
   double first = INFINITY;
   int with = 0;
@@ -283,7 +304,7 @@ static void scan_row(carom_sim *sim, int row) {
   CAROM_PROMISE(with > row || first == INFINITY);
 }
 
-/* Column i of the pairs has changed: the firsts of the rows above. */
+/* A column of the pairs has changed: the firsts of the rows above. */
 static void update_rows(carom_sim *sim, int column) {
   for (int row = 0; row < column; row++) {
     if (sim->pair[row][column] < sim->first[row]) {
@@ -313,7 +334,7 @@ __attribute__((noinline, cold)) static carom_meeting meet_in_flight(carom_sim *s
   return carom_meet_in_flight(sim, ball, state.r, state.v, sim->path[ball].end - sim->time);
 }
 
-/* Puts the path of ball i into the columns. */
+/* Puts the path of a ball into the columns. */
 static inline void take_columns(carom_sim *sim, int ball) {
   const carom_path *path = &sim->path[ball];
   const bool translates = carom_translates(path->from.label);
@@ -328,7 +349,7 @@ static inline void take_columns(carom_sim *sim, int ball) {
     take_height(sim, ball);
 }
 
-/* Until when the path and the meeting of ball i hold. A ball that stays where it is does so for
+/* Until when the path and the meeting of a ball hold. A ball that stays where it is does so for
  * any time, and one that is out of play meets nothing. */
 static inline void take_horizon(carom_sim *sim, int ball) {
   const carom_path *path = &sim->path[ball];
@@ -339,7 +360,7 @@ static inline void take_horizon(carom_sim *sim, int ball) {
     sim->horizon[ball] = carom_translates(path->from.label) ? sim->own_end[ball] : INFINITY;
 }
 
-/* The path of ball i, and its next meeting with the table. */
+/* The path of a ball, and its next meeting with the table. */
 static void take_path(carom_sim *sim, int ball) {
   const carom_path *path = &sim->path[ball];
   CAROM_PROMISE(!(path->end < sim->time));

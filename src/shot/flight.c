@@ -2,6 +2,14 @@
  * pockets, and the end of the table. nose.c has the geometry. In flight x and y are linear in t,
  * and z = z0 + v_z t - g/2 t^2. On a slope x and y have an acceleration 2a as well, which is small.
  *
+ *     TOP  . . . . . . . .           z = h + R        '.     the track of the centre
+ *                                                       '.
+ *     ----------------.  nose,                            o
+ *      rail, W wide    \  at the height h             .-'    d, from the nose to the
+ *                       o - - - - - - - - - - - - -'         centre; |d| = R: contact
+ *     __________________|_____________________________________ cloth
+ *                       s = delta            s: distance from the wall
+ *
  * RAIL. |d|^2 = (s - delta)^2 + (z - h)^2 is a quartic in t, that of two centres with d in two
  * coordinates (gap.c); a contact beyond the ends of the rail is none, since a jaw or another
  * rail stands there.
@@ -33,9 +41,12 @@
 
 #include <math.h>
 
-static const double on_top = 1e-9; /* m: rounding of the edges of tops, and of a ball's height on
-                                      them */
+/* s: a track is inside a circle so soon after it has crossed it, unless it only grazes it */
+static const double just_inside = 1e-9;
+/* m: rounding of the edges of tops, and of a ball's height on them */
+static const double on_top = 1e-9;
 
+/* The track of a ball from now on: r + v t + a t^2 - g/2 t^2 z. */
 typedef struct flight {
   double r[3], v[3], gravity, radius;
   double a[2], bend; /* half the acceleration by a slope; 2|a| at most */
@@ -49,6 +60,7 @@ static double speed_at(const flight *track, int axis, double time) {
   return track->v[axis] + 2.0 * time * track->a[axis];
 }
 
+/* z at a time. */
 static double height_at(const flight *track, double time) {
   return track->r[2] + time * (track->v[2] - 0.5 * track->gravity * time);
 }
@@ -60,6 +72,7 @@ typedef struct nose_circle {
   double centre[2], radius, height;
 } nose_circle;
 
+/* What F depends on. */
 typedef struct jaw_gap {
   const flight *track;
   const nose_circle *circle;
@@ -70,6 +83,7 @@ static double leaving(const flight *track, double time, double x, double y, doub
   return q > 0.0 ? (x * speed_at(track, 0, time) + y * speed_at(track, 1, time)) / q : 0.0;
 }
 
+/* F and F' at a time. */
 static carom_gap_at gap_at(const void *context, double time) {
   const flight *track = ((const jaw_gap *)context)->track;
   const nose_circle *circle = ((const jaw_gap *)context)->circle;
@@ -81,6 +95,7 @@ static carom_gap_at gap_at(const void *context, double time) {
                         2.0 * (beyond * leaving(track, time, x, y, q) + z * v_z)};
 }
 
+/* q' and q at a time. */
 static double leaving_at(const jaw_gap *gap, double time, double *q) {
   const double x = place_at(gap->track, 0, time) - gap->circle->centre[0],
                y = place_at(gap->track, 1, time) - gap->circle->centre[1];
@@ -88,10 +103,12 @@ static double leaving_at(const jaw_gap *gap, double time, double *q) {
   return leaving(gap->track, time, x, y, *q);
 }
 
-/* The bound of F''/2 on [t, T]. */
+/* The bound of F''/2 from `start` to `end`. */
 static double least_half_curvature(const void *context, double start, double end) {
   const jaw_gap *gap = context;
   const flight *track = gap->track;
+
+  /* min q'^2: at an end, or 0 where q' changes its sign; on a slope q' may fall between */
   double across = 0.0, q[2];
   const double fall = (end - start) * track->bend; /* of q', at most */
   const double first = leaving_at(gap, start, &q[0]) - fall,
@@ -100,23 +117,26 @@ static double least_half_curvature(const void *context, double start, double end
     across = first * first;
   else if (last <= 0.0)
     across = last * last;
+
   /* z'^2 - g (z - h) = v_z^2 - g (z0 - h) - 3 g v_z t + 3/2 g^2 t^2, least at t = v_z / g */
   const double top = carom_lesser(carom_greater(track->v[2] / track->gravity, start), end);
   const double upright = track->v[2] * track->v[2] -
                          track->gravity * (track->r[2] - gap->circle->height) +
                          top * track->gravity * (1.5 * track->gravity * top - 3.0 * track->v[2]);
+
+  /* on a slope (q - c) q'' is -2|a| times the greatest distance at least */
   const double farthest = carom_greater(q[0], q[1]) + 0.5 * fall * (end - start);
   return across + upright - track->bend * carom_greater(farthest - gap->circle->radius, 0.0);
 }
 
-/* The first zero of F + raise from t on, where that is positive, up to T, with q >= c between;
+/* The first zero of F + raise from `start`, where that is positive, to `end`, with q >= c between;
  * or infinity. */
 static double zero_from_left(const jaw_gap *gap, double raise, double start, double end) {
   return carom_first_zero(gap_at, least_half_curvature, gap, raise, start, end, 0.0);
 }
 
-/* The first contact on [t, T], with q >= c between. Balls that touch at t and do not close are
- * in contact where the gap has fallen by CAROM_SLACK from that at t, or, if it has been greater
+/* The first contact from `start` to `end`, with q >= c between. Balls that touch at the start and do
+ * not close are in contact where the gap has fallen by CAROM_SLACK from that at the start, or, if it has been greater
  * than that on the way, where it is 0: as PRESSED in gap.c.
  */
 static double touch_circle(const flight *track, const nose_circle *circle, double start,
@@ -138,19 +158,21 @@ static double touch_circle(const flight *track, const nose_circle *circle, doubl
 }
 
 /* The times at which the track crosses a circle, seen from above; the number of them, 0 or 2,
- * infinite where it stands inside. On a slope those up to T, the first of them 0 inside.
+ * infinite where it stands inside. On a slope those up to the horizon, the first of them 0 inside.
  */
 static int cross_circle(const flight *track, const double centre[2], double radius, double horizon,
                         double times[2]) {
   const double x = track->r[0] - centre[0], y = track->r[1] - centre[1],
                c = x * x + y * y - radius * radius;
+
+  /* on a slope: from outside in, or 0, and from soon after that out again */
   if (track->bend > 0.0) {
     const carom_separation separation = {
         {x, y, 0.0}, {track->v[0], track->v[1], 0.0}, {track->a[0], track->a[1], 0.0}};
     times[0] = c > 0.0 ? carom_first_crossing(&separation, radius, horizon) : 0.0;
     if (!(times[0] <= horizon))
       return 0;
-    const double soon = times[0] + 1e-9; /* s: inside, unless the track only grazes the circle */
+    const double soon = times[0] + just_inside;
     const carom_separation inside = {
         {place_at(track, 0, soon) - centre[0], place_at(track, 1, soon) - centre[1], 0.0},
         {speed_at(track, 0, soon), speed_at(track, 1, soon), 0.0},
@@ -158,6 +180,8 @@ static int cross_circle(const flight *track, const double centre[2], double radi
     times[1] = soon + carom_first_crossing(&inside, radius, carom_greater(horizon - soon, 0.0));
     return 2;
   }
+
+  /* else by a t^2 + 2 b t + c = 0 */
   const double a = carom_plane_dot(track->v, track->v), b = x * track->v[0] + y * track->v[1];
   times[0] = -INFINITY;
   times[1] = INFINITY;
@@ -166,6 +190,7 @@ static int cross_circle(const flight *track, const double centre[2], double radi
   return carom_quadratic_zeros(a, 2.0 * b, c, times);
 }
 
+/* When the ball touches the nose of a jaw: before it is over the disc, or after that. */
 static double meet_jaw(const flight *track, const nose_circle *circle, double horizon) {
   double over[2];
   if (cross_circle(track, circle->centre, circle->radius, horizon, over) < 2 ||
@@ -178,6 +203,7 @@ static double meet_jaw(const flight *track, const nose_circle *circle, double ho
 
 /* ---- Rails and tops */
 
+/* Distance from a line, or place along a rail. */
 static double across(const double line[3], const flight *track, double time) {
   return line[0] * place_at(track, 0, time) + line[1] * place_at(track, 1, time) + line[2];
 }
@@ -186,17 +212,21 @@ static bool is_between_ends(const double along[3], const flight *track, double t
   return place >= 0.0 && place <= 1.0;
 }
 
-/* The part of [0, T] in which the ball is between the ends of a rail: place is linear in t. False
+/* The part of the time up to the horizon in which the ball is between the ends of a rail: place is linear in t. False
  * where there is none. On a slope the part in which its chord is, or it could be by its bulge. */
 static bool while_beside(const double along[3], const flight *track, double horizon,
                          double window[2]) {
   const double bent = horizon * carom_plane_dot(along, track->a);
   const double bulge = 0.25 * horizon * fabs(bent), place = across(along, track, 0.0),
                speed = carom_plane_dot(along, track->v) + bent;
+
+  /* all of it, or nothing, of a ball that moves across the rail */
   window[0] = 0.0;
   window[1] = horizon;
   if (speed == 0.0)
     return place >= -bulge && place <= 1.0 + bulge;
+
+  /* between the times at which it passes both ends */
   const double leave_p = (-place - copysign(bulge, speed)) / speed,
                leave_q = (1.0 - place + copysign(bulge, speed)) / speed;
   window[0] = carom_greater(0.0, carom_lesser(leave_p, leave_q));
@@ -204,20 +234,21 @@ static bool while_beside(const double along[3], const flight *track, double hori
   return window[0] <= window[1];
 }
 
+/* When the ball touches the nose of a rail, between its ends; or infinity. */
 static double meet_rail(const carom_features *features, int rail, double height, double shift,
                         const flight *track, double horizon) {
   double window[2];
   if (!while_beside(features->along[rail], track, horizon, window))
     return INFINITY;
   const double *line = features->line[rail], start = window[0],
-               index = height_at(track, start) - height;
+               above = height_at(track, start) - height;
   const carom_separation separation = {
-      {across(line, track, start) - shift, index, 0.0},
+      {across(line, track, start) - shift, above, 0.0},
       {line[0] * speed_at(track, 0, start) + line[1] * speed_at(track, 1, start),
        track->v[2] - track->gravity * start, 0.0},
       {carom_plane_dot(line, track->a), -0.5 * track->gravity, 0.0}};
   const double reach = track->radius - CAROM_BEHIND;
-  if (separation.d0[0] * separation.d0[0] + index * index < reach * reach)
+  if (separation.d0[0] * separation.d0[0] + above * above < reach * reach)
     return INFINITY;
   const double time = start + carom_first_contact(&separation, track->radius, window[1] - start);
   if (track->bend > 0.0 && time < INFINITY && !is_between_ends(features->along[rail], track, time))
@@ -306,13 +337,15 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
   const carom_features *features = sim->features;
   const double low = carom_nose_height(kind, features->nose_low),
                rise = track->v[2] > 0.0 ? 0.5 * track->v[2] * track->v[2] / track->gravity : 0.0;
+
   /* it is or comes to be higher than a rail */
   const bool above = track->r[2] + rise >= low + track->radius - on_top;
 
-  /* of the parts beside the track only; their tops from above */
+  /* of the parts beside the track only, as noses are inside their walls by less than a radius; their
+   * tops from above */
   float box[4];
-  box_of(track, *horizon, features->reference,
-         box); /* noses are inside their walls, by less than that */
+  box_of(track, *horizon, features->reference, box);
+
   /* of the height of the last part, which most parts share */
   double height = -1.0, shift = 0.0, top = INFINITY;
   bool lies = false;
@@ -350,6 +383,7 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
   }
 }
 
+/* Pockets that the ball falls into. */
 static void meet_pockets(const carom_sim *sim, const flight *track, double landing,
                          carom_meeting *first, double *horizon) {
   const carom_features *features = sim->features;

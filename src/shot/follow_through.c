@@ -6,11 +6,9 @@
  *
  *     |p| = R,   p = p0 + t V c - v t - a t^2
  *
- *                           p
- *      ======== c =======>  <----- o  ball, at v t + a t^2
- *      |        |        |         R
- *      |  along | V t    tip, now
- *      where it struck
+ *      where it struck           p
+ *      |---- along ---|-- V t --|<-----o    the ball, at v t + a t^2 from where it is now
+ *      ================= c ====>   R
  *
  * (gap.c). There it pushes as tip.h has it, with the (a, b) of p, and goes on at the speed that is
  * left. It is looked for from the first contact of the cue ball with another ball or a cushion
@@ -24,9 +22,9 @@
 
 #include <math.h>
 
-/* A touch: the centre is at least half of the radius from the tip, so that the way did not lead
- * through the ball, and ahead of it by more than this part of the distance. */
-static const double least_distance2 = 0.25; /* of R^2 */
+/* A touch has the tip not deep in the ball, and the centre of the ball ahead of it: by more than
+ * this part of |p| along the axis, as less is past the middle of the ball. */
+static const double least_distance2 = 0.25; /* |p|^2, of R^2 */
 static const double least_ahead = 0.1;
 
 void carom_follow_on(carom_play *play, double speed, double lead) {

@@ -2,6 +2,7 @@
 #include "cushion/models.h"
 #include "cluster/cluster.h"
 #include "friction/laws.h"
+#include "motion/sphere.h"
 #include "platform/ranges.h"
 #include "schema/numbers.h"
 #include "shot/rules.h"
@@ -86,11 +87,11 @@ static void inelastic(const double normal[2], double radius, double restitution,
   for (int axis = 0; axis < 2; axis++) {
     a->v[axis] += along * sliding->t[axis];
     b->v[axis] -= along * sliding->t[axis];
-    a->w[axis] += 2.5 / radius * up * sliding->t[axis];
-    b->w[axis] += 2.5 / radius * up * sliding->t[axis];
+    a->w[axis] += CAROM_SPHERE_TURN / radius * up * sliding->t[axis];
+    b->w[axis] += CAROM_SPHERE_TURN / radius * up * sliding->t[axis];
   }
-  a->w[2] -= 2.5 / radius * along;
-  b->w[2] -= 2.5 / radius * along;
+  a->w[2] -= CAROM_SPHERE_TURN / radius * along;
+  b->w[2] -= CAROM_SPHERE_TURN / radius * along;
 }
 
 static carom_ball impact_ball(const carom_ball_kind *kind, const carom_ball_state *state) {

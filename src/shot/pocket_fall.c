@@ -9,6 +9,14 @@
  * where its way passes the middle farther off than that, W is that distance, and where it flies
  * across the circle and is on its way out, W is where it is.
  *
+ *         .-'''''-.   pocket       v   p: from the middle to where the ball comes in
+ *       .' .-'''-. '.          .-'     W: the wall, on which its centre goes around
+ *      /  '   W   ' <----- . -'
+ *      |  |   o---+--|   p             from above
+ *      \  '.     .'  /
+ *       '.  '---'  .'
+ *         '-.....-'
+ *
  * A ball that comes down on one that lies, at q, goes on around it in the direction in which it
  * touched it, at the level distance
  *     D = sqrt((R + R_q)^2 - (z - z_q)^2),
@@ -44,6 +52,7 @@ typedef struct pocket_fall {
   double touch, most, inward, aside;
 } pocket_fall;
 
+/* z at a time since it reached the circle. */
 static double height_of(const pocket_fall *fall, double time) {
   return fall->entry->r[2] + time * (fall->entry->v[2] - 0.5 * fall->kind->gravity * time);
 }
@@ -54,12 +63,15 @@ static void find_wall(pocket_fall *fall) {
   const double x = fall->entry->r[0] - fall->pocket->centre[0],
                y = fall->entry->r[1] - fall->pocket->centre[1], vx = fall->entry->v[0],
                vy = fall->entry->v[1];
+
   const double speed2 = vx * vx + vy * vy, inward = -(x * vx + y * vy);
   double middle = 0.0;
   if (speed2 > 0.0)
     middle = inward / speed2;
   const double nearest2 = carom_greater(x * x + y * y - middle * inward, 0.0);
   fall->wall = carom_greater(fall->pocket->radius - fall->kind->radius, sqrt(nearest2));
+
+  /* when it is there; a ball on its way out goes around where it is */
   fall->hit = INFINITY;
   if (speed2 > 0.0)
     fall->hit = middle + sqrt(carom_greater(fall->wall * fall->wall - nearest2, 0.0) / speed2);
@@ -130,10 +142,13 @@ static bool around(const pocket_fall *fall, double time, double place[2]) {
   double toward[2];
   const double far = to_middle(fall, fall->touched, toward),
                D = distance_from(fall, fall->touched, height_of(fall, time));
-  /* |q + D way| <= most */
+
+  /* |q + D way| <= most: how far inward the direction of way is at least, by its cosine */
   double least = far + D <= fall->most ? -1.0 : 2.0;
   if (far * D > 0.0)
     least = (far * far + D * D - fall->most * fall->most) / (2.0 * far * D);
+
+  /* the direction of the touch, or the nearest that is within the wall */
   const double inward = carom_greater(fall->inward, least),
                across = copysign(sqrt(carom_greater(1.0 - inward * inward, 0.0)), fall->aside);
   place[0] = -far * toward[0] + D * (inward * toward[0] - across * toward[1]);
@@ -151,14 +166,16 @@ static bool place_at(const pocket_fall *fall, double time, double place[2], doub
 
 /* The last time up to the end at which the place is still free, from a time on. */
 static double last_free(const pocket_fall *fall, double start) {
-  static const int parts = 200;
-  enum { BISECTIONS = 40 };
+  static const int parts = 200; /* of the time: drawings show no shorter passage */
+  enum { BISECTIONS = 40 };     /* to rounding */
   double place[2], velocity[2];
   for (int part = 0; part <= parts && fall->count > 0; part++) {
     double low = start + (fall->end - start) * (part - 1) / parts,
            high = start + (fall->end - start) * part / parts;
     if (place_at(fall, high, place, velocity))
       continue;
+
+    /* between the last part that is free and this one */
     for (int bisection = 0; bisection < BISECTIONS && part > 0; bisection++) {
       const double middle = 0.5 * (low + high);
       if (place_at(fall, middle, place, velocity))
@@ -210,7 +227,7 @@ static void begin(pocket_fall *fall, const lying *others, int known, int64_t poc
 
 /* The state at a time since its begin. */
 static void state_at(const pocket_fall *fall, double time, carom_ball_state *state) {
-  static const double soon = 1e-7; /* s */
+  static const double soon = 1e-7; /* s: of a difference, where rounding is 1e-9 m/s */
   double place[2], velocity[2], previous[2], none[2];
   const bool lies = time >= fall->end;
   time = carom_lesser(time, fall->end);

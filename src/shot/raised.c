@@ -8,6 +8,13 @@
  *   y'' = S F - N              S = -c'_z                    f = 2/7 D F where it holds
  *   s'  = D F - 7/2 f          D t = c'_h + 5/2 z x q
  *
+ *      F c'\   .-'''-.       x   compression of the tip, along c'
+ *           \.'       '.     y   compression of the slate, downwards
+ *           (     o     )    s   slip of the foot, along t
+ *            '.       .'     F   of the tip, along c'
+ *     _________'-.^.-'____   N   of the slate, upwards
+ *          <-- f  N  --> t   f   of the cloth, against t
+ *
  * c' is the direction of the push, c'_h its horizontal part, q the arm of the tip, and t a unit
  * vector. The slip begins at 0 and the push gives it the direction t, so that direction never
  * changes. Therefore a ball finally rolls where Coriolis found. Weight has no part, and positions
@@ -37,6 +44,7 @@
  * Found by trial (tests/physics/strike.c, raised_alone): STEP may be 0.3 to 0.6; at 1.2 the cubic
  * misses ends of phases. Usual strikes have 5 to 8 phases. */
 #include "cluster/hertz.h"
+#include "motion/sphere.h"
 #include "platform/ranges.h"
 #include "shot/clusters.h"
 
@@ -51,6 +59,21 @@ static const double too_slow = 1e-9; /* of the cue's speed: contacts that close 
 static const double least_e = 0.2;   /* of a slate */
 static const double least_tip = 0.05; /* e of a tip, as in cluster/push.c */
 
+/* A vertex is too near to 0 to tell its sign where it is less than this part of its fall. */
+#define UNCLEAR_PART 0.1
+/* Eigenvalues are this part of their sum apart at least, so that there are two modes. */
+#define LEAST_SPLIT 1e-8
+/* Newton's method corrects the end of a phase by less than this part of a step. */
+#define CORRECTION_MOST 0.2
+/* A phase that ends within this part of a step has taken no time. */
+#define NO_TIME 1e-9
+
+/* What can end a phase: the branch of a contact, or the state of the foot. The branches:
+ *
+ *     LOADS      until d' falls to 0: then UNLOADS
+ *     UNLOADS    until d falls to its rest: then LEAVES; or rises to its top: then LOADS
+ *     LEAVES     until d falls to 0: then OPEN, or GONE; or d' rises to 0: then UNLOADS
+ *     OPEN       until d rises to 0: then LOADS */
 enum { TIP, SLATE, FOOT, ENDS };
 enum { OPEN, LOADS, UNLOADS, LEAVES, GONE }; /* GONE: a cue that does not follow through */
 
@@ -138,7 +161,7 @@ static bool dips(double value, double from_rate, double to_rate, double step, in
     return false;
   const double share = from_rate / (from_rate - to_rate), fall = 0.5 * from_rate * share * step;
   const double vertex = value + fall;
-  *is_unclear |= fabs(vertex) < 0.1 * fabs(fall);
+  *is_unclear |= fabs(vertex) < UNCLEAR_PART * fabs(fall);
   if ((vertex > 0.0) == (value > 0.0))
     return false;
   *found = (ending){value, from_rate, vertex, 0.0, share, next};
@@ -175,7 +198,7 @@ static bool turns(bool unloads, int contact, const instant *start, const instant
               UNLOADS, is_unclear, found);
 }
 
-/* Whether the branch of contact i ends within a step of h. */
+/* Whether the branch of a contact ends within a step. */
 static bool branch_ends(const push_spring *spring, int contact, const instant *start,
                         const instant *end, double step, bool *is_unclear, ending *found) {
   switch (spring->branch) {
@@ -196,7 +219,7 @@ static bool branch_ends(const push_spring *spring, int contact, const instant *s
   }
 }
 
-/* Whether the foot begins to hold, or to slip, within a step of h. */
+/* Whether the foot begins to hold, or to slip, within a step. */
 static bool foot_ends(const push_state *push, const instant *start, const instant *end, double step,
                       bool *is_unclear, ending *found) {
   const bool passed = push->slips ? end->foot < 0.0 : end->foot > 0.0,
@@ -208,13 +231,17 @@ static bool foot_ends(const push_state *push, const instant *start, const instan
   return inside && dips(start->foot, start->foot_rate, end->foot_rate, step, 0, is_unclear, found);
 }
 
-/* The part of a step of h at which an ending is 0: of Hermite's cubic, less the zeros that it has
+/* The part of a step at which an ending is 0: of Hermite's cubic, less the zeros that it has
  * at its start, by Newton's method within bounds. */
 static double part_of_step(const ending *found, double step) {
+
+  /* the cubic over the span, by the values and rates at its ends */
   const double span = found->share * step, rise = found->end - found->start;
   double cubic[4] = {found->start, span * found->from_rate,
                      3.0 * rise - span * (2.0 * found->from_rate + found->to_rate),
                      span * (found->from_rate + found->to_rate) - 2.0 * rise};
+
+  /* it begins at a zero, where the phase has just begun: that one is left out */
   for (int zero = 0; zero < 2 && cubic[0] == 0.0; zero++) {
     cubic[0] = cubic[1];
     cubic[1] = cubic[2];
@@ -225,6 +252,7 @@ static double part_of_step(const ending *found, double step) {
   if ((cubic[0] > 0.0) == (end > 0.0))
     return 0.0; /* it is beyond at once */
 
+  /* from where the chord is 0; within bounds, which halve where a step leads out of them */
   double low = 0.0, high = 1.0, part = cubic[0] / (cubic[0] - end);
   for (int iteration = 0; iteration < 3; iteration++) {
     const double value = cubic[0] + part * (cubic[1] + part * (cubic[2] + part * cubic[3])),
@@ -238,8 +266,8 @@ static double part_of_step(const ending *found, double step) {
 
 /* ---- A phase */
 
-/* C and U of an eigenvalue at a time up to STEP of the faster mode, to 1e-15, by sums and products
- * alone: C is the sum of q^n/(2n)!, and U/t that of q^n/(2n + 1)!, each by its even and its odd
+/* C and U of an eigenvalue at a time t up to STEP of the faster mode, to 1e-15, by sums and products
+ * alone. With q = -lambda t^2, C is the sum of q^n/(2n)!, and U/t that of q^n/(2n + 1)!, each by its even and its odd
  * powers, which are computed at one time. */
 static void swing_of(double lambda, double time, double *C, double *U) {
   const double q = -lambda * time * time, q2 = q * q;
@@ -275,7 +303,9 @@ static swing swing_on(const push_phase *phase, const swing *one, const swing *ot
 /* The two modes of the phase that begins. */
 static void begin_phase(const push_state *push, push_phase *phase) {
   const push_spring *tip = &push->spring[TIP], *slate = &push->spring[SLATE];
-  const double held = push->D * push->D / 3.5;
+
+  /* A, with the friction of the foot in place: that which holds, or mu N */
+  const double held = push->D * push->D / CAROM_SPHERE_SLIP;
   const double B = push->slips ? push->B : push->B - held,
                S = push->slips ? push->S + push->mu * push->D : push->S; /* of N in x'' */
   phase->A[TIP][TIP] = B * tip->stiffness;
@@ -288,7 +318,7 @@ static void begin_phase(const push_state *push, push_phase *phase) {
   const double half = 0.5 * (phase->A[0][0] - phase->A[1][1]),
                sum = phase->A[0][0] + phase->A[1][1];
   const double root =
-      carom_greater(sqrt(half * half + phase->A[0][1] * phase->A[1][0]), 1e-8 * sum);
+      carom_greater(sqrt(half * half + phase->A[0][1] * phase->A[1][0]), LEAST_SPLIT * sum);
   phase->lambda[0] = 0.5 * sum + root;
   phase->lambda[1] = tip->stiffness * slate->stiffness * (B - push->S * S) / phase->lambda[0];
   phase->quick = sqrt(phase->lambda[0]);
@@ -312,12 +342,15 @@ static void begin_phase(const push_state *push, push_phase *phase) {
   /* s' as a sum of x'' and y'' */
   const double both = push->B - push->S * (push->S + push->mu * push->D);
   phase->of_tip =
-      push->slips && both != 0.0 ? -(push->D - 3.5 * push->mu * push->S) / both : 0.0;
-  phase->of_slate = push->slips ? phase->of_tip * S + 3.5 * push->mu : 0.0;
+      push->slips && both != 0.0 ? -(push->D - CAROM_SPHERE_SLIP * push->mu * push->S) / both : 0.0;
+  phase->of_slate = push->slips ? phase->of_tip * S + CAROM_SPHERE_SLIP * push->mu : 0.0;
 }
 
+/* All values at a time of the phase, by C and U of it. */
 static void instant_at(const push_state *push, const push_phase *phase, const swing *swung,
                        instant *values) {
+
+  /* compressions and speeds, of which each mode has a part; and the forces */
   double force[2], rate[2], pressed[2];
   for (int contact = 0; contact < 2; contact++) {
     pressed[contact] = values->rate[contact] = 0.0;
@@ -339,10 +372,10 @@ static void instant_at(const push_state *push, const push_phase *phase, const sw
                  phase->of_slate * (values->rate[SLATE] - push->spring[SLATE].rate);
   if (push->slips) {
     values->foot = values->slip;
-    values->foot_rate = push->D * force[TIP] - 3.5 * push->mu * force[SLATE];
+    values->foot_rate = push->D * force[TIP] - CAROM_SPHERE_SLIP * push->mu * force[SLATE];
   } else {
-    values->foot = push->D / 3.5 * force[TIP] - push->mu * force[SLATE];
-    values->foot_rate = push->D / 3.5 * rate[TIP] - push->mu * rate[SLATE];
+    values->foot = push->D / CAROM_SPHERE_SLIP * force[TIP] - push->mu * force[SLATE];
+    values->foot_rate = push->D / CAROM_SPHERE_SLIP * rate[TIP] - push->mu * rate[SLATE];
   }
 }
 
@@ -388,9 +421,10 @@ static double value_of(const push_state *push, int contact, int next, const inst
   return values->compression[contact] - level;
 }
 
+/* Whether the friction that the foot needs to hold is at most what it has. */
 static bool held(const push_state *push) {
   const push_spring *tip = &push->spring[TIP], *slate = &push->spring[SLATE];
-  return push->D / 3.5 * tip->stiffness * (tip->compression - tip->rest) <=
+  return push->D / CAROM_SPHERE_SLIP * tip->stiffness * (tip->compression - tip->rest) <=
          push->mu * slate->stiffness * (slate->compression - slate->rest);
 }
 
@@ -401,18 +435,20 @@ static void count_touch(push_state *push) {
     push->out->second = push->spring[TIP].rate;
 }
 
-/* Ends the phase where an ending is 0, near the time of q. */
+/* Ends the phase where an ending is 0, near the time of C and U. */
 static void end_phase(push_state *push, const push_phase *phase, swing swung, double elapsed,
                       double step, int contact, int next) {
   instant values;
   double rate;
   instant_at(push, phase, &swung, &values);
+
+  /* the exact time, by one step of Newton's method on the modes; not before the phase began */
   const double value = value_of(push, contact, next, &values, &rate);
   double off = rate != 0.0 ? -value / rate : 0.0;
-  off = fabs(off) < 0.2 * step ? carom_greater(off, -elapsed) : 0.0;
+  off = fabs(off) < CORRECTION_MOST * step ? carom_greater(off, -elapsed) : 0.0;
   const swing change = swing_by(phase, off), total = swing_on(phase, &swung, &change);
   push->time = push->time + elapsed + off;
-  push->stuck = elapsed + off > 1e-9 * step ? 0 : push->stuck + 1;
+  push->stuck = elapsed + off > NO_TIME * step ? 0 : push->stuck + 1;
   instant_at(push, phase, &total, &values);
 
   /* the state there, and the branch that follows */
@@ -421,6 +457,8 @@ static void end_phase(push_state *push, const push_phase *phase, swing swung, do
     push->spring[side].rate = values.rate[side];
   }
   push->slip = carom_greater(values.slip, 0.0);
+
+  /* the course, by which derivatives know whether another one is near */
   push->out->course = push->out->course * 31U + (unsigned)(contact * 4 + next) + 1U;
   push->lets_go = false;
   if (contact == FOOT) {
@@ -495,9 +533,9 @@ static bool run_phase(push_state *push) {
 
 /* The impulse of the tip so far. */
 static double impulse_of_tip(const push_state *push) {
-  const double both = push->B - push->S * push->S - push->D * push->D / 3.5;
+  const double both = push->B - push->S * push->S - push->D * push->D / CAROM_SPHERE_SLIP;
   return (push->V - push->spring[TIP].rate - push->S * push->spring[SLATE].rate -
-          push->D / 3.5 * push->slip) /
+          push->D / CAROM_SPHERE_SLIP * push->slip) /
          both;
 }
 
@@ -571,7 +609,7 @@ bool carom_push_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_b
   memset(out, 0, sizeof *out);
   push.out = out;
   push.mass_ratio = kind->mass / cue->mass;
-  push.B = 1.0 + push.mass_ratio + 2.5 * (cue->a * cue->a + cue->b * cue->b);
+  push.B = 1.0 + push.mass_ratio + CAROM_SPHERE_TURN * (cue->a * cue->a + cue->b * cue->b);
   push.S = touch.closing * over;
   push.D = touch.slip * over;
   push.mu = kind->mu_slide;
@@ -596,7 +634,7 @@ bool carom_push_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_b
 
   /* the impulses of tip, slate and cloth */
   const double of_tip = impulse_of_tip(&push), of_slate = push.S * of_tip - slate->rate,
-               of_cloth = (push.D * of_tip - push.slip) / 3.5;
+               of_cloth = (push.D * of_tip - push.slip) / CAROM_SPHERE_SLIP;
   const double part = of_tip * over;
   out->impulse = of_tip * kind->mass;
   out->V = push.V - push.mass_ratio * of_tip;
@@ -614,9 +652,9 @@ bool carom_push_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_b
 
 void carom_leave_slate(const carom_ball_kind *kind, double J, carom_ball_state *state) {
   const double restitution = carom_slate_restitution(kind->restitution_table);
-  const double fall = 2.5 * kind->mu_spin * J / kind->radius;
+  const double fall = CAROM_SPHERE_TURN * kind->mu_spin * J / kind->radius;
   state->w[2] = fabs(state->w[2]) <= fall ? 0.0 : state->w[2] - copysign(fall, state->w[2]);
   if (state->v[2] > 0.0)
-    state->v[2] = carom_rebound(
-        state->v[2] * (restitution < least_e ? restitution / least_e : 1.0), 1.0);
+    state->v[2] =
+        carom_rebound(state->v[2] * (restitution < least_e ? restitution / least_e : 1.0), 1.0);
 }

@@ -66,6 +66,7 @@
  * A fall then ends after 130 events in the mean, and after 301 of 2,912 falls at most
  * (tests/physics/air.c). */
 #include "cluster/cluster.h"
+#include "motion/sphere.h"
 #include "platform/promise.h"
 #include "shot/sim.h"
 
@@ -73,6 +74,8 @@
 
 static const double slow_first = 1e-3, slow_most = 0.2; /* m/s */
 static const double slow_instants = 1500.0;
+/* Rounding, by which a little more is taken from the spin than parting adds. */
+#define ROUNDED_ENERGY 1e-15
 /* ON TOP: n_z, the s there in m/s, the bound of q, and the speed of a balanced ball, m/s */
 static const double steep = 0.7, slow_steep = 0.02, on_top = 0.05, balanced = 0.01;
 
@@ -91,7 +94,7 @@ static void count_slow(carom_sim *sim) {
 
 static double spin_energy(const carom_ball_kind *kind, const carom_ball_state *state) {
   const double w2 = carom_space_dot(state->w, state->w);
-  return 0.2 * kind->mass * kind->radius * kind->radius * w2;
+  return CAROM_SPHERE_ENERGY * kind->mass * kind->radius * kind->radius * w2;
 }
 
 static void slow_spin(carom_ball_state *state, double share) {
@@ -166,7 +169,7 @@ static double part_slowly(const contact_pair *contact, double slow, double m, do
     return fmax(closing, 0.0);
 
   /* the same share of all spins and of the motion past each other */
-  const double share = sqrt(1.0 - lost / spin) * (1.0 - 1e-15);
+  const double share = sqrt(1.0 - lost / spin) * (1.0 - ROUNDED_ENERGY);
   CAROM_PROMISE(!(share < 0.5 || share > 1.0));
   slow_spin(contact->a, share);
   if (contact->b != NULL)
@@ -215,7 +218,7 @@ __attribute__((noinline, cold)) static bool part_aside(const contact_pair *conta
   /* impulses aside and up change energy each by itself: aside = least rise, and its sum stays */
   const double level = 1.0 / mobility(contact, 0), upright = 1.0 / mobility(contact, 2);
   const double energy = level * aside * aside + upright * rise * rise;
-  const double risen = sqrt(energy / (level * least * least + upright)) * (1.0 - 1e-15);
+  const double risen = sqrt(energy / (level * least * least + upright)) * (1.0 - ROUNDED_ENERGY);
   push(contact, up * level * (least * risen - aside), outward);
   push(contact, up * upright * (risen - rise), upward);
   return true;

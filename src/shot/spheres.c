@@ -20,6 +20,7 @@
  * The cloth takes no part: a ball on it that is pressed down lands on it afterwards (slate.c),
  * as the balls part within 0.2 ms.
  */
+#include "motion/sphere.h"
 #include "shot/sim.h"
 
 #include <math.h>
@@ -39,10 +40,13 @@ static double relative_motion(const carom_impact *in, const double normal[3], do
   return v_n;
 }
 
+#define LEAST_SQUARE 1e-280 /* squares between these neither vanish nor overflow */
+#define MOST_SQUARE 1e300
+
 /* |u|, by the largest component first where a square would overflow or vanish. */
 static double size_of(const double vector[3]) {
   const double square = carom_space_dot(vector, vector);
-  if (square > 1e-280 && square < 1e300)
+  if (square > LEAST_SQUARE && square < MOST_SQUARE)
     return sqrt(square);
   const double most = fmax(fmax(fabs(vector[0]), fabs(vector[1])), fabs(vector[2]));
   if (!(most > 0.0 && most < INFINITY))
@@ -62,7 +66,7 @@ void carom_spheres_collide(const carom_impact *in, const double normal[3], carom
   double across[3], turn[3];
   const double v_n = relative_motion(in, normal, across), slip = size_of(across),
                B = 1.0 / a->mass + 1.0 / b->mass;
-  const double J = (1.0 + in->restitution) * v_n / B, stops = slip / (3.5 * B),
+  const double J = (1.0 + in->restitution) * v_n / B, stops = slip / (CAROM_SPHERE_SLIP * B),
                most = in->mu_ball * J;
   double J_t = most < stops ? most : stops;
   /* u becomes the direction t; where it is 0, J_t t stays u / (7/2 B), which has derivatives */
@@ -70,15 +74,15 @@ void carom_spheres_collide(const carom_impact *in, const double normal[3], carom
     for (int axis = 0; axis < 3; axis++)
       across[axis] /= slip;
   } else if (most > 0.0) {
-    J_t = 1.0 / (3.5 * B);
+    J_t = 1.0 / (CAROM_SPHERE_SLIP * B);
   }
   carom_cross(normal, across, turn);
   for (int axis = 0; axis < 3; axis++) {
     const double impulse = J * normal[axis] + J_t * across[axis];
     out->a.v[axis] = a->v[axis] - impulse / a->mass;
     out->b.v[axis] = b->v[axis] + impulse / b->mass;
-    out->a.w[axis] = a->w[axis] - 2.5 * J_t / (a->mass * a->radius) * turn[axis];
-    out->b.w[axis] = b->w[axis] - 2.5 * J_t / (b->mass * b->radius) * turn[axis];
+    out->a.w[axis] = a->w[axis] - CAROM_SPHERE_TURN * J_t / (a->mass * a->radius) * turn[axis];
+    out->b.w[axis] = b->w[axis] - CAROM_SPHERE_TURN * J_t / (b->mass * b->radius) * turn[axis];
   }
 }
 

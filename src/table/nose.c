@@ -5,6 +5,13 @@
  *
  *   delta = R_ref - sqrt(h (2 R_ref - h))
  *
+ *      L, the wall             .-'''-.
+ *      |                     .'       '.
+ *      | delta              (     o     )    s: from L to the centre, R_ref at the contact
+ *      |--->o nose           '.       .'     d: from the nose to the centre
+ *      |    | h                '-...-'
+ *     _|____|___________________________ cloth
+ *
  * inside L (1.143 mm for pool balls), R_ref being the radius of the balls that the table is
  * meant for. With s the distance of the centre from L, the centre is at d = (s - delta, z - h)
  * from the nose, across it and up; |d| = R at the contact. At z = R that is s = R for R = R_ref,

@@ -8,6 +8,7 @@
 
 #include <math.h>
 
+/* Across a rail, above 0 on its played side. */
 static double distance_to(const carom_features *features, int rail, const double centre[2]) {
   return carom_plane_dot(features->line[rail], centre) + features->line[rail][2];
 }
@@ -58,6 +59,8 @@ static bool crosses_circle(const carom_features *features, const double centre[2
                            const double point[2]) {
   const double way[2] = {point[0] - features->eye[0], point[1] - features->eye[1]},
                to_centre[2] = {centre[0] - features->eye[0], centre[1] - features->eye[1]};
+
+  /* the place of the way that is nearest to the centre of the circle, between both ends */
   const double size2 = carom_plane_dot(way, way),
                along = carom_lesser(carom_greater(carom_plane_dot(way, to_centre), 0.0), size2),
                share = size2 > 0.0 ? along / size2 : 0.0;
