@@ -635,7 +635,7 @@ static void take_back(cluster_state *cluster, double energy) {
 }
 
 /* The same of a strike: by an impulse -J of the tip, which takes J |b| - J^2 k/2 where b is the speed
- * at which the tip parts, below 0, and k is by how much J changes it. A tip that slides gives J along
+ * `parting` of the tip, below 0, and k the `response`, by how much J changes it. A tip that slides gives J along
  * n. */
 static void take_back_from_tip(bool flat, cluster_state *cluster, double energy) {
   carom_cluster_tip *tip = &cluster->tip;
@@ -719,7 +719,7 @@ static bool go_on(bool flat, cluster_state *cluster, double *tau) {
   return true;
 }
 
-/* The contacts that act at half a step of h, at tau. Returns whether any does; *balls whether one
+/* The contacts that act at half a step, at tau. Returns whether any does; *balls whether one
  * of balls does. */
 static inline bool act(bool flat, cluster_state *cluster, double step, double tau, pushes *pushed,
                        double *norm, bool *balls) {

@@ -91,7 +91,20 @@ enum {
   CAROM_CLUSTER_STEPS_MOST = 4000 /* of a cluster, for each of a contact's duration */
 };
 
-/* A ball. Letters are the symbols above. */
+/* Members that are letters are the symbols above; the others are
+ *
+ *     symbol     member                     meaning, unit
+ *     R, 1/m     radius, inverse_mass       m, 1/kg
+ *     d, d_max   overlap, overlap_max       of a contact; of tip and slate their compression, m
+ *     K, k       stiffness                  N/m^1.5 of two balls; N/m of a tip
+ *     e          restitution
+ *     u, U       slip, greatest_slip        m/s
+ *     f          friction                   impulse of a step along t and t x n, N s
+ *     T          duration                   s
+ *
+ * J, N s, is the normal impulse of a step. */
+
+/* A ball. */
 typedef struct carom_cluster_ball {
   double r[3], v[3], W[3];     /* W = R w, m/s */
   double radius, inverse_mass; /* m, 1/kg */
@@ -192,8 +205,8 @@ typedef struct carom_cluster_state {
   carom_cluster_slate *slate; /* CAROM_CLUSTER_BALLS of the caller's, where a cue strikes */
 } carom_cluster_state;
 
-/* members.c: compression of a contact of stiffness K and 1/reduced mass B that closes at v, and
- * the duration of one of that compression, by its pace. */
+/* members.c: compression of a contact of stiffness K and 1/reduced mass B, its mobility; and the
+ * duration of one of that compression, by its pace. */
 double carom_cluster_compression(double stiffness, double mobility, double closing);
 double carom_cluster_duration(double pace, double size);
 
@@ -208,7 +221,7 @@ int carom_cluster_members(carom_cluster_state *cluster, int first, int second);
  * contacts there are, -1 where there are too many; 0: it is alone. */
 int carom_cluster_members_of_tip(carom_cluster_state *cluster, double most);
 
-/* push.c: the tip of a cue at ball[struck], which touches a ball that is alone for T. cue[] has the
+/* push.c: the tip of a cue at ball[struck], which touches a ball that is alone for a duration. cue[] has the
  * numbers of carom_cue from speed to tip_restitution, in their order. */
 void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double cue[8],
                           double duration);

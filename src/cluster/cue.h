@@ -27,8 +27,8 @@ static inline void carom_cue_axes(double phi, double theta, double axis[3], doub
   above[2] = cos_theta;
 }
 
-/* p, from the centre of a ball at r to the tip, which has gone so far `along` its axis since it
- * touched that ball at `from`. axes become the directions of the cue. */
+/* The way from the centre of a ball to the tip, which has gone so far `along` its axis since it
+ * touched that ball at `origin`. axes become the directions of the cue. */
 static inline void carom_tip_from(const carom_cue *cue, double radius, const double origin[3],
                                   double along, const double centre[3], double axes[3][3],
                                   double to_tip[3]) {
@@ -39,7 +39,8 @@ static inline void carom_tip_from(const carom_cue *cue, double radius, const dou
                    ahead * axes[0][axis] - centre[axis];
 }
 
-/* p/|p| along these axes, of which the last two are the (a, b) of a touch. Returns |p|^2. */
+/* The direction of that way along these axes, of which the last two are the (a, b) of a touch. Returns the square
+ * of the distance. */
 static inline double carom_tip_on(double axes[3][3], const double to_tip[3], double offset[3]) {
   const double square = carom_space_dot(to_tip, to_tip), over = 1.0 / sqrt(square);
   for (int axis = 0; axis < 3; axis++)

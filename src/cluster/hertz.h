@@ -33,7 +33,7 @@
 #define CAROM_QUARTER_TURN 1.57079632679489662     /* pi/2 */
 #define CAROM_CENTROID_OF_SINE 0.63661977236758134 /* 2/pi */
 
-/* F of Hertz's law at an overlap d > 0. d_max grows with d. */
+/* F of Hertz's law at an overlap above 0, and the greatest one, which grows with it. */
 static inline double carom_hertz_force(double stiffness, double restitution, double overlap,
                                        double *overlap_max) {
   CAROM_PROMISE(!(overlap <= 0.0 || *overlap_max < 0.0) && restitution > 0.0 && restitution <= 1.0);
@@ -74,8 +74,8 @@ static inline double carom_linear_force(double stiffness, double restitution, do
   return elastic > 0.0 ? stiffness / (restitution * restitution) * elastic : 0.0;
 }
 
-/* d_max of a contact whose force has reached 0: its set recovers as d falls, so that it loads again
- * along the line of unloading. It is open where d is 0. */
+/* d_max of a contact whose force has reached 0: its set recovers as the overlap falls, so that it
+ * loads again along the line of unloading. It is open where the overlap is 0. */
 static inline double carom_set_left(double restitution, double overlap, double overlap_max) {
   const double lost = 1.0 - restitution * restitution;
   if (overlap > lost * overlap_max)
@@ -83,7 +83,7 @@ static inline double carom_set_left(double restitution, double overlap, double o
   return overlap > 0.0 && lost > 0.0 ? overlap / lost : 0.0;
 }
 
-/* d_max after a step, in the middle of which the overlap was d. Where the closing speed changed its
+/* d_max after a step, in the middle of which the contact had that overlap. Where the closing speed changed its
  * sign within the step, d_max is the vertex of the parabola with these speeds at its ends. */
 static inline double carom_hertz_vertex(double overlap, double overlap_max, double step,
                                         double closing_before, double closing_after) {

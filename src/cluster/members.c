@@ -117,7 +117,7 @@ static bool reaches(const first_contact *first, double deltas, const two_balls *
   return two->gap < deltas * first->delta + first->duration * closing;
 }
 
-/* delta and T of a contact that closes at v. */
+/* delta and T of a contact by its closing speed. */
 static first_contact first_of(const carom_cluster_ball *ball_i, const carom_cluster_ball *ball_j,
                               double closing) {
   const double stiff = stiffness(ball_i, ball_j),

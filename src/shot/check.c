@@ -83,7 +83,7 @@ static inline double height_of(const carom_ball_state *state, double radius) {
   return carom_flies_in_layout(state, radius) ? state->r[2] : radius;
 }
 
-/* Whether a ball at r, of radius R, overlaps another in play of radius R_other, which is at height
+/* Whether a ball at r, of a radius, overlaps another in play of radius R_other, which is at height
  * z. */
 static inline bool overlaps(const double r[3], double radius, const carom_ball_state *neighbor,
                             double R_other, double z) {
@@ -163,7 +163,7 @@ typedef struct row_rules {
   bool flat, one_mass;
 } row_rules;
 
-/* Ball k by itself, beside the first one, and for the table. */
+/* A ball by itself, beside the first one, and for the table. */
 static carom_status check_alone(const carom_prepared *prepared, const row_rules *rules, int index) {
   const carom_ball_kind *kind = prepared->kind[index], *first = prepared->kind[0];
   /* most balls are of the kind of the one before, which is good */
@@ -186,7 +186,7 @@ static carom_status check_alone(const carom_prepared *prepared, const row_rules 
   return check_state(prepared->state[index], kind->radius, rules->flat);
 }
 
-/* Where ball k is: on the table or above it, and beside the balls before it, whose centres have
+/* Where a ball is: on the table or above it, and beside the balls before it, whose centres have
  * these heights. */
 static carom_status check_position(const carom_prepared *prepared, int index,
                                    const double *height) {

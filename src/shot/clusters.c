@@ -146,14 +146,14 @@ void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball
 
   const bool in_space =
       carom_flies(state_a) || carom_flies(state_b) || kind[0]->radius != kind[1]->radius;
-  const double before[3] = {now[0].v[0], now[0].v[1], now[0].v[2]};
+  const double velocity[3] = {now[0].v[0], now[0].v[1], now[0].v[2]};
   if (!(gap < CAROM_TOUCHING && time <= last) ||
       carom_model_balls(sim, pair, normal, in_space, &now[0], &now[1]) < 0)
     return;
 
   /* the impulse, and both after it */
   double change[3];
-  cluster_minus(false, now[0].v, before, change);
+  cluster_minus(false, now[0].v, velocity, change);
   *impulse += kind[0]->mass * sqrt(cluster_dot(false, change, change));
   for (int side = 0; side < 2; side++) {
     carom_label_after(in_space, kind[side], &now[side]);
@@ -337,8 +337,8 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone) {
   const double *velocity = alone->v, *centre = sim->path[struck].from.r;
   const double most = carom_tip_time(cue) * carom_space_size(velocity);
   for (int index = 0; index < sim->count; index++) {
-    const double *other = sim->path[index].from.r;
-    const double d_x = other[0] - centre[0], d_y = other[1] - centre[1];
+    const double *partner = sim->path[index].from.r;
+    const double d_x = partner[0] - centre[0], d_y = partner[1] - centre[1];
     const double reach = sim->rates[struck].radius + sim->rates[index].radius + most + neighborhood;
     if (index != struck && !carom_is_out(sim->path[index].from.label) &&
         d_x * d_x + d_y * d_y < reach * reach)

@@ -68,7 +68,7 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
 int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
                          carom_cluster_state *cluster, uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
-/* follow_through.c. The cue goes on from now at the speed V, its tip `lead` m ahead of where the
+/* follow_through.c. The cue goes on from now at a speed, its tip `lead` m ahead of where the
  * ball has it, as places.c has it. */
 void carom_follow_on(carom_play *play, double speed, double lead);
 /* Sets play->follow.time: when its tip touches the struck ball again. */
@@ -82,7 +82,7 @@ bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue);
 double carom_slate_under(const carom_ball_kind *kind);
 void carom_leave_slate(const carom_ball_kind *kind, double J, carom_ball_state *state);
 
-/* The motion of member k after a push, of a raised cue with what the slate takes from it. */
+/* The motion of a member after a push, of a raised cue with what the slate takes from it. */
 void carom_cluster_rest(const carom_sim *sim, const carom_cluster_state *cluster, int index,
                         carom_ball_state *state);
 

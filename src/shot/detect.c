@@ -232,24 +232,24 @@ static carom_meeting meet_table(const carom_sim *sim, int ball, const line_of_mo
 }
 
 /* When two balls meet, up to the horizon from now on. */
-static double meet_ball(const carom_sim *sim, int ball, const line_of_motion *track, int other,
+static double meet_ball(const carom_sim *sim, int ball, const line_of_motion *track, int partner,
                         double horizon) {
-  const line_of_motion other_track = motion_now(sim, other);
+  const line_of_motion partner_track = motion_now(sim, partner);
   carom_separation separation = {
-      {other_track.r[0] - track->r[0], other_track.r[1] - track->r[1], 0.0},
-      {other_track.v[0] - track->v[0], other_track.v[1] - track->v[1], 0.0},
-      {other_track.a[0] - track->a[0], other_track.a[1] - track->a[1], 0.0}};
-  const double reach = sim->rates[ball].radius + sim->rates[other].radius;
+      {partner_track.r[0] - track->r[0], partner_track.r[1] - track->r[1], 0.0},
+      {partner_track.v[0] - track->v[0], partner_track.v[1] - track->v[1], 0.0},
+      {partner_track.a[0] - track->a[0], partner_track.a[1] - track->a[1], 0.0}};
+  const double reach = sim->rates[ball].radius + sim->rates[partner].radius;
   if (!carom_in_space(sim))
     return sim->rules->touch_ball(&separation, reach, horizon);
-  const double other_elapsed = sim->time - sim->start[other],
+  const double partner_elapsed = sim->time - sim->start[partner],
                elapsed = sim->time - sim->start[ball];
-  separation.d0[2] = sim->z[other] +
-                     other_elapsed * (sim->v_z[other] + other_elapsed * sim->a_z[other]) -
+  separation.d0[2] = sim->z[partner] +
+                     partner_elapsed * (sim->v_z[partner] + partner_elapsed * sim->a_z[partner]) -
                      (sim->z[ball] + elapsed * (sim->v_z[ball] + elapsed * sim->a_z[ball]));
-  separation.d1[2] = sim->v_z[other] + 2.0 * other_elapsed * sim->a_z[other] -
+  separation.d1[2] = sim->v_z[partner] + 2.0 * partner_elapsed * sim->a_z[partner] -
                      (sim->v_z[ball] + 2.0 * elapsed * sim->a_z[ball]);
-  separation.d2[2] = sim->a_z[other] - sim->a_z[ball];
+  separation.d2[2] = sim->a_z[partner] - sim->a_z[ball];
   return carom_first_contact_in_space(&separation, reach, horizon);
 }
 
@@ -263,27 +263,27 @@ static void meet_balls(carom_sim *sim, int ball, int done) {
   double clear[CAROM_BALLS_MOST], end[CAROM_BALLS_MOST];
 
   /* how far they surely stay apart up to their common horizon, by p + e t + a t^2 (CHORD) */
-  for (int other = 0; other < count; other++) {
-    const double elapsed = time - sim->start[other];
+  for (int partner = 0; partner < count; partner++) {
+    const double elapsed = time - sim->start[partner];
     const double p[2] = {
-        sim->x[other] + elapsed * (sim->v_x[other] + elapsed * sim->a_x[other]) - track.r[0],
-        sim->y[other] + elapsed * (sim->v_y[other] + elapsed * sim->a_y[other]) - track.r[1]};
-    const double e[2] = {sim->v_x[other] + 2.0 * elapsed * sim->a_x[other] - track.v[0],
-                         sim->v_y[other] + 2.0 * elapsed * sim->a_y[other] - track.v[1]};
-    const double a[2] = {sim->a_x[other] - track.a[0], sim->a_y[other] - track.a[1]};
-    const double own = sim->horizon[other] - time, common = own < horizon ? own : horizon;
-    clear[other] = clearance(p, e, a, reach, common);
-    end[other] = common;
+        sim->x[partner] + elapsed * (sim->v_x[partner] + elapsed * sim->a_x[partner]) - track.r[0],
+        sim->y[partner] + elapsed * (sim->v_y[partner] + elapsed * sim->a_y[partner]) - track.r[1]};
+    const double e[2] = {sim->v_x[partner] + 2.0 * elapsed * sim->a_x[partner] - track.v[0],
+                         sim->v_y[partner] + 2.0 * elapsed * sim->a_y[partner] - track.v[1]};
+    const double a[2] = {sim->a_x[partner] - track.a[0], sim->a_y[partner] - track.a[1]};
+    const double limit = sim->horizon[partner] - time, common = limit < horizon ? limit : horizon;
+    clear[partner] = clearance(p, e, a, reach, common);
+    end[partner] = common;
   }
 
   /* those that may meet; each pair stands at the lower index */
-  for (int other = 0; other < count; other++) {
-    if (other == ball || other == done)
+  for (int partner = 0; partner < count; partner++) {
+    if (partner == ball || partner == done)
       continue;
     double meeting = INFINITY;
-    if (end[other] >= 0.0 && end[other] < INFINITY && !(clear[other] > 0.0))
-      meeting = time + meet_ball(sim, ball, &track, other, end[other]);
-    const int low = ball < other ? ball : other, high = ball < other ? other : ball;
+    if (end[partner] >= 0.0 && end[partner] < INFINITY && !(clear[partner] > 0.0))
+      meeting = time + meet_ball(sim, ball, &track, partner, end[partner]);
+    const int low = ball < partner ? ball : partner, high = ball < partner ? partner : ball;
     CAROM_PROMISE(low < high && !(meeting < time));
     sim->pair[low][high] = meeting;
     sim->pair_round[low][high] = (int32_t)sim->round;
@@ -378,20 +378,20 @@ static void take_path(carom_sim *sim, int ball) {
   take_horizon(sim, ball);
 }
 
-void carom_detect(carom_sim *sim, int ball, int other) {
-  CAROM_PROMISE(ball >= 0 && ball < sim->count && other >= -1 && other < sim->count &&
-                ball != other);
+void carom_detect(carom_sim *sim, int ball, int partner) {
+  CAROM_PROMISE(ball >= 0 && ball < sim->count && partner >= -1 && partner < sim->count &&
+                ball != partner);
   take_path(sim, ball);
-  if (other >= 0)
-    take_path(sim, other);
+  if (partner >= 0)
+    take_path(sim, partner);
   meet_balls(sim, ball, -1);
-  if (other >= 0)
-    meet_balls(sim, other, ball);
+  if (partner >= 0)
+    meet_balls(sim, partner, ball);
   scan_row(sim, ball);
   update_rows(sim, ball);
-  if (other >= 0) {
-    scan_row(sim, other);
-    update_rows(sim, other);
+  if (partner >= 0) {
+    scan_row(sim, partner);
+    update_rows(sim, partner);
   }
 }
 
@@ -418,9 +418,9 @@ void carom_detect_all(carom_sim *sim) {
   no_heights(sim);
   for (int ball = 0; ball < count; ball++) {
     take_path(sim, ball);
-    for (int other = ball + 1; other < count; other++) {
-      sim->pair[ball][other] = INFINITY;
-      sim->pair_round[ball][other] = 0;
+    for (int partner = ball + 1; partner < count; partner++) {
+      sim->pair[ball][partner] = INFINITY;
+      sim->pair_round[ball][partner] = 0;
     }
   }
   for (int ball = 0; ball < count; ball++)

@@ -23,7 +23,7 @@ static uint32_t set_of(int ball) {
   return UINT32_C(1) << ball;
 }
 
-/* Where ball i is now. */
+/* Where a ball is now. */
 static carom_ball_state state_now(const carom_sim *sim, int ball) {
   carom_ball_state current;
   carom_path_at(&sim->path[ball], &sim->rates[ball], sim->time, &current);
@@ -193,13 +193,13 @@ void carom_facts_event(const carom_sim *sim, const carom_due *pending_event) {
   }
 }
 
-/* Whether balls i and k touch by the rules. */
-static bool touch_by_rules(const carom_sim *sim, int ball, int other) {
-  const double *centre = sim->path[ball].from.r, *other_centre = sim->path[other].from.r;
-  const double radius = sim->rates[ball].radius, other_radius = sim->rates[other].radius;
-  const double reach = radius + other_radius + CAROM_RULES_TOUCH;
-  const double x = other_centre[0] - centre[0], y = other_centre[1] - centre[1],
-               z = other_radius - radius;
+/* Whether two balls touch by the rules. */
+static bool touch_by_rules(const carom_sim *sim, int ball, int partner) {
+  const double *centre = sim->path[ball].from.r, *partner_centre = sim->path[partner].from.r;
+  const double radius = sim->rates[ball].radius, partner_radius = sim->rates[partner].radius;
+  const double reach = radius + partner_radius + CAROM_RULES_TOUCH;
+  const double x = partner_centre[0] - centre[0], y = partner_centre[1] - centre[1],
+               z = partner_radius - radius;
   return x * x + y * y + z * z < reach * reach;
 }
 

@@ -44,7 +44,7 @@ void carom_follow_on(carom_play *play, double speed, double lead) {
   follow->V = speed;
 }
 
-/* p, now, and the directions of the cue. */
+/* p, from the centre to the tip, now, and the directions of the cue. */
 static void tip_of(const carom_play *play, const double centre[3], double axes[3][3],
                    double to_tip[3]) {
   const carom_sim *sim = &play->sim;

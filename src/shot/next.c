@@ -30,8 +30,8 @@ static carom_due meeting_of(const carom_sim *sim, int ball) {
   return (carom_due){sim->meeting[ball].time, sim->meeting[ball].type, ball,
                      sim->meeting[ball].part};
 }
-static carom_due pair_of(const carom_sim *sim, int ball, int other) {
-  return (carom_due){sim->pair[ball][other], CAROM_EVENT_BALL_BALL, ball, other};
+static carom_due pair_of(const carom_sim *sim, int ball, int partner) {
+  return (carom_due){sim->pair[ball][partner], CAROM_EVENT_BALL_BALL, ball, partner};
 }
 
 /* All that is due up to a time. */
@@ -42,14 +42,14 @@ static int list_due(const carom_sim *sim, double limit, carom_due pending_events
     if (sim->own_end[ball] > limit && sim->first[ball] > limit)
       continue;
 
-    /* the end of its phase, its meeting with the table, its pairs with balls j > i */
+    /* the end of its phase, its meeting with the table, its pairs with those behind it */
     if (sim->path[ball].end <= limit)
       pending_events[count++] = end_of(sim, ball);
     if (sim->meeting[ball].time <= limit)
       pending_events[count++] = meeting_of(sim, ball);
-    for (int other = ball + 1; sim->first[ball] <= limit && other < sim->count; other++)
-      if (sim->pair[ball][other] <= limit)
-        pending_events[count++] = pair_of(sim, ball, other);
+    for (int partner = ball + 1; sim->first[ball] <= limit && partner < sim->count; partner++)
+      if (sim->pair[ball][partner] <= limit)
+        pending_events[count++] = pair_of(sim, ball, partner);
   }
   CAROM_PROMISE(count >= 1 && count <= MOST_DUE);
   return count;

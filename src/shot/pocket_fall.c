@@ -103,7 +103,7 @@ static void fall_alone(const pocket_fall *fall, double time, double place[2], do
   velocity[1] = along * x / fall->wall;
 }
 
-/* Level distance that a ball at height z has to keep from one that lies. */
+/* Level distance that a ball at a height has to keep from one that lies. */
 static double distance_from(const pocket_fall *fall, const lying *neighbor, double height) {
   const double sum = fall->kind->radius + neighbor->radius, up = height - neighbor->r[2];
   return sqrt(carom_greater(sum * sum - up * up, 0.0));

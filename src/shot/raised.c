@@ -290,12 +290,12 @@ static swing swing_by(const push_phase *phase, double time) {
 }
 
 /* At the sum of two times. */
-static swing swing_on(const push_phase *phase, const swing *one, const swing *other) {
+static swing swing_on(const push_phase *phase, const swing *first, const swing *second) {
   swing sum;
   for (int mode = 0; mode < 2; mode++) {
     sum.C[mode] =
-        one->C[mode] * other->C[mode] - phase->lambda[mode] * one->U[mode] * other->U[mode];
-    sum.U[mode] = one->U[mode] * other->C[mode] + one->C[mode] * other->U[mode];
+        first->C[mode] * second->C[mode] - phase->lambda[mode] * first->U[mode] * second->U[mode];
+    sum.U[mode] = first->U[mode] * second->C[mode] + first->C[mode] * second->U[mode];
   }
   return sum;
 }
@@ -539,7 +539,7 @@ static double impulse_of_tip(const push_state *push) {
          both;
 }
 
-/* How long contact i, which has no force, needs until it has one again; infinite: it has none any
+/* How long a contact that has no force needs until it has one again; infinite: it has none any
  * more. */
 static double wait_of(const push_state *push, int contact) {
   const push_spring *spring = &push->spring[contact];

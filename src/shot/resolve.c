@@ -113,7 +113,7 @@ typedef struct contact_pair {
                           down */
 } contact_pair;
 
-/* An impulse of P along a direction, against a and on b. */
+/* An impulse along a direction, against a and on b. */
 static void push(const contact_pair *contact, double impulse, const double along[3]) {
   for (int axis = 0; axis < 3; axis++) {
     if (!(axis == 2 && contact->held_a))
@@ -155,7 +155,7 @@ static double passing(const contact_pair *contact, double m, double closing, dou
   return energy;
 }
 
-/* The speed at which a slow contact parts, `s` or less; takes the energy that it needs more from
+/* The speed at which a slow contact parts, `slow` or less; takes the energy that it needs more from
  * the spins and, in space, in the same proportion from the motion past each other. `m`: the
  * reduced mass along n. */
 static double part_slowly(const contact_pair *contact, double slow, double m, double closing) {

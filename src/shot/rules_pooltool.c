@@ -26,6 +26,10 @@
 /* s: pooltool's EPS; earlier zeros are no contact with a rail */
 static const double root_least = 2.220446049250313e-14;
 static const double spacer = 1e-6, longest = 5e-6; /* m */
+/* Balls keep touching where their normal velocities, m/s, differ by less than this, and the cosine
+ * of their directions is above that; this part of the faster one passes over. */
+static const double keeps_touching = 0.01, nearly_parallel = 0.9, passed_over = 0.1;
+static const double nearly_real = 1e-3; /* imaginary part of a zero, of its real part */
 
 /* ---- ORDER */
 
@@ -122,7 +126,7 @@ static double nearest_zero(double a, double b, double c) {
   const int zeros = carom_quadratic_zeros(a, b, c, zero);
   if (zeros == 0) {
     const double real = -b / (2.0 * a), imaginary = sqrt(4.0 * a * c - b * b) / (2.0 * a);
-    if (fabs(imaginary) < 1e-3 * fabs(real))
+    if (fabs(imaginary) < nearly_real * fabs(real))
       return real;
     return NAN;
   }
@@ -131,7 +135,7 @@ static double nearest_zero(double a, double b, double c) {
   return zero[0];
 }
 
-/* Two balls, set apart; n becomes the direction from a to b. False where pooltool has no answer. */
+/* Two balls, set apart; the normal becomes the direction from a to b. False where pooltool has no answer. */
 static bool kiss_balls(double radius, double normal[2], carom_ball_state *a, carom_ball_state *b) {
   const double reach = 2.0 * radius + spacer;
   const double x = b->r[0] - a->r[0], y = b->r[1] - a->r[1], v_x = b->v[0] - a->v[0],
@@ -168,19 +172,19 @@ static void keep_touching(const double normal[2], carom_ball_state *a, carom_bal
   if (!(speed_a > 0.0 && speed_b > 0.0))
     return;
   const double normal_a = carom_plane_dot(a->v, normal), normal_b = carom_plane_dot(b->v, normal);
-  if (!(fabs(normal_b - normal_a) < 0.01) ||
-      !(carom_plane_dot(a->v, b->v) / (speed_a * speed_b) > 0.9))
+  if (!(fabs(normal_b - normal_a) < keeps_touching) ||
+      !(carom_plane_dot(a->v, b->v) / (speed_a * speed_b) > nearly_parallel))
     return;
-  double passed = -0.1 * normal_b;
+  double passed = -passed_over * normal_b;
   if (normal_a > normal_b)
-    passed = 0.1 * normal_a;
+    passed = passed_over * normal_a;
   for (int axis = 0; axis < 2; axis++) {
     a->v[axis] -= passed * normal[axis];
     b->v[axis] += passed * normal[axis];
   }
 }
 
-/* Sets the ball at the spacer's distance from a rail; n becomes the direction into it. */
+/* Sets the ball at the spacer's distance from a rail; the normal becomes the direction into it. */
 static void kiss_rail(const carom_rail *rail, const double line[3], double radius, double normal[2],
                       carom_ball_state *state) {
   const double reach = radius + spacer;

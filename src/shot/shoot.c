@@ -56,19 +56,19 @@ static double impulse_of(const carom_sim *sim, const carom_event *event) {
  * path->from. */
 static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
                             const carom_event *event) {
-  const int ball = pending_event->a, other = pending_event->b;
+  const int ball = pending_event->a, partner = pending_event->b;
   carom_ball_state *state = &sim->path[ball].from;
   switch (pending_event->type) {
   case CAROM_EVENT_BALL_BALL:
     *state = event->before[0];
-    sim->path[other].from = event->before[1];
-    return sim->rules->resolve(sim, pending_event, state, &sim->path[other].from);
+    sim->path[partner].from = event->before[1];
+    return sim->rules->resolve(sim, pending_event, state, &sim->path[partner].from);
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW:
     *state = event->before[0];
     return sim->rules->resolve(sim, pending_event, state, NULL);
   case CAROM_EVENT_POCKET: {
-    const carom_pocket *pocket = &sim->table->pocket[other];
+    const carom_pocket *pocket = &sim->table->pocket[partner];
     *state = (carom_ball_state){.r = {pocket->centre[0], pocket->centre[1], -pocket->depth},
                                 .label = CAROM_BALL_POCKETED};
     return CAROM_OK;
@@ -269,8 +269,7 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   if (*status == CAROM_OK)
     *status = of_contacts;
   /* a tip that is gone stands still */
-  carom_follow_on(play, cluster.tip.gone ? 0.0 : cluster.tip.V,
-                  carom_cluster_tip_lead(&cluster));
+  carom_follow_on(play, cluster.tip.gone ? 0.0 : cluster.tip.V, carom_cluster_tip_lead(&cluster));
   return true;
 }
 
@@ -287,11 +286,11 @@ static carom_status step(carom_sim *sim, carom_due *pending_event) {
     return together;
   carom_event spare, *event = note(sim, &spare, pending_event);
   const int ball = pending_event->a;
-  int other = -1;
+  int partner = -1;
   if (pending_event->type == CAROM_EVENT_BALL_BALL)
-    other = pending_event->b;
+    partner = pending_event->b;
   CAROM_PROMISE(ball >= 0 && ball < sim->count &&
-                (other < 0 || (ball < other && other < sim->count)));
+                (partner < 0 || (ball < partner && partner < sim->count)));
 
   /* the states of its balls where it happens */
   carom_path_at(&sim->path[ball], &sim->rates[ball], sim->time, &event->before[0]);
@@ -299,22 +298,22 @@ static carom_status step(carom_sim *sim, carom_due *pending_event) {
     carom_path_land(&sim->path[ball], &sim->rates[ball], sim->time, &event->before[0]);
   else if (pending_event->type == CAROM_EVENT_RAIL_TOP) /* exactly on it */
     event->before[0].r[2] = carom_height_on_top(sim, ball, pending_event->b);
-  if (other >= 0)
-    carom_path_at(&sim->path[other], &sim->rates[other], sim->time, &event->before[1]);
+  if (partner >= 0)
+    carom_path_at(&sim->path[partner], &sim->rates[partner], sim->time, &event->before[1]);
 
   /* the states after it, on their paths; an error leaves those before it */
   const carom_status status = resolve(sim, pending_event, event);
   if (status < 0) {
     sim->path[ball].from = event->before[0];
-    if (other >= 0)
-      sim->path[other].from = event->before[1];
+    if (partner >= 0)
+      sim->path[partner].from = event->before[1];
   }
 
   /* what the caller keeps of it */
   if (event != &spare) {
     event->after[0] = sim->path[ball].from;
-    if (other >= 0)
-      event->after[1] = sim->path[other].from;
+    if (partner >= 0)
+      event->after[1] = sim->path[partner].from;
     else
       memset(&event->after[1], 0, sizeof event->after[1]);
     event->impulse = impulse_of(sim, event);
@@ -322,10 +321,10 @@ static carom_status step(carom_sim *sim, carom_due *pending_event) {
 
   /* the paths from here on, and what is met on them */
   carom_path_begin(&sim->path[ball], &sim->rates[ball], sim->time);
-  if (other >= 0)
-    carom_path_begin(&sim->path[other], &sim->rates[other], sim->time);
+  if (partner >= 0)
+    carom_path_begin(&sim->path[partner], &sim->rates[partner], sim->time);
   if (status >= 0)
-    carom_detect(sim, ball, other);
+    carom_detect(sim, ball, partner);
   return status;
 }
 

@@ -24,7 +24,7 @@ carom_status carom_check_common(const carom_table *table, int64_t count,
                                 const carom_shot_options *opt, int *where);
 /* what a job needs beside them; */
 carom_status carom_check_job(const carom_shot_job *job);
-/* one layout on the table and with the options of p, for which this prepares *features, unless
+/* one layout on the table and with the same options, for which this prepares *features, unless
  * they are for its radii; */
 carom_status carom_prepare_row(carom_prepared *prepared, carom_features *features, int *where);
 /* all of it. *where becomes the index of the part or the ball at fault, or -1. */

@@ -93,16 +93,16 @@ static inline bool carom_in_space(const carom_sim *sim) {
   return sim->flying > 0 || sim->unlike;
 }
 
-/* resolve.c: the height of ball i's centre on the top of rail `part`, or of jaw `part` less the
+/* resolve.c: the height of a ball's centre on the top of rail `part`, or of jaw `part` less the
  * rails. */
 double carom_height_on_top(const carom_sim *sim, int ball, int part);
-/* flight.c: the first meeting of airborne ball i with the table, from r with v now, its time
+/* flight.c: the first meeting of an airborne ball with the table, from r with v now, its time
  * from now on; landing: the time until it would land. */
 carom_meeting carom_meet_in_flight(const carom_sim *sim, int ball, const double r[3],
                                    const double v[3], double landing);
 
-/* detect.c: looks again for all that balls i and j can meet, from now on; j may be -1. */
-void carom_detect(carom_sim *sim, int ball, int other);
+/* detect.c: looks again for all that two balls can meet, from now on; `partner` may be -1. */
+void carom_detect(carom_sim *sim, int ball, int partner);
 /* The same for all balls, at the start. */
 void carom_detect_all(carom_sim *sim);
 /* Takes what follows from the kinds of the balls. */
@@ -148,8 +148,8 @@ typedef struct carom_nose {
   double mu_cushion, restitution;
 } carom_nose;
 
-/* models.c: v and w after a collision by the model asked for. n: unit vector from ball i to ball
- * j, or into the cushion. Balls `in_space` are not both on the cloth, or have unlike radii: they
+/* models.c: v and w after a collision by the model asked for. normal: unit vector from the first ball to
+ * the second one, or into the cushion. Balls `in_space` are not both on the cloth, or have unlike radii: they
  * collide the more as spheres the higher they are and the more n is tilted; an airborne ball meets
  * a nose with less of the cloth the higher it is. */
 carom_status carom_model_balls(const carom_sim *sim, const carom_due *pending_event,

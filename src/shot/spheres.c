@@ -43,7 +43,7 @@ static double relative_motion(const carom_impact *in, const double normal[3], do
 #define LEAST_SQUARE 1e-280 /* squares between these neither vanish nor overflow */
 #define MOST_SQUARE 1e300
 
-/* |u|, by the largest component first where a square would overflow or vanish. */
+/* The size of a vector, by the largest component first where a square would overflow or vanish. */
 static double size_of(const double vector[3]) {
   const double square = carom_space_dot(vector, vector);
   if (square > LEAST_SQUARE && square < MOST_SQUARE)
@@ -69,7 +69,7 @@ void carom_spheres_collide(const carom_impact *in, const double normal[3], carom
   const double J = (1.0 + in->restitution) * v_n / B, stops = slip / (CAROM_SPHERE_SLIP * B),
                most = in->mu_ball * J;
   double J_t = most < stops ? most : stops;
-  /* u becomes the direction t; where it is 0, J_t t stays u / (7/2 B), which has derivatives */
+  /* u, across n, becomes the direction t; where it is 0, J_t t stays u / (7/2 B), which has derivatives */
   if (slip > 0.0) {
     for (int axis = 0; axis < 3; axis++)
       across[axis] /= slip;

@@ -144,7 +144,7 @@ static bool is_bool(const bool *x) {
   return byte <= 1;
 }
 
-/* Whether ball i can be on its path, whose other numbers are computed again: from its state, or, of
+/* Whether a ball can be on its path, whose other numbers are computed again: from its state, or, of
  * the second piece of a pair, from what was known of it before. */
 static bool restore_path(carom_sim *sim, int i) {
   carom_path *path = &sim->path[i];
@@ -173,7 +173,7 @@ static bool in(int64_t number, int64_t least, int64_t most) {
   return number >= least && number <= most;
 }
 
-/* Whether ball i can meet that on the table. */
+/* Whether a ball can meet that on the table. */
 static bool good_meeting(const carom_sim *sim, int i) {
   const carom_meeting *m = &sim->meeting[i];
   if (isnan(m->time) || (m->time < INFINITY && !carom_translates(sim->path[i].from.label)))
@@ -186,7 +186,7 @@ static bool good_meeting(const carom_sim *sim, int i) {
   return m->part >= 0 && m->part < parts && parts < INT64_MAX;
 }
 
-/* Whether the pairs of ball i with those behind it can meet when they are said to. */
+/* Whether the pairs of a ball with those behind it can meet when they are said to. */
 static bool good_pairs(const carom_sim *sim, int i) {
   bool good = true;
   for (int j = i + 1; j < sim->count; j++) {

@@ -14,6 +14,10 @@
 #include <math.h>
 #include <string.h>
 
+static const double single_rounding = 1e-5; /* m: of places up to 100 m in single precision */
+static const double single_part = 1e-6;     /* the same, of a place */
+static const double usual_width = 0.12;     /* m: of the top of a rail */
+
 static inline float lesser(float a, float b) {
   return a < b ? a : b;
 }
@@ -21,7 +25,7 @@ static inline float greater(float a, float b) {
   return a > b ? a : b;
 }
 
-/* The box of feature k: around two points, with a margin. The hull grows to hold it. */
+/* The box of a feature: around two points, with a margin. The hull grows to hold it. */
 static inline void enclose(carom_features *features, int index, const double p[2],
                            const double q[2], double margin, double reach, double hull[4]) {
   const double low_x = carom_lesser(p[0], q[0]) - margin,
@@ -29,7 +33,7 @@ static inline void enclose(carom_features *features, int index, const double p[2
   const double low_y = carom_lesser(p[1], q[1]) - margin,
                high_y = carom_greater(p[1], q[1]) + margin;
   /* a trace more, so that rounding to single precision cannot lose anything */
-  const double room = reach + 1e-5;
+  const double room = reach + single_rounding;
   features->low_x[index] = (float)(low_x - room);
   features->high_x[index] = (float)(high_x + room);
   features->low_y[index] = (float)(low_y - room);
@@ -80,9 +84,11 @@ static void clear_around_eye(carom_features *features) {
     room_y = lesser(room_y, is_across ? INFINITY : along);
   }
 
-  /* a trace less, for rounding: 1e-6 of the places of a table, which may be far from 0 */
-  features->clear[0] = (double)room_x - 1e-6 * (fabs(features->hull[0]) + fabs(features->hull[1]));
-  features->clear[1] = (double)room_y - 1e-6 * (fabs(features->hull[2]) + fabs(features->hull[3]));
+  /* a trace less, for rounding of the places of a table, which may be far from 0 */
+  features->clear[0] =
+      (double)room_x - single_part * (fabs(features->hull[0]) + fabs(features->hull[1]));
+  features->clear[1] =
+      (double)room_y - single_part * (fabs(features->hull[2]) + fabs(features->hull[3]));
 }
 
 /* Finds the eye: the middle of the table if it is seen from the place beside the longest rail;
@@ -152,7 +158,7 @@ void carom_features_of(const carom_table *table, double radius, double reference
 
   /* defaults of the table */
   features->nose_low = low;
-  features->width = 0.12;
+  features->width = usual_width;
   if (table->rail_width > 0.0)
     features->width = table->rail_width;
   features->pocket_back = high;

@@ -4,6 +4,9 @@
 
 #include <math.h>
 
+static const double least_pocket = 1e-9;  /* m: of a radius */
+static const double off_line_most = 1e-6; /* m: of an end of a rail from its line */
+
 /* 0 where all are finite, else NaN. The parts of a table are checked for each shot that is
  * played alone, so without a branch for each number. */
 static inline double zero_if_finite(const double *values, int count) {
@@ -68,7 +71,7 @@ carom_status carom_check_table(const carom_table *table, int *where) {
     if (!good_jaw(&table->jaw[index]))
       return place_fault(where, index, CAROM_ERROR_TABLE);
   for (int index = 0; index < table->pockets; index++)
-    if (!good_circle(table->pocket[index].centre, table->pocket[index].radius, 1e-9) ||
+    if (!good_circle(table->pocket[index].centre, table->pocket[index].radius, least_pocket) ||
         !isfinite(table->pocket[index].depth))
       return place_fault(where, index, CAROM_ERROR_TABLE);
   return CAROM_OK;
@@ -150,7 +153,7 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
     const carom_rail *rail = &table->rail[index];
     const double off = carom_greater(off_line(features.line[index], rail->p),
                                      off_line(features.line[index], rail->q));
-    if (!(off <= 1e-6)) {
+    if (!(off <= off_line_most)) {
       fault->part = (carom_part){CAROM_PART_RAIL, index};
       for (int axis = 0; axis < 2; axis++)
         fault->place[axis] = 0.5 * (rail->p[axis] + rail->q[axis]);

@@ -8,6 +8,18 @@
  *     jaws      (t c - r s, +-(t s + r c))      t = (m/2 + r (1 - c)) / s
  *     pocket    (t c - r s - d, 0), radius m/2
  *
+ *                       / rail
+ *                  .-. /
+ *                 ( r |          jaw, tangent to the rail where it ends: t from the corner,
+ *       .-'''-.    '-'           in which both rails would meet
+ *      /       \    |
+ *     |   m/2   |   | m          ---> x, the bisector, into the table
+ *      \       /    |
+ *       '-...-'    .-.
+ *       pocket    ( r |
+ *                  '-' \
+ *                       \ rail
+ *
  * The circle touches the line between the centres of the jaws for d = m/2. A ball of radius R
  * cannot pass between it and a jaw for d^2 < (m/2 + r + R)^2 - (m/2 + r)^2, so that d is at most
  * 0.9 of that. Corners that are not clearly convex have a jaw of radius 0: there balls meet the
@@ -17,8 +29,11 @@
 #include <math.h>
 #include <string.h>
 
-static const double CLEARLY = 0.17; /* sine of the turn at a corner where rails need no jaw */
-static const double SAFE = 0.9;     /* part of the greatest d */
+static const double FARTHEST = 1e6;  /* m: of a corner, a mouth or a jaw; farther ones lose bits */
+static const double STRAIGHT = 1e-9; /* of the sum of two directions at a straight corner */
+static const double POCKET_DEPTH = 0.08; /* m: where balls lie in drawings */
+static const double CLEARLY = 0.17;      /* sine of the turn at a corner where rails need no jaw */
+static const double SAFE = 0.9;          /* part of the greatest d */
 
 /* A corner: where it is, the directions to the next and the one before, and where rails end. */
 typedef struct corner_joint {
@@ -53,7 +68,7 @@ static void add_pocket(carom_table *table, const corner_joint *joint, double nos
   /* the bisector: into the table, also where the corner points into it */
   double bisector[2] = {joint->next[0] + joint->previous[0], joint->next[1] + joint->previous[1]};
   double size = carom_plane_size(bisector);
-  if (size < 1e-9) { /* a straight corner */
+  if (size < STRAIGHT) { /* a straight corner */
     bisector[0] = -joint->next[1];
     bisector[1] = joint->next[0];
     size = 1.0;
@@ -76,7 +91,7 @@ static void add_pocket(carom_table *table, const corner_joint *joint, double nos
       (carom_pocket){.centre = {0.5 * (first[0] + last[0]) - back * bisector[0],
                                 0.5 * (first[1] + last[1]) - back * bisector[1]},
                      .radius = half,
-                     .depth = 0.08};
+                     .depth = POCKET_DEPTH};
 }
 
 /* Tells which corner is at fault, and beside which other; -1: none. */
@@ -91,12 +106,13 @@ static carom_status blame(carom_table_fault *fault, int corner, int second, caro
 static carom_status check_corners(const carom_corner *corner, int count, carom_table_fault *fault) {
   int pockets = 0;
   for (int index = 0; index < count; index++) {
-    const carom_corner *here = &corner[index], *next = &corner[(index + 1) % count];
-    if (!(fabs(here->x) < 1e6 && fabs(here->y) < 1e6 && here->mouth >= 0.0 && here->mouth < 1e6))
+    const carom_corner *start = &corner[index], *end = &corner[(index + 1) % count];
+    if (!(fabs(start->x) < FARTHEST && fabs(start->y) < FARTHEST && start->mouth >= 0.0 &&
+          start->mouth < FARTHEST))
       return blame(fault, index, -1, CAROM_ERROR_CORNER);
-    if (here->x == next->x && here->y == next->y)
+    if (start->x == end->x && start->y == end->y)
       return blame(fault, index, (index + 1) % count, CAROM_ERROR_CORNERS_MEET);
-    pockets += here->mouth > 0.0;
+    pockets += start->mouth > 0.0;
     if (pockets > CAROM_POCKETS_MOST)
       return blame(fault, index, -1, CAROM_ERROR_POCKETS);
   }
@@ -118,8 +134,8 @@ static void move_to_origin(const carom_corner *start, int count, carom_corner *e
 static double twice_area_of(const carom_corner *corner, int count) {
   double area = 0.0;
   for (int index = 0; index < count; index++) {
-    const carom_corner *here = &corner[index], *next = &corner[(index + 1) % count];
-    area += here->x * next->y - next->x * here->y;
+    const carom_corner *start = &corner[index], *end = &corner[(index + 1) % count];
+    area += start->x * end->y - end->x * start->y;
   }
   return area;
 }
@@ -136,12 +152,13 @@ static carom_status joints_of(const carom_corner *corner, int count, double jaw_
       step = count - 1;
       index = count - 1 - number;
     }
-    const carom_corner *here = &corner[index], *after = &corner[(index + step) % count],
-                       *before = &corner[(index + count - step) % count];
-    joint[number].corner[0] = here->x;
-    joint[number].corner[1] = here->y;
-    direction(joint[number].corner, (double[2]){after->x, after->y}, joint[number].next);
-    direction(joint[number].corner, (double[2]){before->x, before->y}, joint[number].previous);
+    const carom_corner *vertex = &corner[index], *following = &corner[(index + step) % count],
+                       *preceding = &corner[(index + count - step) % count];
+    joint[number].corner[0] = vertex->x;
+    joint[number].corner[1] = vertex->y;
+    direction(joint[number].corner, (double[2]){following->x, following->y}, joint[number].next);
+    direction(joint[number].corner, (double[2]){preceding->x, preceding->y},
+              joint[number].previous);
 
     /* beta by its half: the turn is sin(beta), above 0 where the corner is convex */
     joint[number].turn = joint[number].next[0] * joint[number].previous[1] -
@@ -150,10 +167,10 @@ static carom_status joints_of(const carom_corner *corner, int count, double jaw_
     const double half_sine = sqrt(carom_greater(0.5 - 0.5 * cosine, 0.0)),
                  half_cosine =
                      copysign(sqrt(carom_greater(0.5 + 0.5 * cosine, 0.0)), joint[number].turn);
-    joint[number].mouth = here->mouth;
+    joint[number].mouth = vertex->mouth;
     joint[number].cut = 0.0;
-    if (here->mouth > 0.0) {
-      joint[number].cut = (0.5 * here->mouth + jaw_radius * (1.0 - half_cosine)) / half_sine;
+    if (vertex->mouth > 0.0) {
+      joint[number].cut = (0.5 * vertex->mouth + jaw_radius * (1.0 - half_cosine)) / half_sine;
       jaws += 2;
     } else {
       jaws += joint[number].turn < CLEARLY;
@@ -181,9 +198,9 @@ static bool are_in_line(const carom_corner *corner, int count) {
  * corner to the next. */
 static bool sides_cross(const carom_corner *corner, int count, int *first, int *second) {
   for (int side = 0; side < count; side++)
-    for (int other = side + 2; other < count; other++) {
-      const carom_corner *a = &corner[side], *b = &corner[side + 1], *c = &corner[other],
-                         *d = &corner[(other + 1) % count];
+    for (int second_side = side + 2; second_side < count; second_side++) {
+      const carom_corner *a = &corner[side], *b = &corner[side + 1], *c = &corner[second_side],
+                         *d = &corner[(second_side + 1) % count];
       const double c_side = side_of(a, b, c), d_side = side_of(a, b, d), a_side = side_of(c, d, a),
                    b_side = side_of(c, d, b);
       /* sides on one line meet where their boxes do */
@@ -191,10 +208,10 @@ static bool sides_cross(const carom_corner *corner, int count, int *first, int *
                          carom_greater(c->x, d->x) < carom_lesser(a->x, b->x) ||
                          carom_greater(a->y, b->y) < carom_lesser(c->y, d->y) ||
                          carom_greater(c->y, d->y) < carom_lesser(a->y, b->y);
-      if ((side > 0 || other < count - 1) && !apart && c_side * d_side <= 0.0 &&
+      if ((side > 0 || second_side < count - 1) && !apart && c_side * d_side <= 0.0 &&
           a_side * b_side <= 0.0) {
         *first = side;
-        *second = other;
+        *second = second_side;
         return true;
       }
     }
@@ -208,22 +225,22 @@ static carom_status add_sides(const corner_joint *joint, int count, double nose_
                               carom_table *table, carom_table_fault *fault) {
   for (int index = 0; index < count; index++) {
     const int next = (index + 1) % count;
-    const corner_joint *here = &joint[index], *beyond = &joint[next];
+    const corner_joint *start = &joint[index], *end = &joint[next];
     double way[2], p[2], q[2];
-    if (direction(here->corner, beyond->corner, way) <= here->cut + beyond->cut) {
+    if (direction(start->corner, end->corner, way) <= start->cut + end->cut) {
       if (turned)
         return blame(fault, count - 1 - next, count - 1 - index, CAROM_ERROR_MOUTHS);
       return blame(fault, index, next, CAROM_ERROR_MOUTHS);
     }
     for (int axis = 0; axis < 2; axis++) {
-      p[axis] = here->corner[axis] + here->cut * way[axis];
-      q[axis] = beyond->corner[axis] - beyond->cut * way[axis];
+      p[axis] = start->corner[axis] + start->cut * way[axis];
+      q[axis] = end->corner[axis] - end->cut * way[axis];
     }
     add_rail(table, nose_height, p, q);
-    if (here->mouth > 0.0)
-      add_pocket(table, here, nose_height, jaw_radius, ball_radius);
-    else if (here->turn < CLEARLY)
-      add_jaw(table, nose_height, 0.0, here->corner[0], here->corner[1]);
+    if (start->mouth > 0.0)
+      add_pocket(table, start, nose_height, jaw_radius, ball_radius);
+    else if (start->turn < CLEARLY)
+      add_jaw(table, nose_height, 0.0, start->corner[0], start->corner[1]);
   }
   return CAROM_OK;
 }
@@ -240,7 +257,7 @@ carom_status carom_table_polygon(const carom_corner *corners, int count, double 
   memset(table, 0, sizeof *table);
   if (!carom_is_positive(ball_radius))
     return CAROM_ERROR_RADIUS;
-  if (!(jaw_radius >= 0.0 && jaw_radius < 1e6))
+  if (!(jaw_radius >= 0.0 && jaw_radius < FARTHEST))
     return CAROM_ERROR_JAW_RADIUS;
   if (count < 3 || count > CAROM_RAILS_MOST)
     return CAROM_ERROR_CORNERS;

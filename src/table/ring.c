@@ -12,6 +12,13 @@
  * to how often it winds around P. A forest of the nodes, each with the sum from its root, tells
  * this for all chains at once: an edge between two nodes of one tree closes a chain.
  *
+ *      o======rail======o jaw
+ *      |                 |
+ *     ( )      P    ray  ( )      A chain of parts that overlap, closed around P: the ray is
+ *    pocket    o- - - - - |- ->   crossed once more upward than downward.
+ *      |                 |
+ *      o======rail======o
+ *
  * The ring is looked at twice. With rounded rails, which do not depend on the sides, it tells
  * holes as wide as a ball; then, when the sides are known to be right, with rails as detection
  * knows them it tells ends of rails without a jaw. Where no chain is closed, the parts are grown
@@ -69,7 +76,7 @@ static void shapes_of(const carom_ground *ground, double overlap, bool round, pa
               table->pocket[index].radius, 0.0, (carom_part){CAROM_PART_POCKET, index});
 }
 
-/* The place of a segment that is nearest to r, and how far it is. */
+/* The place of a segment that is nearest to a point, and how far it is. */
 static double nearest(const shape *segment, const double point[2], double place[2]) {
   const double way[2] = {segment->q[0] - segment->p[0], segment->q[1] - segment->p[1]},
                size2 = carom_plane_dot(way, way);
@@ -202,7 +209,7 @@ static bool encloses(part_ring *ring, double first, double grown, const double P
   return false;
 }
 
-/* Whether the centre of a ball can be at r. */
+/* Whether the centre of a ball can be at a point. */
 static bool is_free(const part_ring *ring, const double point[2]) {
   double place[2];
   for (int index = 0; index < ring->count; index++)
@@ -262,19 +269,21 @@ static bool find_place(part_ring *ring, const carom_ground *ground, double grown
 /* Finds the hole in a ring that is not closed, by bisection over how far the parts are grown.
  * False if there is none to be found. */
 static bool find_hole(part_ring *ring, const double P[2], hole *found) {
-  double low = touching, high = 1e-3;
-  while (high < 1e6 && !encloses(ring, high, high, P, NULL, found)) {
+  enum { BISECTIONS = 50 };                             /* to the last bit */
+  static const double first_guess = 1e-3, widest = 1e6; /* m: no hole is wider */
+  double low = touching, high = first_guess;
+  while (high < widest && !encloses(ring, high, high, P, NULL, found)) {
     low = high;
     high *= 2.0;
   }
-  for (int bisection = 0; bisection < 50 && high < 1e6; bisection++) {
+  for (int bisection = 0; bisection < BISECTIONS && high < widest; bisection++) {
     const double middle = 0.5 * (low + high);
     if (encloses(ring, middle, middle, P, NULL, found))
       high = middle;
     else
       low = middle;
   }
-  return high < 1e6 && encloses(ring, low, high, P, NULL, found);
+  return high < widest && encloses(ring, low, high, P, NULL, found);
 }
 
 /* Whether the played side of a rail is turned away from the table: nowhere along it can a ball
@@ -288,7 +297,7 @@ static bool wrong_side(part_ring *ring, const carom_rail *rail, const double nor
       double Q[2];
       for (int axis = 0; axis < 2; axis++)
         Q[axis] = rail->p[axis] + places[index] * (rail->q[axis] - rail->p[axis]) +
-                  side * (radius + 1e-6) * normal[axis];
+                  side * (radius + touching) * normal[axis];
       hole unused;
       if (!is_free(ring, Q) || encloses(ring, touching, touching, P, Q, &unused))
         continue;

@@ -62,7 +62,7 @@ typedef struct carom_seam {
 /* The seams of a jaw, by the numbers of the table alone, and how many. */
 int carom_seams_of(const carom_table *table, int index, carom_seam seam[CAROM_SEAMS_MOST]);
 /* Changes the friction and the restitution of a jaw, for a ball of a kind, to those at the place
- * that the ball at r touches. */
+ * that the ball touches. */
 void carom_blend_jaw(const carom_table *table, int index, const carom_ball_kind *kind,
                      const double centre[3], double *mu, double *restitution);
 
@@ -119,7 +119,7 @@ carom_part carom_part_there(const carom_ground *ground, const double centre[3]);
  * must be within the cushions. */
 bool carom_is_above_table(const carom_table *table, const carom_features *features,
                           const carom_ball_kind *kind, const double centre[3]);
-/* Whether the way from the eye of the table straight to r is clear of all parts for the centre of
+/* Whether the way from the eye of the table straight to a place is clear of all parts for the centre of
  * a ball on the cloth. */
 bool carom_is_in_sight(const carom_ground *ground, const double centre[2]);
 /* Whether a place is outside the ring of cushions and pockets, for the centre of a ball that

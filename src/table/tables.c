@@ -1,6 +1,14 @@
 /* Tables from measures: cushions with pockets, as rule books give them, and those that are built
  * in.
  *
+ *                   |<-- mouth -->|
+ *     rail  __________           __________  rail
+ *                     '.       .'               jaws, tangent to rail and facing
+ *                      /       \
+ *             facing  /  .---.  \  facing       cut: the angle between rail and facing
+ *                    /  ( hole ) \
+ *                        '---'
+ *
  * Rails end where the pockets' mouths begin; there a jaw, a cylinder, leads from the rail into
  * the pocket's facing. Each jaw is tangent to its rail and its facing at their ends. A mouth lies
  * between the points where its rails would meet its facings; a cut is the angle between both. With
