@@ -15,70 +15,84 @@
 
 #include "cluster/slate.h"
 
-static const double long_tip = 1e-4;   /* s: a shorter tip that is open takes steps of this one */
-static const double far_behind = 20.0; /* of how far the cue goes in the duration of the tip */
+/* s: a tip that lasts shorter takes the steps of this one while it is open, as it has no force */
+static const double long_tip = 1e-4;
+/* of how far the cue goes in the duration of the tip: beyond it the tip will not touch soon */
+static const double far_behind = 20.0;
 
 /* The longest step of a strike. A cue that is far behind does not count, as contacts of balls may
  * last long where they are slow. */
-static inline double strike_step(const carom_cluster_state *c) {
-  const carom_cluster_tip *x = &c->tip;
-  const bool open = x->touches > 0 && x->d <= 0.0;
-  const double T = open ? carom_greater(x->T, long_tip) : x->T;
-  const bool far = open && x->d < -far_behind * T * x->first;
-  double h = far ? (double)INFINITY : push_step(c, T, x->e);
-  for (int k = 0; c->on_slate && k < c->balls; k++)
-    if (c->slate[k].e > 0.0 && ((k == x->ball && !far) || c->slate[k].J > 0.0))
-      h = carom_lesser(h, push_step(c, (double)CAROM_SLATE_TIME, c->slate[k].e) / c->steepness);
-  return h;
+static inline double strike_step(const carom_cluster_state *cluster) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  const bool open = tip->touches > 0 && tip->overlap <= 0.0;
+  const double duration = open ? carom_greater(tip->duration, long_tip) : tip->duration;
+  const bool far = open && tip->overlap < -far_behind * duration * tip->first;
+
+  /* the shorter of those of the tip, and of each slate that acts or carries the struck ball */
+  double step = far ? INFINITY : push_step(cluster, duration, tip->restitution);
+  for (int index = 0; cluster->on_slate && index < cluster->balls; index++)
+    if (cluster->slate[index].restitution > 0.0 &&
+        ((index == tip->ball && !far) || cluster->slate[index].J > 0.0))
+      step = carom_lesser(step,
+                          push_step(cluster, CAROM_SLATE_TIME, cluster->slate[index].restitution) /
+                              cluster->steepness);
+  return step;
 }
 
-/* Where neither tip nor balls act in a step of h, whether the slate has let the balls go. */
-static inline bool slate_ends(carom_cluster_state *c, double h) {
-  const carom_cluster_tip *tip = &c->tip;
-  const carom_cluster_ball *b = &c->ball[tip->ball];
-  const double least = too_slow * tip->first, closing = tip_closing(tip, b),
-               up = slate_releases(&c->slate[tip->ball], b->v[2], h) - b->v[2];
+/* Where neither tip nor balls act in a step, whether the slate has let the balls go. */
+static inline bool slate_ends(carom_cluster_state *cluster, double step) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  const carom_cluster_ball *ball = &cluster->ball[tip->ball];
+  const double least = too_slow * tip->first, closing = tip_closing(tip, ball),
+               up = slate_releases(&cluster->slate[tip->ball], ball->v[2], step) - ball->v[2];
+  /* the condition of the head: the ball would come back to the tip */
   if (!tip->gone && closing <= least && closing - tip_upward(tip) * up > least)
     return false;
-  slate_lets_go(c, h);
+  slate_lets_go(cluster, step);
   return true;
 }
 
 /* How long the tip needs until its set has recovered, and no longer than it touches. */
-static inline double recovery(const carom_cluster_state *c) {
-  const carom_cluster_tip *x = &c->tip;
-  const double closing = tip_closing(x, &c->ball[x->ball]);
-  return x->d > 0.0 && closing < 0.0 ? carom_lesser(-x->d / closing, x->T) : (double)0.0;
+static inline double recovery(const carom_cluster_state *cluster) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  const double closing = tip_closing(tip, &cluster->ball[tip->ball]);
+  return tip->overlap > 0.0 && closing < 0.0 ? carom_lesser(-tip->overlap / closing, tip->duration)
+                                             : 0.0;
 }
 
 /* Whether the tip would close without the slate too. */
-static inline bool follows_through(const carom_cluster_state *c) {
-  const carom_cluster_tip *x = &c->tip;
-  const carom_cluster_ball *p = &c->ball[x->ball];
-  const double by_slate = -tip_upward(x) * c->slate[x->ball].impulse * p->inverse_mass;
-  return tip_closing(x, p) - by_slate > too_slow * x->first;
+static inline bool follows_through(const carom_cluster_state *cluster) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  const carom_cluster_ball *ball = &cluster->ball[tip->ball];
+  const double by_slate = -tip_upward(tip) * cluster->slate[tip->ball].impulse * ball->inverse_mass;
+  return tip_closing(tip, ball) - by_slate > too_slow * tip->first;
 }
 
 /* Nothing acts: all goes on to the next touch of balls, which need `of_balls`, or under a raised
  * cue of tip or slate. Returns whether there is one in the push. */
-static inline bool go_to_touch(bool flat, carom_cluster_state *c, double of_balls, double *tau) {
-  carom_cluster_tip *tip = &c->tip;
-  const double of_tip = c->on_slate && !follows_through(c) ? wait_of_tip(c) : (double)INFINITY;
+static inline bool go_to_touch(bool flat, carom_cluster_state *cluster, double of_balls,
+                               double *tau) {
+  carom_cluster_tip *tip = &cluster->tip;
+  const double of_tip =
+      cluster->on_slate && !follows_through(cluster) ? wait_of_tip(cluster) : INFINITY;
+
+  /* the first touch: of the tip, of a ball and the slate, or of two balls */
   double wait = of_tip;
-  for (int k = 0; c->on_slate && k < c->balls; k++)
-    wait = carom_lesser(wait, wait_of_slate(c, k));
-  if (of_balls < wait && !(of_balls < recovery(c)))
+  for (int index = 0; cluster->on_slate && index < cluster->balls; index++)
+    wait = carom_lesser(wait, wait_of_slate(cluster, index));
+  if (of_balls < wait && !(of_balls < recovery(cluster)))
     return false;
   wait = carom_lesser(wait, of_balls);
   if (!(wait < INFINITY))
     return false;
 
   /* sets recover meanwhile */
-  tip_waits(tip, &c->ball[tip->ball], wait, of_tip <= wait);
-  for (int k = 0; c->on_slate && k < c->balls; k++)
-    slate_waits(&c->slate[k], -c->ball[k].v[2], wait, wait_of_slate(c, k) <= wait);
-  for (int k = 0; k < c->balls; k++)
-    cluster_add(flat, c->ball[k].s, wait, c->ball[k].v);
+  tip_waits(tip, &cluster->ball[tip->ball], wait, of_tip <= wait);
+  for (int index = 0; cluster->on_slate && index < cluster->balls; index++)
+    slate_waits(&cluster->slate[index], -cluster->ball[index].v[2], wait,
+                wait_of_slate(cluster, index) <= wait);
+  for (int index = 0; index < cluster->balls; index++)
+    cluster_add(flat, cluster->ball[index].s, wait, cluster->ball[index].v);
   *tau += wait;
   return true;
 }

@@ -1,6 +1,11 @@
 /* The integrator of a cluster, cluster.h: leapfrog in tau, with the friction of a step by fixed
  * iterations. A step of h:
  *
+ *          0            h/2             h
+ *          |-------------|--------------|     tau
+ *       v, u0        d, F, J = h F       v', u
+ *          s += h/2 v         s += h/2 v'
+ *
  *     s += h/2 v;  d and F there, so J = h F for every contact that acts;  v by J
  *     friction, `iterations` times, for all contacts from the same velocities (Jacobi), so that
  *     the numbering does not count:
@@ -36,14 +41,15 @@
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
 #include "friction/laws.h"
+#include "motion/sphere.h"
 #include "platform/promise.h"
 #include "platform/ranges.h"
 
 #include <math.h>
 
-typedef carom_cluster_state state;
-typedef carom_cluster_contact_state contact;
-typedef carom_cluster_ball ball;
+typedef carom_cluster_state cluster_state;
+typedef carom_cluster_contact_state contact_state;
+typedef carom_cluster_ball ball_state;
 
 enum { ITERATIONS = 2 };
 
@@ -53,244 +59,296 @@ typedef struct pushes {
   uint8_t press[CAROM_CLUSTER_CONTACTS], push[CAROM_CLUSTER_CONTACTS], pushed[CAROM_CLUSTER_BALLS];
 } pushes;
 
-static const double open_overlap =
-    1e-12; /* m: overlaps below it are none; their forces could underflow */
+/* m: overlaps below it are none; their forces could underflow */
+static const double open_overlap = 1e-12;
+
+/* (2 . 2)^2, for squares of twice a mean: a slip of a mean below twice what friction takes may turn
+ * back within the step. */
+#define CAROM_MAY_TURN_BACK 16.0
+/* Rounding, by which a little more is taken from the energy than it has risen: of speeds, and of an
+ * impulse that comes of a difference of near numbers. */
+#define CAROM_ROUNDED_SPEED 1e-15
+#define CAROM_ROUNDED_IMPULSE 1e-12
 
 /* ---- A contact's geometry and motion */
 
-static inline void move(bool flat, state *c, double time) {
-  for (int k = 0; k < c->balls; k++)
-    cluster_add(flat, c->ball[k].s, time, c->ball[k].v);
+/* All go on along their velocities: s of a time. */
+static inline void move(bool flat, cluster_state *cluster, double time) {
+  for (int index = 0; index < cluster->balls; index++)
+    cluster_add(flat, cluster->ball[index].s, time, cluster->ball[index].v);
 }
 
-static inline double mobility(const contact *x) { /* B */
-  return x->p->inverse_mass + x->q->inverse_mass;
+/* B */
+static inline double mobility(const contact_state *contact) {
+  return contact->ball_i->inverse_mass + contact->ball_j->inverse_mass;
 }
 
-static inline double closing_of(bool flat, const contact *x) {
-  double v[3];
-  cluster_minus(flat, x->p->v, x->q->v, v);
-  return cluster_dot(flat, v, x->n);
+/* d' */
+static inline double closing_of(bool flat, const contact_state *contact) {
+  double relative[3];
+  cluster_minus(flat, contact->ball_i->v, contact->ball_j->v, relative);
+  return cluster_dot(flat, relative, contact->n);
 }
 
-static inline double overlap_of(bool flat, const contact *x) {
-  double s[3];
-  cluster_minus(flat, x->p->s, x->q->s, s);
-  return x->offset + cluster_dot(flat, s, x->n);
+/* d */
+static inline double overlap_of(bool flat, const contact_state *contact) {
+  double moved[3];
+  cluster_minus(flat, contact->ball_i->s, contact->ball_j->s, moved);
+  return contact->offset + cluster_dot(flat, moved, contact->n);
 }
 
-static inline void slip_of(bool flat, const contact *x, double u[2]) {
-  const ball *p = x->p, *q = x->q;
-  double v[3], t[3], third[3];
-  cluster_minus(flat, p->v, q->v, v);
-  const double W[3] = {p->W[0] + q->W[0], p->W[1] + q->W[1], p->W[2] + q->W[2]};
-  cluster_across(flat, x->n, t, third);
+/* u, along t and t x n. The second has the share phi of the velocity, and on the cloth none. */
+static inline void slip_of(bool flat, const contact_state *contact, double slip[2]) {
+  const ball_state *ball_i = contact->ball_i, *ball_j = contact->ball_j;
+  double relative[3], tangent[3], third[3];
+
+  /* v_i - v_j and W_i + W_j, of which (W_i + W_j) x n has -(t x n) . W along t, and t . W across */
+  cluster_minus(flat, ball_i->v, ball_j->v, relative);
+  const double spin[3] = {ball_i->W[0] + ball_j->W[0], ball_i->W[1] + ball_j->W[1],
+                          ball_i->W[2] + ball_j->W[2]};
+  cluster_across(flat, contact->n, tangent, third);
   if (flat) {
-    u[0] = carom_plane_dot(v, t) - W[2];
-    u[1] = carom_plane_dot(W, t);
+    slip[0] = carom_plane_dot(relative, tangent) - spin[2];
+    slip[1] = carom_plane_dot(spin, tangent);
   } else {
-    u[0] = cluster_dot(false, v, t) - cluster_dot(false, W, third);
-    u[1] = x->freedom * cluster_dot(false, v, third) + cluster_dot(false, W, t);
+    slip[0] = cluster_dot(false, relative, tangent) - cluster_dot(false, spin, third);
+    slip[1] =
+        contact->freedom * cluster_dot(false, relative, third) + cluster_dot(false, spin, tangent);
   }
 }
 
-/* Friction's impulse f on i, and -f on j. */
-static inline void rub(bool flat, const contact *x, const double f[2]) {
-  ball *p = x->p, *q = x->q;
-  const double p_0 = f[0] * p->inverse_mass, p_1 = f[1] * p->inverse_mass;
-  const double q_0 = f[0] * q->inverse_mass, q_1 = f[1] * q->inverse_mass;
-  double t[3], third[3];
-  cluster_across(flat, x->n, t, third);
-  cluster_add(flat, p->v, p_0, t);
-  cluster_add(flat, q->v, -q_0, t);
-  cluster_add(flat, p->W, 2.5 * p_1, t);
-  cluster_add(flat, q->W, 2.5 * q_1, t);
+/* Friction's impulse f on i, and -f on j, along t and t x n. */
+static inline void rub(bool flat, const contact_state *contact, const double impulse[2]) {
+  ball_state *ball_i = contact->ball_i, *ball_j = contact->ball_j;
+  /* the changes of velocity of both, each along both directions */
+  const double tangent_i = impulse[0] * ball_i->inverse_mass,
+               third_i = impulse[1] * ball_i->inverse_mass;
+  const double tangent_j = impulse[0] * ball_j->inverse_mass,
+               third_j = impulse[1] * ball_j->inverse_mass;
+  double tangent[3], third[3];
+  cluster_across(flat, contact->n, tangent, third);
+
+  /* along t, and the turn about t by what goes along t x n, alike for both */
+  cluster_add(flat, ball_i->v, tangent_i, tangent);
+  cluster_add(flat, ball_j->v, -tangent_j, tangent);
+  cluster_add(flat, ball_i->W, CAROM_SPHERE_TURN * third_i, tangent);
+  cluster_add(flat, ball_j->W, CAROM_SPHERE_TURN * third_j, tangent);
+
+  /* along t x n, which the cloth holds by the share 1 - phi, and the turn about t x n */
   if (flat) {
-    p->W[2] -= 2.5 * p_0;
-    q->W[2] -= 2.5 * q_0;
-    p->load -= f[1];
-    q->load += f[1];
+    ball_i->W[2] -= CAROM_SPHERE_TURN * tangent_i;
+    ball_j->W[2] -= CAROM_SPHERE_TURN * tangent_j;
+    ball_i->load -= impulse[1];
+    ball_j->load += impulse[1];
   } else {
-    const double held = (1.0 - x->freedom) * f[1];
-    cluster_add(false, p->v, x->freedom * p_1, third);
-    cluster_add(false, q->v, -x->freedom * q_1, third);
-    cluster_add(false, p->W, -2.5 * p_0, third);
-    cluster_add(false, q->W, -2.5 * q_0, third);
-    p->load -= held;
-    q->load += held;
+    const double held = (1.0 - contact->freedom) * impulse[1];
+    cluster_add(false, ball_i->v, contact->freedom * third_i, third);
+    cluster_add(false, ball_j->v, -contact->freedom * third_j, third);
+    cluster_add(false, ball_i->W, -CAROM_SPHERE_TURN * tangent_i, third);
+    cluster_add(false, ball_j->W, -CAROM_SPHERE_TURN * tangent_j, third);
+    ball_i->load -= held;
+    ball_j->load += held;
   }
 }
 
-/* Two balls that move past each other: they touch where |d + v time|^2 = R^2, which is
- * A time^2 + 2 B time + C = 0, and D = B^2 - A C. */
+/* Two balls that move past each other, apart by x and at the relative velocity v. With the sum R of
+ * their radii as the distance, they touch where |x + v time|^2 = R^2, which is
+ * A time^2 + 2 B time + C = 0, with the discriminant B^2 - A C. */
 typedef struct passing {
-  double d[3], v[3];
-  double R, A, B, D;
+  double apart[3], velocity[3];
+  double distance, A, B, discriminant;
 } passing;
 
-static inline passing passing_of(bool flat, const contact *x) {
-  const ball *p = x->p, *q = x->q;
-  passing m;
-  for (int k = 0; k < 3; k++) {
-    m.d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
-    m.v[k] = q->v[k] - p->v[k];
+static inline passing passing_of(bool flat, const contact_state *contact) {
+  const ball_state *ball_i = contact->ball_i, *ball_j = contact->ball_j;
+  passing pass;
+  for (int axis = 0; axis < 3; axis++) {
+    pass.apart[axis] = ball_j->r[axis] - ball_i->r[axis] + (ball_j->s[axis] - ball_i->s[axis]);
+    pass.velocity[axis] = ball_j->v[axis] - ball_i->v[axis];
   }
-  m.R = p->radius + q->radius + CAROM_TOUCHING;
-  const double C = cluster_dot(flat, m.d, m.d) - m.R * m.R;
-  m.A = cluster_dot(flat, m.v, m.v);
-  m.B = cluster_dot(flat, m.d, m.v);
-  m.D = m.B * m.B - m.A * C;
-  return m;
+  pass.distance = ball_i->radius + ball_j->radius + CAROM_TOUCHING;
+  const double C = cluster_dot(flat, pass.apart, pass.apart) - pass.distance * pass.distance;
+  pass.A = cluster_dot(flat, pass.velocity, pass.velocity);
+  pass.B = cluster_dot(flat, pass.apart, pass.velocity);
+  pass.discriminant = pass.B * pass.B - pass.A * C;
+  return pass;
 }
 
 /* Where two balls that were apart have come together within the last half step, all moved by s:
  * the normal of the contact from then on, which is that of the touch, at most a step ago. */
-static void touch(bool flat, contact *x, double half) {
-  const passing m = passing_of(flat, x);
-  const double D = carom_greater(m.D, 0.0);
-  const double back = m.A > 0.0 ? carom_greater((-m.B - sqrt(D)) / m.A, -2.0 * half) : 0.0;
-  for (int k = 0; k < 3; k++)
-    x->n[k] = m.d[k] + back * m.v[k];
+static void touch(bool flat, contact_state *contact, double half) {
+  const passing pass = passing_of(flat, contact);
+
+  /* n at the touch, which is so long ago; balls that only graze are at their nearest then */
+  const double discriminant = carom_greater(pass.discriminant, 0.0);
+  const double back =
+      pass.A > 0.0 ? carom_greater((-pass.B - sqrt(discriminant)) / pass.A, -2.0 * half) : 0.0;
+  for (int axis = 0; axis < 3; axis++)
+    contact->n[axis] = pass.apart[axis] + back * pass.velocity[axis];
   if (flat)
-    x->n[2] = 0.0;
-  const double size = sqrt(cluster_dot(flat, x->n, x->n));
-  for (int k = 0; k < 3; k++)
-    x->n[k] /= size;
+    contact->n[2] = 0.0;
+  const double size = sqrt(cluster_dot(flat, contact->n, contact->n));
+  for (int axis = 0; axis < 3; axis++)
+    contact->n[axis] /= size;
 
   /* the offset with which the overlap is R less the distance along n, as s counts on */
-  double s[3];
-  cluster_minus(flat, x->p->s, x->q->s, s);
-  x->offset = m.R - cluster_dot(flat, m.d, x->n) - cluster_dot(flat, s, x->n);
+  double moved[3];
+  cluster_minus(flat, contact->ball_i->s, contact->ball_j->s, moved);
+  contact->offset = pass.distance - cluster_dot(flat, pass.apart, contact->n) -
+                    cluster_dot(flat, moved, contact->n);
 }
 
 /* Whether two balls that have not touched overlap, some time from now. */
-static inline bool meet(bool flat, const contact *x, double time) {
-  const ball *p = x->p, *q = x->q;
+static inline bool meet(bool flat, const contact_state *contact, double time) {
+  const ball_state *ball_i = contact->ball_i, *ball_j = contact->ball_j;
   double square = 0.0;
-  for (int k = 0; k < (flat ? 2 : 3); k++) {
-    const double d = q->r[k] + q->s[k] + time * q->v[k] - (p->r[k] + p->s[k] + time * p->v[k]);
-    square += d * d;
+  for (int axis = 0; axis < (flat ? 2 : 3); axis++) {
+    const double apart = ball_j->r[axis] + ball_j->s[axis] + time * ball_j->v[axis] -
+                         (ball_i->r[axis] + ball_i->s[axis] + time * ball_i->v[axis]);
+    square += apart * apart;
   }
-  const double R = p->radius + q->radius + CAROM_TOUCHING;
-  return square < R * R;
+  const double distance = ball_i->radius + ball_j->radius + CAROM_TOUCHING;
+  return square < distance * distance;
 }
 
-/* What a contact of a compression adds to the norm of steps; and the step of a sum of these. */
-static inline double quickness(const contact *x, double size) {
-  const double q = x->quick * size, q2 = q * q, q4 = q2 * q2;
-  return q4 * q4;
+/* What a contact of a compression adds to the norm of steps, (1/(e T))^32 = quick^8 size^8; and the
+ * step of a sum of these, its 32nd root. */
+static inline double quickness(const contact_state *contact, double size) {
+  const double pace = contact->quick * size, pace2 = pace * pace, pace4 = pace2 * pace2;
+  return pace4 * pace4;
 }
 static inline double step_of(double norm, double steps) {
-  return norm > 0.0 ? 1.0 / (steps * sqrt(sqrt(sqrt(sqrt(sqrt(norm)))))) : (double)INFINITY;
+  return norm > 0.0 ? 1.0 / (steps * sqrt(sqrt(sqrt(sqrt(sqrt(norm)))))) : INFINITY;
 }
 
 /* ---- Forces */
 
 /* The numbers of a contact's friction. */
-static inline void law_of(const contact *x, double k[3]) {
-  for (int n = 0; n < 3; n++)
-    k[n] = 0.5 * (x->p->law[n] + x->q->law[n]);
+static inline void law_of(const contact_state *contact, double law[3]) {
+  for (int index = 0; index < 3; index++)
+    law[index] = 0.5 * (contact->ball_i->law[index] + contact->ball_j->law[index]);
 }
 
 /* The contacts that are pressed at half a step: those that were, and open ones that have an
  * overlap, which touch within it and get their sizes and normals. Returns the longest step that
  * suits these and those that touch in the other half, infinite where there are none. */
-static inline double find_pressed(bool flat, state *c, double h, pushes *pushed) {
+static inline double find_pressed(bool flat, cluster_state *cluster, double step, pushes *pushed) {
   double norm = 0.0;
   pushed->pressed = 0;
-  CAROM_PROMISE(!(h < 0.0));
-  for (int k = 0; k < c->contacts; k++) {
-    contact *x = &c->contact[k];
-    if (x->d_max > 0.0) {
-      pushed->press[pushed->pressed++] = (uint8_t)k;
+  CAROM_PROMISE(!(step < 0.0));
+  for (int index = 0; index < cluster->contacts; index++) {
+    contact_state *contact = &cluster->contact[index];
+
+    /* one that was pressed still is */
+    if (contact->overlap_max > 0.0) {
+      pushed->press[pushed->pressed++] = (uint8_t)index;
       continue;
     }
+
     /* one that touched as all began, and has parted without an impulse, touches as any other */
-    if (x->touched && x->time < 0.0 && overlap_of(flat, x) < -open_overlap && !meet(flat, x, 0.0))
-      x->touched = false;
-    const bool first = !x->touched;
-    if (first && !meet(flat, x, 0.5 * h))
+    if (contact->touched && contact->time < 0.0 && overlap_of(flat, contact) < -open_overlap &&
+        !meet(flat, contact, 0.0))
+      contact->touched = false;
+
+    /* one that has never touched: whether it does within the step, and by now */
+    const bool first = !contact->touched;
+    if (first && !meet(flat, contact, 0.5 * step))
       continue;
-    const bool meets = first && meet(flat, x, 0.0);
+    const bool meets = first && meet(flat, contact, 0.0);
     if (meets)
-      touch(flat, x, 0.5 * h);
+      touch(flat, contact, 0.5 * step);
+
     /* one that has touched is open since it parted: it has no overlap before it closes again */
-    const double v = closing_of(flat, x);
-    if (!first && v <= 0.0)
+    const double closing = closing_of(flat, contact);
+    if (!first && closing <= 0.0)
       continue;
-    const double d = overlap_of(flat, x);
-    if (d + 0.5 * h * v <= open_overlap)
+    const double overlap = overlap_of(flat, contact);
+    if (overlap + 0.5 * step * closing <= open_overlap)
       continue;
-    if (d > open_overlap && (meets || !first))
-      pushed->press[pushed->pressed++] = (uint8_t)k;
-    x->size = v > 0.0 ? carom_cluster_compression(x->K, mobility(x), v) : 0.0;
-    norm += quickness(x, x->size);
+
+    /* it is pressed by now, or will be at the end of the step: its size asks for a step */
+    if (overlap > open_overlap && (meets || !first))
+      pushed->press[pushed->pressed++] = (uint8_t)index;
+    contact->size = closing > 0.0
+                        ? carom_cluster_compression(contact->stiffness, mobility(contact), closing)
+                        : 0.0;
+    norm += quickness(contact, contact->size);
   }
-  return step_of(norm, c->steps);
+  return step_of(norm, cluster->steps);
 }
 
-/* The set of a contact that is d deep, where its force has reached 0. */
-static inline void recover(contact *x, double d) {
-  x->d_max = d > open_overlap ? carom_set_left(x->e, d, x->d_max) : (double)0.0;
+/* The set of a contact of an overlap, where its force has reached 0. */
+static inline void recover(contact_state *contact, double overlap) {
+  contact->overlap_max = overlap > open_overlap
+                             ? carom_set_left(contact->restitution, overlap, contact->overlap_max)
+                             : 0.0;
 }
 
-/* A contact touches, d deep by now. */
-static inline void begin_contact(bool flat, state *c, contact *x, double d, double tau) {
-  const double v = closing_of(flat, x);
-  double s[3];
-  cluster_minus(flat, x->p->s, x->q->s, s);
-  x->U = -1.0; /* less than any slip: the first one sets mu */
-  x->f[0] = x->f[1] = 0.0;
-  const double time = carom_greater(tau - (v > 0.0 ? d / v : 0.0), 0.0);
-  x->touch = carom_cluster_begin_touch(c, (int)(x - c->contact), x->time < 0.0 ? -1 : x->touch,
-                                       time, cluster_dot(flat, s, x->n) - d);
-  if (x->time < 0.0)
-    x->time = time;
+/* A contact touches, of an overlap by now: it has since it was 0. */
+static inline void begin_contact(bool flat, cluster_state *cluster, contact_state *contact,
+                                 double overlap, double tau) {
+  const double closing = closing_of(flat, contact);
+
+  /* neither slip nor friction yet */
+  double moved[3];
+  cluster_minus(flat, contact->ball_i->s, contact->ball_j->s, moved);
+  contact->greatest_slip = -1.0; /* less than any slip: the first one sets mu */
+  contact->friction[0] = contact->friction[1] = 0.0;
+
+  /* the instant, and how far the two have come together until then */
+  const double time = carom_greater(tau - (closing > 0.0 ? overlap / closing : 0.0), 0.0);
+  contact->touch = carom_cluster_begin_touch(cluster, (int)(contact - cluster->contact),
+                                             contact->time < 0.0 ? -1 : contact->touch, time,
+                                             cluster_dot(flat, moved, contact->n) - overlap);
+  if (contact->time < 0.0)
+    contact->time = time;
 }
 
 /* Those of the pressed contacts that act, and their impulses. *norm becomes that of all that
  * overlap. Returns whether any does. */
-static inline bool find_acting(bool flat, state *c, double h, double tau, pushes *pushed,
-                               double *norm) {
-  bool overlap = false;
+static inline bool find_acting(bool flat, cluster_state *cluster, double step, double tau,
+                               pushes *pushed, double *norm) {
+  bool acts = false;
   *norm = 0.0;
   pushed->contacts = 0;
-  for (int k = 0; k < pushed->pressed; k++) {
-    contact *x = &c->contact[pushed->press[k]];
-    const double d = overlap_of(flat, x);
-    if (d <= open_overlap)
+  for (int index = 0; index < pushed->pressed; index++) {
+    contact_state *contact = &cluster->contact[pushed->press[index]];
+    const double overlap = overlap_of(flat, contact);
+    if (overlap <= open_overlap)
       continue;
-    x->touched = true;
-    if (x->d_max == 0.0)
-      begin_contact(flat, c, x, d, tau);
+    contact->touched = true;
+    if (contact->overlap_max == 0.0)
+      begin_contact(flat, cluster, contact, overlap, tau);
 
     /* its force, by the overlap at half a step */
-    x->d = d;
-    x->size = d >= x->d_max ? carom_greater(x->size, d) : x->size;
-    x->J = h * carom_hertz_force(x->K, x->e, d, &x->d_max);
-    c->touch[x->touch].P[0] += x->J;
-    c->touch[x->touch].moment += x->J * tau;
+    contact->overlap = overlap;
+    contact->size =
+        overlap >= contact->overlap_max ? carom_greater(contact->size, overlap) : contact->size;
+    contact->J = step * carom_hertz_force(contact->stiffness, contact->restitution, overlap,
+                                          &contact->overlap_max);
+    cluster->touch[contact->touch].P[0] += contact->J;
+    cluster->touch[contact->touch].moment += contact->J * tau;
 
     /* one without a force acts where it closes */
-    if (!(x->J > 0.0) && closing_of(flat, x) < c->slow)
+    if (!(contact->J > 0.0) && closing_of(flat, contact) < cluster->slow)
       continue;
-    overlap = true;
-    *norm += quickness(x, x->size);
-    if (x->J > 0.0)
-      pushed->push[pushed->contacts++] = pushed->press[k];
+    acts = true;
+    *norm += quickness(contact, contact->size);
+    if (contact->J > 0.0)
+      pushed->push[pushed->contacts++] = pushed->press[index];
   }
-  return overlap;
+  return acts;
 }
 
 /* Where nothing acts, the contacts that have touched and close again at `slow` or faster touch at
  * once, as positions stay. Returns whether there are any. */
-static bool touch_again(bool flat, state *c) {
+static bool touch_again(bool flat, cluster_state *cluster) {
   bool any = false;
-  for (int k = 0; k < c->contacts; k++) {
-    contact *x = &c->contact[k];
-    if (x->time < 0.0 || closing_of(flat, x) < c->slow)
+  for (int index = 0; index < cluster->contacts; index++) {
+    contact_state *contact = &cluster->contact[index];
+    if (contact->time < 0.0 || closing_of(flat, contact) < cluster->slow)
       continue;
-    x->offset += 2.0 * open_overlap - overlap_of(flat, x);
+    contact->offset += 2.0 * open_overlap - overlap_of(flat, contact);
     any = true;
   }
   return any;
@@ -298,304 +356,347 @@ static bool touch_again(bool flat, state *c) {
 
 /* The friction of the cloth in a step, in closed form: it stops the slip on the cloth, or acts
  * against its mean. */
-static inline void rub_on_cloth(ball *p) {
-  const double most = p->mu_slide * p->load, m = 3.5 * p->inverse_mass;
-  double g[2] = {0.0, 0.0};
+static inline void rub_on_cloth(ball_state *ball) {
+  const double most = ball->mu_slide * ball->load,
+               slip_each = CAROM_SPHERE_SLIP * ball->inverse_mass;
+  double friction[2] = {0.0, 0.0};
   if (most > 0.0) {
     /* the slip at the end without this friction */
-    const double u_x = p->v[0] - p->W[1] - m * p->g[0], u_y = p->v[1] + p->W[0] - m * p->g[1];
-    const double end2 = u_x * u_x + u_y * u_y, stops = m * most;
+    const double slip_x = ball->v[0] - ball->W[1] - slip_each * ball->g[0],
+                 slip_y = ball->v[1] + ball->W[0] - slip_each * ball->g[1];
+    const double end2 = slip_x * slip_x + slip_y * slip_y, stops = slip_each * most;
     if (end2 <= stops * stops) {
-      g[0] = -u_x / m;
-      g[1] = -u_y / m;
+      friction[0] = -slip_x / slip_each;
+      friction[1] = -slip_y / slip_each;
     } else {
       /* a slip that may turn back within the step, of a mean below twice what friction takes, has
        * no mean direction */
-      const double x = p->base[0] + u_x, y = p->base[1] + u_y, mean2 = x * x + y * y;
-      const bool by_end = mean2 < 16.0 * stops * stops;
-      const double k = -most / sqrt(by_end ? end2 : mean2);
-      g[0] = k * (by_end ? u_x : x);
-      g[1] = k * (by_end ? u_y : y);
+      const double mean_x = ball->base[0] + slip_x, mean_y = ball->base[1] + slip_y,
+                   mean2 = mean_x * mean_x + mean_y * mean_y;
+      const bool by_end = mean2 < CAROM_MAY_TURN_BACK * stops * stops;
+      const double scale = -most / sqrt(by_end ? end2 : mean2);
+      friction[0] = scale * (by_end ? slip_x : mean_x);
+      friction[1] = scale * (by_end ? slip_y : mean_y);
     }
-  } else if (p->g[0] == 0.0 && p->g[1] == 0.0) {
+  } else if (ball->g[0] == 0.0 && ball->g[1] == 0.0) {
     return;
   }
-  const double d_x = p->inverse_mass * (g[0] - p->g[0]), d_y = p->inverse_mass * (g[1] - p->g[1]);
-  p->v[0] += d_x;
-  p->v[1] += d_y;
-  p->W[0] += 2.5 * d_y;
-  p->W[1] -= 2.5 * d_x;
-  p->g[0] = g[0];
-  p->g[1] = g[1];
+
+  /* instead of the last iterate */
+  const double change_x = ball->inverse_mass * (friction[0] - ball->g[0]),
+               change_y = ball->inverse_mass * (friction[1] - ball->g[1]);
+  ball->v[0] += change_x;
+  ball->v[1] += change_y;
+  ball->W[0] += CAROM_SPHERE_TURN * change_y;
+  ball->W[1] -= CAROM_SPHERE_TURN * change_x;
+  ball->g[0] = friction[0];
+  ball->g[1] = friction[1];
 }
 
 /* The next iterate of a contact's friction; change[] becomes what it changes by. */
-static inline void iterate(bool flat, contact *x, double change[2]) {
-  double u[2], f[2];
-  CAROM_PROMISE(!(x->J <= 0.0 || x->mu < 0.0));
-  slip_of(flat, x, u);
+static inline void iterate(bool flat, contact_state *contact, double change[2]) {
+  double slip[2], friction[2];
+  CAROM_PROMISE(!(contact->J <= 0.0 || contact->mu < 0.0));
+  slip_of(flat, contact, slip);
 
   /* the mean slip of the step, twice */
-  const double m_x = u[0] + x->u[0], m_y = u[1] + x->u[1], mean2 = m_x * m_x + m_y * m_y;
+  const double mean_x = slip[0] + contact->slip[0], mean_y = slip[1] + contact->slip[1],
+               mean2 = mean_x * mean_x + mean_y * mean_y;
 
   /* mu falls as the slip grows within the step */
   const double mean = sqrt(mean2);
-  double most = x->mu * x->J;
-  if (mean2 > 4.0 * x->U * x->U) {
+  double most = contact->mu * contact->J;
+  if (mean2 > 4.0 * contact->greatest_slip * contact->greatest_slip) {
     double law[3];
-    law_of(x, law);
-    most = carom_friction_ahead(x->p->friction, law, x->mu, 0.5 * mean - x->U) * x->J;
+    law_of(contact, law);
+    most = carom_friction_ahead(contact->ball_i->friction, law, contact->mu,
+                                0.5 * mean - contact->greatest_slip) *
+           contact->J;
   }
 
   /* it holds where friction can stop the slip, and else acts against the mean */
-  if (x->may_stick) {
-    const ball *p = x->p, *q = x->q;
-    const double share = 1.0 / (3.5 * (p->acting * p->inverse_mass + q->acting * q->inverse_mass));
-    f[0] = x->f[0] - share * u[0];
-    f[1] = x->f[1] - share * u[1];
+  if (contact->may_stick) {
+    const ball_state *ball_i = contact->ball_i, *ball_j = contact->ball_j;
+    /* a ball with two contacts gives each of them half of the way */
+    const double share = 1.0 / (CAROM_SPHERE_SLIP * (ball_i->acting * ball_i->inverse_mass +
+                                                     ball_j->acting * ball_j->inverse_mass));
+    friction[0] = contact->friction[0] - share * slip[0];
+    friction[1] = contact->friction[1] - share * slip[1];
 
     /* as large as mu lets it be */
-    const double size2 = carom_plane_dot(f, f);
+    const double size2 = carom_plane_dot(friction, friction);
     if (size2 > most * most) {
       const double down = most / sqrt(size2);
-      f[0] *= down;
-      f[1] *= down;
+      friction[0] *= down;
+      friction[1] *= down;
     }
   } else {
-    const double k = mean2 > 0.0 ? -most / mean : 0.0;
-    f[0] = k * m_x;
-    f[1] = k * m_y;
+    const double scale = mean2 > 0.0 ? -most / mean : 0.0;
+    friction[0] = scale * mean_x;
+    friction[1] = scale * mean_y;
   }
 
   /* the new iterate */
-  for (int k = 0; k < 2; k++) {
-    change[k] = f[k] - x->f[k];
-    x->f[k] = f[k];
+  for (int axis = 0; axis < 2; axis++) {
+    change[axis] = friction[axis] - contact->friction[axis];
+    contact->friction[axis] = friction[axis];
   }
 }
 
 /* ---- A step */
 
 /* Lists a ball, once, as the step begins. */
-static inline void list_pushed(const state *c, pushes *pushed, ball *p) {
-  if (p->acting != 0)
+static inline void list_pushed(const cluster_state *cluster, pushes *pushed, ball_state *ball) {
+  if (ball->acting != 0)
     return;
-  pushed->pushed[pushed->balls++] = (uint8_t)(p - c->ball);
-  p->base[0] = p->v[0] - p->W[1];
-  p->base[1] = p->v[1] + p->W[0];
-  p->load = p->g[0] = p->g[1] = 0.0;
+  pushed->pushed[pushed->balls++] = (uint8_t)(ball - cluster->ball);
+  ball->base[0] = ball->v[0] - ball->W[1];
+  ball->base[1] = ball->v[1] + ball->W[0];
+  ball->load = ball->g[0] = ball->g[1] = 0.0;
 }
 
 /* Slips, limits and speeds as the step begins, and the normal impulses. */
-static inline void begin_step(bool flat, state *c, pushes *pushed) {
-  for (int k = 0; k < c->balls; k++)
-    c->ball[k].acting = 0;
+static inline void begin_step(bool flat, cluster_state *cluster, pushes *pushed) {
+  for (int index = 0; index < cluster->balls; index++)
+    cluster->ball[index].acting = 0;
   pushed->balls = 0;
+
   double pressing[CAROM_CLUSTER_BALLS]; /* sums of J */
-  for (int a = 0; a < pushed->contacts; a++) {
-    contact *x = &c->contact[pushed->push[a]];
+  for (int index = 0; index < pushed->contacts; index++) {
+    contact_state *contact = &cluster->contact[pushed->push[index]];
+
     /* speeds, and mu, which falls only where the slip is the greatest so far */
-    x->closing = closing_of(flat, x);
-    slip_of(flat, x, x->u); /* with the freedom of the step before */
-    const double u = carom_plane_size(x->u);
-    if (u > x->U) {
-      x->U = u;
+    contact->closing = closing_of(flat, contact);
+    slip_of(flat, contact, contact->slip); /* with the freedom of the step before */
+    const double slip = carom_plane_size(contact->slip);
+    if (slip > contact->greatest_slip) {
+      contact->greatest_slip = slip;
       double law[3];
-      law_of(x, law);
-      x->mu = carom_friction_at(x->p->friction, law, u);
+      law_of(contact, law);
+      contact->mu = carom_friction_at(contact->ball_i->friction, law, slip);
     }
 
-    if (c->on_slate)
-      x->freedom = carom_lesser(x->tilted + share_of_tip(c, x->i, x->j, x->mu * x->J), 1.0);
-    x->may_stick = u <= 7.0 * mobility(x) * x->mu * x->J;
-    x->impulse += x->J;
+    /* phi, and whether friction could stop twice the slip: it takes half of it at a time */
+    if (cluster->on_slate)
+      contact->freedom = carom_lesser(
+          contact->tilted + share_of_tip(cluster, contact->i, contact->j, contact->mu * contact->J),
+          1.0);
+    contact->may_stick =
+        slip <= 2.0 * CAROM_SPHERE_SLIP * mobility(contact) * contact->mu * contact->J;
+    contact->impulse += contact->J;
 
     /* its two balls, each listed once, as the step begins */
     for (int side = 0; side < 2; side++) {
-      ball *p = side == 0 ? x->p : x->q;
-      list_pushed(c, pushed, p);
-      pressing[p - c->ball] = p->acting > 0 ? pressing[p - c->ball] + x->J : x->J;
-      p->acting = (int8_t)(p->acting < 2 ? p->acting + 1 : 2);
+      ball_state *ball = side == 0 ? contact->ball_i : contact->ball_j;
+      list_pushed(cluster, pushed, ball);
+      pressing[ball - cluster->ball] =
+          ball->acting > 0 ? pressing[ball - cluster->ball] + contact->J : contact->J;
+      ball->acting = (int8_t)(ball->acting < 2 ? ball->acting + 1 : 2);
     }
   }
-  for (int k = 0; c->on_slate && k < c->balls; k++)
-    if (c->slate[k].J > 0.0)
-      list_pushed(c, pushed, &c->ball[k]);
-  CAROM_PROMISE(pushed->contacts <= pushed->pressed && pushed->balls <= c->balls);
+
+  /* the balls that the slate pushes */
+  for (int index = 0; cluster->on_slate && index < cluster->balls; index++)
+    if (cluster->slate[index].J > 0.0)
+      list_pushed(cluster, pushed, &cluster->ball[index]);
+  CAROM_PROMISE(pushed->contacts <= pushed->pressed && pushed->balls <= cluster->balls);
 
   /* all normal impulses, when all of that is known */
-  for (int a = 0; a < pushed->contacts; a++) {
-    const contact *x = &c->contact[pushed->push[a]];
-    const double others = carom_greater(pressing[x->i], pressing[x->j]) - x->J;
-    c->shared += carom_lesser(x->J, others);
-    cluster_add(flat, x->p->v, -x->J * x->p->inverse_mass, x->n);
-    cluster_add(flat, x->q->v, x->J * x->q->inverse_mass, x->n);
+  for (int index = 0; index < pushed->contacts; index++) {
+    const contact_state *contact = &cluster->contact[pushed->push[index]];
+    const double others = carom_greater(pressing[contact->i], pressing[contact->j]) - contact->J;
+    cluster->shared += carom_lesser(contact->J, others);
+    cluster_add(flat, contact->ball_i->v, -contact->J * contact->ball_i->inverse_mass, contact->n);
+    cluster_add(flat, contact->ball_j->v, contact->J * contact->ball_j->inverse_mass, contact->n);
   }
-  if (c->struck)
-    tip_push(flat, c);
-  for (int k = 0; c->on_slate && k < c->balls; k++) {
-    ball *p = &c->ball[k];
-    p->v[2] += c->slate[k].J * p->inverse_mass;
-    p->load = c->slate[k].J;
+
+  /* those of tip and slate, which is the load of the cloth's friction */
+  if (cluster->struck)
+    tip_push(flat, cluster);
+  for (int index = 0; cluster->on_slate && index < cluster->balls; index++) {
+    ball_state *ball = &cluster->ball[index];
+    ball->v[2] += cluster->slate[index].J * ball->inverse_mass;
+    ball->load = cluster->slate[index].J;
   }
 }
 
 /* The friction of a step, of all contacts and of the cloth. */
-static inline void rub_all(bool flat, state *c, const pushes *pushed) {
+static inline void rub_all(bool flat, cluster_state *cluster, const pushes *pushed) {
   double change[CAROM_CLUSTER_CONTACTS][2];
+
   /* first that of the step before */
-  for (int a = 0; a < pushed->contacts; a++) {
-    contact *x = &c->contact[pushed->push[a]];
-    x->f[0] *= x->J;
-    x->f[1] *= x->J;
-    rub(flat, x, x->f);
+  for (int index = 0; index < pushed->contacts; index++) {
+    contact_state *contact = &cluster->contact[pushed->push[index]];
+    contact->friction[0] *= contact->J;
+    contact->friction[1] *= contact->J;
+    rub(flat, contact, contact->friction);
   }
+
+  /* the cloth, and all contacts from the same velocities, alternately; the cloth is the last */
   for (int iteration = 0; iteration <= ITERATIONS; iteration++) {
-    for (int k = 0; k < pushed->balls; k++)
-      rub_on_cloth(&c->ball[pushed->pushed[k]]);
+    for (int index = 0; index < pushed->balls; index++)
+      rub_on_cloth(&cluster->ball[pushed->pushed[index]]);
     if (iteration == ITERATIONS)
       return;
-    for (int a = 0; a < pushed->contacts; a++)
-      iterate(flat, &c->contact[pushed->push[a]], change[a]);
-    for (int a = 0; a < pushed->contacts; a++)
-      rub(flat, &c->contact[pushed->push[a]], change[a]);
+    for (int index = 0; index < pushed->contacts; index++)
+      iterate(flat, &cluster->contact[pushed->push[index]], change[index]);
+    for (int index = 0; index < pushed->contacts; index++)
+      rub(flat, &cluster->contact[pushed->push[index]], change[index]);
   }
 }
 
 /* The other half of the step, after which contacts may be open. */
-static inline void end_step(bool flat, state *c, double h, const pushes *pushed) {
-  move(flat, c, 0.5 * h);
-  for (int a = 0; a < pushed->contacts; a++) {
-    contact *x = &c->contact[pushed->push[a]];
-    const double each = 1.0 / x->J;
-    for (int k = 0; k < 2; k++) {
-      x->rubbed[k] += x->f[k];
-      c->touch[x->touch].P[1 + k] += k == 1 && !flat ? x->freedom * x->f[k] : x->f[k];
-      x->f[k] *= each;
+static inline void end_step(bool flat, cluster_state *cluster, double step, const pushes *pushed) {
+  move(flat, cluster, 0.5 * step);
+
+  /* sums of friction, which is kept over J for the next step; and the greatest overlap */
+  for (int index = 0; index < pushed->contacts; index++) {
+    contact_state *contact = &cluster->contact[pushed->push[index]];
+    const double each = 1.0 / contact->J;
+    for (int axis = 0; axis < 2; axis++) {
+      contact->rubbed[axis] += contact->friction[axis];
+      cluster->touch[contact->touch].P[1 + axis] +=
+          axis == 1 && !flat ? contact->freedom * contact->friction[axis] : contact->friction[axis];
+      contact->friction[axis] *= each;
     }
-    x->d_max = carom_hertz_vertex(x->d, x->d_max, h, x->closing, closing_of(flat, x));
+    contact->overlap_max = carom_hertz_vertex(contact->overlap, contact->overlap_max, step,
+                                              contact->closing, closing_of(flat, contact));
   }
+
   /* where the force has reached 0 the set recovers as the overlap falls */
-  for (int k = 0; k < pushed->pressed; k++) {
-    contact *x = &c->contact[pushed->press[k]];
-    recover(x, overlap_of(flat, x));
+  for (int index = 0; index < pushed->pressed; index++) {
+    contact_state *contact = &cluster->contact[pushed->press[index]];
+    recover(contact, overlap_of(flat, contact));
   }
-  if (c->struck)
-    tip_parts(c, h);
-  if (c->on_slate)
-    slate_parts(c, h);
+  if (cluster->struck)
+    tip_parts(cluster, step);
+  if (cluster->on_slate)
+    slate_parts(cluster, step);
 }
 
 /* ---- All of it */
 
-static double energy_of(const state *c) {
-  const carom_cluster_tip *x = &c->tip;
-  double sum = c->struck ? 0.5 * x->V * x->V / x->inverse_mass : (double)0.0;
-  if (c->struck && x->slides)
-    sum += 0.5 * cluster_dot(false, x->y, x->y) / x->end;
-  for (int k = 0; k < c->balls; k++) {
-    const ball *p = &c->ball[k];
-    sum += (0.5 * cluster_dot(false, p->v, p->v) + 0.2 * cluster_dot(false, p->W, p->W)) /
-           p->inverse_mass;
+/* Of the balls, and of a cue with its end mass. */
+static double energy_of(const cluster_state *cluster) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  double sum = cluster->struck ? 0.5 * tip->V * tip->V / tip->inverse_mass : 0.0;
+  if (cluster->struck && tip->slides)
+    sum += 0.5 * cluster_dot(false, tip->y, tip->y) / tip->end;
+  for (int index = 0; index < cluster->balls; index++) {
+    const ball_state *ball = &cluster->ball[index];
+    sum += (0.5 * cluster_dot(false, ball->v, ball->v) +
+            CAROM_SPHERE_ENERGY * cluster_dot(false, ball->W, ball->W)) /
+           ball->inverse_mass;
   }
   return sum;
 }
 
 /* Takes what the integrator has added to the energy from the motion about the centre of mass, so
  * momentum is kept. */
-static void take_back(state *c, double energy) {
-  const double new_energy = energy_of(c);
+static void take_back(cluster_state *cluster, double energy) {
+  const double new_energy = energy_of(cluster);
   if (!(new_energy > energy))
     return;
+
   /* of the balls that were touched; a bystander keeps its motion */
   bool touched[CAROM_CLUSTER_BALLS] = {false};
-  for (int k = 0; k < c->contacts; k++)
-    if (c->contact[k].impulse > 0.0)
-      touched[c->contact[k].i] = touched[c->contact[k].j] = true;
+  for (int index = 0; index < cluster->contacts; index++)
+    if (cluster->contact[index].impulse > 0.0)
+      touched[cluster->contact[index].i] = touched[cluster->contact[index].j] = true;
 
   /* their momentum, and the energy about the centre of mass */
-  double mass = 0.0, P[3] = {0.0, 0.0, 0.0}, about = 0.0;
-  for (int k = 0; k < c->balls; k++) {
-    if (!touched[k])
+  double mass = 0.0, momentum[3] = {0.0, 0.0, 0.0}, about = 0.0;
+  for (int index = 0; index < cluster->balls; index++) {
+    if (!touched[index])
       continue;
-    mass += 1.0 / c->ball[k].inverse_mass;
-    cluster_add(false, P, 1.0 / c->ball[k].inverse_mass, c->ball[k].v);
+    mass += 1.0 / cluster->ball[index].inverse_mass;
+    cluster_add(false, momentum, 1.0 / cluster->ball[index].inverse_mass, cluster->ball[index].v);
   }
   if (!(mass > 0.0))
     return;
-  const double centre[3] = {P[0] / mass, P[1] / mass, P[2] / mass};
-  for (int k = 0; k < c->balls; k++) {
-    if (!touched[k])
+
+  /* the motion about the centre of mass */
+  const double centre[3] = {momentum[0] / mass, momentum[1] / mass, momentum[2] / mass};
+  for (int index = 0; index < cluster->balls; index++) {
+    if (!touched[index])
       continue;
-    double v[3];
-    cluster_minus(false, c->ball[k].v, centre, v);
-    about += 0.5 * cluster_dot(false, v, v) / c->ball[k].inverse_mass;
+    double relative[3];
+    cluster_minus(false, cluster->ball[index].v, centre, relative);
+    about += 0.5 * cluster_dot(false, relative, relative) / cluster->ball[index].inverse_mass;
   }
 
   /* a little less than all of it, so that rounding adds nothing */
   const double share =
-      sqrt(carom_greater(1.0 - (new_energy - energy) / about, 0.0)) * (1.0 - 1e-15);
-  for (int k = 0; k < c->balls; k++)
-    for (int axis = 0; axis < 3 && touched[k]; axis++)
-      c->ball[k].v[axis] = centre[axis] + share * (c->ball[k].v[axis] - centre[axis]);
+      sqrt(carom_greater(1.0 - (new_energy - energy) / about, 0.0)) * (1.0 - CAROM_ROUNDED_SPEED);
+  for (int index = 0; index < cluster->balls; index++)
+    for (int axis = 0; axis < 3 && touched[index]; axis++)
+      cluster->ball[index].v[axis] =
+          centre[axis] + share * (cluster->ball[index].v[axis] - centre[axis]);
 }
 
-/* The same of a strike: by an impulse -J of the tip, which takes J |b| - J^2 k/2. A tip that slides
- * gives it along n. */
-static void take_back_from_tip(bool flat, state *c, double energy) {
-  carom_cluster_tip *x = &c->tip;
-  ball *p = &c->ball[x->ball];
-  const double *way = x->slides ? x->n : x->along, none[3] = {0.0, 0.0, 0.0},
-               *arm = x->slides ? none : x->arm, kappa = x->slides ? x->kappa : (double)1.0;
-  const double more = energy_of(c) - energy;
-  const double b = kappa * x->V - cluster_dot(flat, p->v, way) - cluster_dot(false, p->W, arm);
-  if (!(more > 0.0 && b < 0.0))
+/* The same of a strike: by an impulse -J of the tip, which takes J |b| - J^2 k/2 where b is the speed
+ * `parting` of the tip, below 0, and k the `response`, by how much J changes it. A tip that slides gives J along
+ * n. */
+static void take_back_from_tip(bool flat, cluster_state *cluster, double energy) {
+  carom_cluster_tip *tip = &cluster->tip;
+  ball_state *ball = &cluster->ball[tip->ball];
+  const double *way = tip->slides ? tip->n : tip->along, none[3] = {0.0, 0.0, 0.0},
+               *arm = tip->slides ? none : tip->arm, kappa = tip->slides ? tip->kappa : 1.0;
+
+  /* only what is more, and while they part */
+  const double more = energy_of(cluster) - energy;
+  const double parting =
+      kappa * tip->V - cluster_dot(flat, ball->v, way) - cluster_dot(false, ball->W, arm);
+  if (!(more > 0.0 && parting < 0.0))
     return;
-  const double m = p->inverse_mass, of_cue = kappa * x->inverse_mass,
-               k = kappa * of_cue +
-                   m * (cluster_dot(flat, way, way) + 2.5 * cluster_dot(false, arm, arm));
-  const double left = sqrt(carom_greater(b * b - 2.0 * k * more, 0.0));
-  const double J =
-      (b + left) / k * (1.0 + 1e-12); /* a little more, so that rounding adds nothing */
-  x->V -= of_cue * J;
-  x->impulse += kappa * J;
-  cluster_add(flat, p->v, J * m, way);
-  cluster_add(false, p->W, 2.5 * J * m, arm);
-  cluster_add(flat, c->touch[x->touch].P, J, way);
+
+  /* the lesser zero of J |b| - J^2 k/2 - more, a little more, so that rounding adds nothing */
+  const double inverse_mass = ball->inverse_mass, of_cue = kappa * tip->inverse_mass,
+               response = kappa * of_cue +
+                          inverse_mass * (cluster_dot(flat, way, way) +
+                                          CAROM_SPHERE_TURN * cluster_dot(false, arm, arm));
+  const double left = sqrt(carom_greater(parting * parting - 2.0 * response * more, 0.0));
+  const double J = (parting + left) / response * (1.0 + CAROM_ROUNDED_IMPULSE);
+  tip->V -= of_cue * J;
+  tip->impulse += kappa * J;
+  cluster_add(flat, ball->v, J * inverse_mass, way);
+  cluster_add(false, ball->W, CAROM_SPHERE_TURN * J * inverse_mass, arm);
+  cluster_add(flat, cluster->touch[tip->touch].P, J, way);
 }
 
 /* The duration of a step before any contact has acted: by those that touch and close. */
-static inline double first_step(bool flat, const state *c) {
+static inline double first_step(bool flat, const cluster_state *cluster) {
   double norm = 0.0;
-  for (int k = 0; k < c->contacts; k++) {
-    const contact *x = &c->contact[k];
-    const double v = x->touched ? closing_of(flat, x) : (double)0.0;
-    if (v > 0.0)
-      norm += quickness(x, carom_cluster_compression(x->K, mobility(x), v));
+  for (int index = 0; index < cluster->contacts; index++) {
+    const contact_state *contact = &cluster->contact[index];
+    const double closing = contact->touched ? closing_of(flat, contact) : 0.0;
+    if (closing > 0.0)
+      norm += quickness(contact,
+                        carom_cluster_compression(contact->stiffness, mobility(contact), closing));
   }
-  return step_of(norm, c->steps);
+  return step_of(norm, cluster->steps);
 }
 
 /* How long until two balls touch that have not. */
-static inline double wait_of_first(bool flat, const contact *x) {
-  const passing m = passing_of(flat, x);
-  if (!(m.B < 0.0 && m.D > 0.0))
-    return (double)INFINITY;
-  return carom_greater((-m.B - sqrt(m.D)) / m.A, 0.0);
+static inline double wait_of_first(bool flat, const contact_state *contact) {
+  const passing pass = passing_of(flat, contact);
+  if (!(pass.B < 0.0 && pass.discriminant > 0.0))
+    return INFINITY;
+  return carom_greater((-pass.B - sqrt(pass.discriminant)) / pass.A, 0.0);
 }
 
 /* How long until balls touch; infinite: none do. */
-static inline double wait_of_balls(bool flat, const state *c) {
+static inline double wait_of_balls(bool flat, const cluster_state *cluster) {
   double least = INFINITY;
-  for (int k = 0; k < c->contacts; k++) {
-    const contact *x = &c->contact[k];
+  for (int index = 0; index < cluster->contacts; index++) {
+    const contact_state *contact = &cluster->contact[index];
     double wait = INFINITY;
-    if (!x->touched) {
-      wait = wait_of_first(flat, x);
+    if (!contact->touched) {
+      wait = wait_of_first(flat, contact);
     } else {
-      const double v = closing_of(flat, x);
-      if (v >= c->slow)
-        wait = carom_greater(-overlap_of(flat, x) / v, 0.0);
+      const double closing = closing_of(flat, contact);
+      if (closing >= cluster->slow)
+        wait = carom_greater(-overlap_of(flat, contact) / closing, 0.0);
     }
     least = carom_lesser(least, wait);
   }
@@ -604,93 +705,97 @@ static inline double wait_of_balls(bool flat, const state *c) {
 
 /* Of a strike where nothing acts: on to the next touch. Contacts that are too slow to be waited for
  * stay open. */
-static bool go_on(bool flat, state *c, double *tau) {
-  if (!go_to_touch(flat, c, wait_of_balls(flat, c), tau))
+static bool go_on(bool flat, cluster_state *cluster, double *tau) {
+  if (!go_to_touch(flat, cluster, wait_of_balls(flat, cluster), tau))
     return false;
-  for (int k = 0; k < c->contacts; k++) {
-    contact *x = &c->contact[k];
-    const double d = overlap_of(flat, x);
-    if (x->d_max > 0.0)
-      recover(x, d);
-    else if (x->touched)
-      x->offset -= carom_greater(d, 0.0);
+  for (int index = 0; index < cluster->contacts; index++) {
+    contact_state *contact = &cluster->contact[index];
+    const double overlap = overlap_of(flat, contact);
+    if (contact->overlap_max > 0.0)
+      recover(contact, overlap);
+    else if (contact->touched)
+      contact->offset -= carom_greater(overlap, 0.0);
   }
   return true;
 }
 
-/* The contacts that act at half a step of h, at tau. Returns whether any does; *balls whether one
+/* The contacts that act at half a step, at tau. Returns whether any does; *balls whether one
  * of balls does. */
-static inline bool act(bool flat, state *c, double h, double tau, pushes *pushed, double *norm,
-                       bool *balls) {
-  *balls = find_acting(flat, c, h, tau, pushed, norm);
-  const bool cue = c->struck && tip_acts(c, h, tau), slate = c->on_slate && slate_acts(c, h);
+static inline bool act(bool flat, cluster_state *cluster, double step, double tau, pushes *pushed,
+                       double *norm, bool *balls) {
+  *balls = find_acting(flat, cluster, step, tau, pushed, norm);
+  const bool cue = cluster->struck && tip_acts(cluster, step, tau),
+             slate = cluster->on_slate && slate_acts(cluster, step);
   if (*balls || cue)
     return true;
-  return slate && !slate_ends(c, h);
+  return slate && !slate_ends(cluster, step);
 }
 
 /* Step by step, until no contact acts. */
-static inline bool solve(bool flat, state *c) {
-  const double energy = energy_of(c);
-  double h = first_step(flat, c), tau = 0.0, norm;
-  if (c->struck)
-    h = strike_step(c);
-  const int least = c->steps > (double)CAROM_CLUSTER_STEPS ? (int)c->steps : CAROM_CLUSTER_STEPS,
+static inline bool solve(bool flat, cluster_state *cluster) {
+  const double energy = energy_of(cluster);
+  double step = first_step(flat, cluster), tau = 0.0, norm;
+  if (cluster->struck)
+    step = strike_step(cluster);
+  const int least = cluster->steps > (double)CAROM_CLUSTER_STEPS ? (int)cluster->steps
+                                                                 : CAROM_CLUSTER_STEPS,
             most = CAROM_CLUSTER_STEPS_MOST * least;
-  for (c->steps_done = 0;; c->steps_done++) {
-    if (c->steps_done == most)
+  for (cluster->steps_done = 0;; cluster->steps_done++) {
+    if (cluster->steps_done == most)
       return false;
 
     /* half a step of the positions */
     pushes pushed;
-    move(flat, c, 0.5 * h);
+    move(flat, cluster, 0.5 * step);
 
     /* a touch that is faster than what acts asks for a shorter step */
-    const double longest = find_pressed(flat, c, h, &pushed);
-    if (longest < h) {
-      move(flat, c, 0.5 * (longest - h));
-      h = longest;
-      find_pressed(flat, c, h, &pushed);
+    const double longest = find_pressed(flat, cluster, step, &pushed);
+    if (longest < step) {
+      move(flat, cluster, 0.5 * (longest - step));
+      step = longest;
+      find_pressed(flat, cluster, step, &pushed);
     }
 
     /* where no contact acts, one may touch again, from where the balls are; else all is over */
-    tau += 0.5 * h;
+    tau += 0.5 * step;
     bool balls;
-    if (!act(flat, c, h, tau, &pushed, &norm, &balls)) {
-      if (!touch_again(flat, c) && !(c->struck && go_on(flat, c, &tau)))
+    if (!act(flat, cluster, step, tau, &pushed, &norm, &balls)) {
+      if (!touch_again(flat, cluster) && !(cluster->struck && go_on(flat, cluster, &tau)))
         break;
-      if (c->struck)
-        h = carom_lesser(h, push_step(c, c->tip.T, c->tip.e));
+      if (cluster->struck)
+        step =
+            carom_lesser(step, push_step(cluster, cluster->tip.duration, cluster->tip.restitution));
       continue;
     }
 
     /* impulses, friction and the other half */
-    begin_step(flat, c, &pushed);
-    rub_all(flat, c, &pushed);
-    end_step(flat, c, h, &pushed);
-    tau += 0.5 * h;
-    h = step_of(balls ? norm : (double)0.0, c->steps);
-    if (c->struck)
-      h = step_to_touch(c, carom_lesser(h, strike_step(c)));
+    begin_step(flat, cluster, &pushed);
+    rub_all(flat, cluster, &pushed);
+    end_step(flat, cluster, step, &pushed);
+    tau += 0.5 * step;
+    step = step_of(balls ? norm : 0.0, cluster->steps);
+    if (cluster->struck)
+      step = step_to_touch(cluster, carom_lesser(step, strike_step(cluster)));
   }
-  c->duration = tau;
-  if (c->struck)
-    take_back_from_tip(flat, c, energy);
-  take_back(c, energy);
+  cluster->duration = tau;
+  if (cluster->struck)
+    take_back_from_tip(flat, cluster, energy);
+  take_back(cluster, energy);
   return true;
 }
 
-bool carom_cluster_solve(carom_cluster_state *c) {
-  CAROM_PROMISE((c->struck || c->contacts >= 1) && c->balls >= 1 && c->slow > 0.0);
-  c->touches = c->repeated = 0;
-  c->shared = 0.0;
-  for (int k = 0; k < c->balls; k++)
-    for (int n = 0; n < 3; n++) {
-      c->ball[k].s[n] = 0.0;
-      c->ball[k].v0[n] = c->ball[k].v[n];
+bool carom_cluster_solve(carom_cluster_state *cluster) {
+  CAROM_PROMISE((cluster->struck || cluster->contacts >= 1) && cluster->balls >= 1 &&
+                cluster->slow > 0.0);
+  cluster->touches = cluster->repeated = 0;
+  cluster->shared = 0.0;
+  for (int index = 0; index < cluster->balls; index++)
+    for (int axis = 0; axis < 3; axis++) {
+      cluster->ball[index].s[axis] = 0.0;
+      cluster->ball[index].v0[axis] = cluster->ball[index].v[axis];
     }
-  if (!(c->in_space ? solve(false, c) : solve(true, c)))
+  if (!(cluster->in_space ? solve(false, cluster) : solve(true, cluster)))
     return false;
-  carom_cluster_find_places(c);
+  carom_cluster_find_places(cluster);
   return true;
 }

@@ -5,6 +5,12 @@
  * d, which starts at minus its gap, the unit vector n from i to j, B = 1/m_i + 1/m_j, and the slip
  * u of the surface of i on that of j. With ' = d/dtau and W = R w:
  *
+ *        .---.   .---.         d   overlap: here below 0, minus the gap
+ *       '  i  ' '  j  '        n   from i to j
+ *       (  o--+-+> o  )        t   horizontal, across n (vectors.h)
+ *       .     . . n   .        f   friction along t and t x n
+ *        '---'   '---'
+ *
  *     d' = (v_i - v_j) . n
  *     K  = (4/3) E sqrt(R),  1/E = 1/E_i + 1/E_j,  1/R = 1/R_i + 1/R_j
  *          E_i the modulus of a ball, N/m^2
@@ -58,19 +64,20 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define CAROM_TOUCHING 1e-9       /* m: a ball that is nearer touches */
+/* m: a ball that is nearer touches, as places are rounded to less than that */
+#define CAROM_TOUCHING 1e-9
 #define CAROM_LEAST_OVERLAP 1e-15 /* m: of tip or slate where they touch anew */
 
 /* BETWEEN THE TWO, above: how free of the cloth a ball is by its height, m, and a contact of two
  * balls by the greater height and by the tilt. */
 static inline double carom_freedom_of_height(double height) {
   static const double full_height = 1e-3; /* m */
-  return height > 0.0 ? height / full_height : (double)0.0;
+  return height > 0.0 ? height / full_height : 0.0;
 }
 static inline double carom_freedom_of_balls(double height, double n_z) {
   static const double steep = 0.1;
   const double tilt = n_z / steep, freedom = carom_freedom_of_height(height) + tilt * tilt;
-  return freedom < 1.0 ? freedom : (double)1.0;
+  return freedom < 1.0 ? freedom : 1.0;
 }
 
 enum {
@@ -84,6 +91,20 @@ enum {
   CAROM_CLUSTER_STEPS_MOST = 4000 /* of a cluster, for each of a contact's duration */
 };
 
+/* Members that are letters are the symbols above; the others are
+ *
+ *     symbol     member                     meaning, unit
+ *     R, 1/m     radius, inverse_mass       m, 1/kg
+ *     d, d_max   overlap, overlap_max       of a contact; of tip and slate their compression, m
+ *     K, k       stiffness                  N/m^1.5 of two balls; N/m of a tip
+ *     e          restitution
+ *     u, U       slip, greatest_slip        m/s
+ *     f          friction                   impulse of a step along t and t x n, N s
+ *     T          duration                   s
+ *
+ * J, N s, is the normal impulse of a step. */
+
+/* A ball. */
 typedef struct carom_cluster_ball {
   double r[3], v[3], W[3];     /* W = R w, m/s */
   double radius, inverse_mass; /* m, 1/kg */
@@ -102,22 +123,23 @@ typedef struct carom_cluster_ball {
                                  friction and of the load */
 } carom_cluster_ball;
 
+/* A contact of balls i and j. */
 typedef struct carom_cluster_contact_state {
-  carom_cluster_ball *p, *q;
-  int8_t i, j;            /* of these in ball[] */
-  bool touched;           /* now or before: n is known */
-  bool may_stick;         /* within this step */
-  int touch;              /* its last one, in touch[] */
-  double n[3];            /* unit vector from i to j */
-  double offset;          /* d = offset + (s_i - s_j) . n */
-  double d, d_max;        /* d_max: 0 while open */
-  double size;            /* the compression that it has, or will have */
-  double K, e, quick;     /* quick: (e T)^-4 of a compression of 1 m */
+  carom_cluster_ball *ball_i, *ball_j;
+  int8_t i, j;                          /* of these in ball[] */
+  bool touched;                         /* now or before: n is known */
+  bool may_stick;                       /* within this step */
+  int touch;                            /* its last one, in touch[] */
+  double n[3];                          /* unit vector from i to j */
+  double offset;                        /* d = offset + (s_i - s_j) . n */
+  double overlap, overlap_max;          /* d_max: 0 while open */
+  double size;                          /* the compression that it has, or will have */
+  double stiffness, restitution, quick; /* quick: (e T)^-4 of a compression of 1 m */
   double tilted, freedom; /* phi by height and tilt, and with what the slate bears; read in space */
-  double mu, U;
-  double J, f[2];            /* impulses of a step along n, and of friction along t and the
+  double mu, greatest_slip;
+  double J, friction[2];     /* impulses of a step along n, and of friction along t and the
                                 third; between steps f/J */
-  double u[2], closing;      /* slip and closing speed as a step begins */
+  double slip[2], closing;   /* slip and closing speed as a step begins */
   double time;               /* tau of the first touch */
   double impulse, rubbed[2]; /* sums of J and f */
 } carom_cluster_contact_state;
@@ -135,15 +157,16 @@ typedef struct carom_cluster_tip {
   double axis[3];          /* c */
   double along[3], arm[3]; /* c' and q */
   double inverse_mass, V;  /* 1/M; the speed of the cue, m/s */
-  double T, k, e;          /* duration with the ball alone, s; stiffness, N/m; restitution */
-  double reach;            /* m: how far the cue goes on after it has parted; the caller sets it */
-  int ball;                /* of ball[] */
-  bool slides;             /* a further touch: n, kappa, mu and end are read, c' and q are not */
-  double n[3], kappa;      /* from the place of the touch to the centre; n . c */
-  double mu, end;          /* friction; 1/m_e */
-  double place[3];         /* of the touch, from the centre, R */
+  double duration, stiffness,
+      restitution;    /* duration with the ball alone, s; stiffness, N/m; restitution */
+  double reach;       /* m: how far the cue goes on after it has parted; the caller sets it */
+  int ball;           /* of ball[] */
+  bool slides;        /* a further touch: n, kappa, mu and end are read, c' and q are not */
+  double n[3], kappa; /* from the place of the touch to the centre; n . c */
+  double mu, end;     /* friction; 1/m_e */
+  double place[3];    /* of the touch, from the centre, R */
   /* of the integrator */
-  double d, d_max, J, closing, lost;
+  double overlap, overlap_max, J, closing, lost;
   double y[3];          /* of the end mass across the axis, m/s */
   double travel, delay; /* int V dtau, m; how far the ball is behind, along the axis, as contacts of
                            balls last, m: places.c */
@@ -156,9 +179,9 @@ typedef struct carom_cluster_tip {
 
 /* The contact of the slate and a ball, tip.h. The caller sets e. */
 typedef struct carom_cluster_slate {
-  double e; /* restitution; 0: the ball flies, and there is none */
+  double restitution; /* restitution; 0: the ball flies, and there is none */
   /* of the integrator */
-  double d, d_max, J, closing, impulse;
+  double overlap, overlap_max, J, closing, impulse;
 } carom_cluster_slate;
 
 /* The caller sets balls, ball[] up to `which`, steps and slow; of a strike also tip and slate[];
@@ -182,58 +205,60 @@ typedef struct carom_cluster_state {
   carom_cluster_slate *slate; /* CAROM_CLUSTER_BALLS of the caller's, where a cue strikes */
 } carom_cluster_state;
 
-/* members.c: compression of a contact of stiffness K and 1/reduced mass B that closes at v, and
- * the duration of one of that compression, by its pace. */
-double carom_cluster_compression(double K, double B, double v);
+/* members.c: compression of a contact of stiffness K and 1/reduced mass B, its mobility; and the
+ * duration of one of that compression, by its pace. */
+double carom_cluster_compression(double stiffness, double mobility, double closing);
 double carom_cluster_duration(double pace, double size);
 
 /* members.c: keeps of ball[] those that a contact which begins can reach, and lists their
  * contacts. The contact is that of two balls, indices in ball[]; or, where `first` is below 0,
  * that of the fastest of the pairs that touch and close. Returns the number of contacts: 0 where
  * no pair touches and closes at `slow` or faster, -1 where there are too many. */
-int carom_cluster_members(carom_cluster_state *c, int first, int second);
+int carom_cluster_members(carom_cluster_state *cluster, int first, int second);
 
 /* members.c: keeps of ball[] the struck one, tip.ball, and those that it can reach while the cue
  * pushes it, if `most` is the speed that it gets, and lists their contacts. Returns how many
  * contacts there are, -1 where there are too many; 0: it is alone. */
-int carom_cluster_members_of_tip(carom_cluster_state *c, double most);
+int carom_cluster_members_of_tip(carom_cluster_state *cluster, double most);
 
-/* push.c: the tip of a cue at ball[struck], which touches a ball that is alone for T. cue[] has the
+/* push.c: the tip of a cue at ball[struck], which touches a ball that is alone for a duration. cue[] has the
  * numbers of carom_cue from speed to tip_restitution, in their order. */
-void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T);
+void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double cue[8],
+                          double duration);
 
 /* push.c: makes that a further touch, of a tip with the friction mu; `end_mass` is that of cue[].
  */
-void carom_cluster_tip_slides(carom_cluster_state *c, const double cue[8], double mu);
+void carom_cluster_tip_slides(carom_cluster_state *cluster, const double cue[8], double mu);
 
 /* push.c: a push of a ball that nothing else touches, in closed form. */
-void carom_cluster_push_alone(carom_cluster_state *c);
+void carom_cluster_push_alone(carom_cluster_state *cluster);
 
 /* push.c: begins slate[], whose e the caller sets then of balls that do not fly; and the impulse of
  * the slate on a ball. */
-void carom_cluster_put_on_slate(carom_cluster_state *c);
-double carom_cluster_slate_impulse(const carom_cluster_state *c, int ball);
+void carom_cluster_put_on_slate(carom_cluster_state *cluster);
+double carom_cluster_slate_impulse(const carom_cluster_state *cluster, int ball);
 
 /* places.c: takes note of a touch of a contact that begins, -1 of the tip, and returns its place in
  * touch[], which for one too many is that of the `last` touch of the contact, -1 where it is the
  * first; what the touches move the balls by, their `shift`; and how far the tip of a push is ahead
  * of the ball then, if both are seen to move from the start as they do after it. */
-int carom_cluster_begin_touch(carom_cluster_state *c, int contact, int last, double time,
+int carom_cluster_begin_touch(carom_cluster_state *cluster, int contact, int last, double time,
                               double approach);
-void carom_cluster_find_places(carom_cluster_state *c);
-double carom_cluster_tip_lead(const carom_cluster_state *c);
+void carom_cluster_find_places(carom_cluster_state *cluster);
+double carom_cluster_tip_lead(const carom_cluster_state *cluster);
 
 /* The impulse of a contact, friction's share with it. */
-static inline double carom_cluster_size_of_impulse(const carom_cluster_contact_state *x) {
-  return sqrt(x->impulse * x->impulse + x->rubbed[0] * x->rubbed[0] + x->rubbed[1] * x->rubbed[1]);
+static inline double carom_cluster_size_of_impulse(const carom_cluster_contact_state *contact) {
+  return sqrt(contact->impulse * contact->impulse + contact->rubbed[0] * contact->rubbed[0] +
+              contact->rubbed[1] * contact->rubbed[1]);
 }
 
 /* places.c: 1 of a cluster whose touches do not overlap; 0 of one in which they share more than a
  * 500th of the largest impulse, of a push, and of more than CAROM_CLUSTER_IN_TURN balls. */
-double carom_cluster_separation(const carom_cluster_state *c);
+double carom_cluster_separation(const carom_cluster_state *cluster);
 
 /* cluster.c: v, W and shift of ball[]; time, impulse and friction of contact[]. False where it
  * takes too many steps. */
-bool carom_cluster_solve(carom_cluster_state *c);
+bool carom_cluster_solve(carom_cluster_state *cluster);
 
 #endif

@@ -27,22 +27,25 @@ static inline void carom_cue_axes(double phi, double theta, double axis[3], doub
   above[2] = cos_theta;
 }
 
-/* p, from the centre of a ball at r to the tip, which has gone so far `along` its axis since it
- * touched that ball at `from`. axes become the directions of the cue. */
-static inline void carom_tip_from(const carom_cue *cue, double R, const double origin[3],
-                                  double along, const double r[3], double axes[3][3], double p[3]) {
-  const double a = cue->a, b = cue->b, ahead = along - R * sqrt(1.0 - a * a - b * b);
+/* The way from the centre of a ball to the tip, which has gone so far `along` its axis since it
+ * touched that ball at `origin`. axes become the directions of the cue. */
+static inline void carom_tip_from(const carom_cue *cue, double radius, const double origin[3],
+                                  double along, const double centre[3], double axes[3][3],
+                                  double to_tip[3]) {
+  const double a = cue->a, b = cue->b, ahead = along - radius * sqrt(1.0 - a * a - b * b);
   carom_cue_axes(cue->phi, cue->theta, axes[0], axes[1], axes[2]);
-  for (int k = 0; k < 3; k++)
-    p[k] = origin[k] + R * (a * axes[1][k] + b * axes[2][k]) + ahead * axes[0][k] - r[k];
+  for (int axis = 0; axis < 3; axis++)
+    to_tip[axis] = origin[axis] + radius * (a * axes[1][axis] + b * axes[2][axis]) +
+                   ahead * axes[0][axis] - centre[axis];
 }
 
-/* p/|p| along these axes, of which the last two are the (a, b) of a touch. Returns |p|^2. */
-static inline double carom_tip_on(double axes[3][3], const double p[3], double offset[3]) {
-  const double p2 = carom_space_dot(p, p), over = 1.0 / sqrt(p2);
-  for (int k = 0; k < 3; k++)
-    offset[k] = over * carom_space_dot(p, axes[k]);
-  return p2;
+/* The direction of that way along these axes, of which the last two are the (a, b) of a touch. Returns the square
+ * of the distance. */
+static inline double carom_tip_on(double axes[3][3], const double to_tip[3], double offset[3]) {
+  const double square = carom_space_dot(to_tip, to_tip), over = 1.0 / sqrt(square);
+  for (int axis = 0; axis < 3; axis++)
+    offset[axis] = over * carom_space_dot(to_tip, axes[axis]);
+  return square;
 }
 
 #endif

@@ -12,6 +12,14 @@
  *
  *     r' = r - sum over k of dv_k t_k,
  *
+ *      place |                  _.-
+ *            |              _.-'       r' + v' t, of a ball at rest before
+ *          r +----------+.-'
+ *            |      _.-'|
+ *         r' +__.-'     |
+ *            +----------+------------- tau
+ *            0         t_k
+ *
  * so that r' + v' t is where it would have been. Balls that touch from the start have D = 0 and do
  * not move; where a gap is so wide that its contact begins as the one before ends, r' + v' t_k is
  * the place of the second of two events in turn. What slate and cloth give counts at t = 0, as in
@@ -35,42 +43,43 @@
 
 #include <math.h>
 
-int carom_cluster_begin_touch(carom_cluster_state *c, int contact_index, int last, double time,
-                              double approach) {
-  if (last >= 0 && c->repeated == CAROM_CLUSTER_REPEATED)
+int carom_cluster_begin_touch(carom_cluster_state *cluster, int contact_index, int last,
+                              double time, double approach) {
+  if (last >= 0 && cluster->repeated == CAROM_CLUSTER_REPEATED)
     return last;
-  c->repeated += last >= 0;
-  CAROM_PROMISE(c->touches < CAROM_CLUSTER_TOUCHES);
-  c->touch[c->touches] = (carom_cluster_touch){
+  cluster->repeated += last >= 0;
+  CAROM_PROMISE(cluster->touches < CAROM_CLUSTER_TOUCHES);
+  cluster->touch[cluster->touches] = (carom_cluster_touch){
       contact_index, time, carom_greater(approach, 0.0), {0.0, 0.0, 0.0}, 0.0};
-  return c->touches++;
+  return cluster->touches++;
 }
 
 /* Touches in the order of their times; those of one time as they were noted. */
-static void sort(carom_cluster_state *c) {
-  for (int k = 1; k < c->touches; k++) {
-    const carom_cluster_touch touch = c->touch[k];
-    int place = k;
-    for (; place > 0 && touch.time < c->touch[place - 1].time; place--)
-      c->touch[place] = c->touch[place - 1];
-    c->touch[place] = touch;
+static void sort(carom_cluster_state *cluster) {
+  for (int index = 1; index < cluster->touches; index++) {
+    const carom_cluster_touch touch = cluster->touch[index];
+    int place = index;
+    for (; place > 0 && touch.time < cluster->touch[place - 1].time; place--)
+      cluster->touch[place] = cluster->touch[place - 1];
+    cluster->touch[place] = touch;
   }
 }
 
 /* The impulse of a touch on the first of its balls. */
-static void impulse_of(const carom_cluster_state *c, const carom_cluster_touch *l, double P[3]) {
-  const bool flat = !c->in_space;
-  for (int n = 0; n < 3; n++)
-    P[n] = l->contact < 0 ? l->P[n] : (double)0.0;
-  if (l->contact < 0)
+static void impulse_of(const carom_cluster_state *cluster, const carom_cluster_touch *touch,
+                       double P[3]) {
+  const bool flat = !cluster->in_space;
+  for (int axis = 0; axis < 3; axis++)
+    P[axis] = touch->contact < 0 ? touch->P[axis] : 0.0;
+  if (touch->contact < 0)
     return;
-  const carom_cluster_contact_state *x = &c->contact[l->contact];
-  double t[3], third[3];
-  cluster_across(flat, x->n, t, third);
-  cluster_add(flat, P, -l->P[0], x->n);
-  cluster_add(flat, P, l->P[1], t);
+  const carom_cluster_contact_state *contact = &cluster->contact[touch->contact];
+  double tangent[3], third[3];
+  cluster_across(flat, contact->n, tangent, third);
+  cluster_add(flat, P, -touch->P[0], contact->n);
+  cluster_add(flat, P, touch->P[1], tangent);
   if (!flat)
-    cluster_add(false, P, l->P[2], third);
+    cluster_add(false, P, touch->P[2], third);
 }
 
 /* The changes of velocity so far, and of the sums of them with their instants. */
@@ -79,109 +88,117 @@ typedef struct changes {
 } changes;
 
 /* Adds a touch at an instant, or takes it away. */
-static void add(const carom_cluster_state *c, const carom_cluster_touch *l, double sign,
+static void add(const carom_cluster_state *cluster, const carom_cluster_touch *touch, double sign,
                 double instant, changes *sum) {
-  const bool flat = !c->in_space;
-  int balls[2] = {c->tip.ball, -1};
-  if (l->contact >= 0) {
-    balls[0] = c->contact[l->contact].i;
-    balls[1] = c->contact[l->contact].j;
+  const bool flat = !cluster->in_space;
+  int balls[2] = {cluster->tip.ball, -1};
+  if (touch->contact >= 0) {
+    balls[0] = cluster->contact[touch->contact].i;
+    balls[1] = cluster->contact[touch->contact].j;
   }
+
+  /* P on the first ball, or on the one that the tip strikes, and -P on the second one */
   double P[3];
-  impulse_of(c, l, P);
+  impulse_of(cluster, touch, P);
   for (int side = 0; side < 2 && balls[side] >= 0; side++) {
     const double share = side == 0 ? sign : -sign,
-                 over_mass = share * c->ball[balls[side]].inverse_mass;
+                 over_mass = share * cluster->ball[balls[side]].inverse_mass;
     cluster_add(flat, sum->v[balls[side]], over_mass, P);
     cluster_add(flat, sum->moment[balls[side]], over_mass * instant, P);
   }
 }
 
 /* What slate and cloth give counts from the start: all that changes, less what touches give. */
-static void begin(const carom_cluster_state *c, changes *sum) {
-  for (int k = 0; k < c->balls; k++)
-    for (int n = 0; n < 3; n++) {
-      sum->moment[k][n] = 0.0;
-      sum->v[k][n] = c->ball[k].v[n] - c->ball[k].v0[n];
+static void begin(const carom_cluster_state *cluster, changes *sum) {
+  for (int index = 0; index < cluster->balls; index++)
+    for (int axis = 0; axis < 3; axis++) {
+      sum->moment[index][axis] = 0.0;
+      sum->v[index][axis] = cluster->ball[index].v[axis] - cluster->ball[index].v0[axis];
     }
-  for (int k = 0; k < c->touches; k++)
-    add(c, &c->touch[k], -1.0, 0.0, sum);
+  for (int index = 0; index < cluster->touches; index++)
+    add(cluster, &cluster->touch[index], -1.0, 0.0, sum);
 }
 
-/* The instant of a touch of two balls. */
-static double instant_of(const carom_cluster_state *c, const carom_cluster_touch *l,
+/* The instant t_k of a touch of two balls: where the way that is left of D_k, at the velocities after
+ * the touches before, ends. */
+static double instant_of(const carom_cluster_state *cluster, const carom_cluster_touch *touch,
                          const changes *sum) {
-  const carom_cluster_contact_state *x = &c->contact[l->contact];
-  const bool flat = !c->in_space;
-  double v[3], v0[3], moment[3];
-  cluster_minus(flat, sum->v[x->i], sum->v[x->j], v);
-  cluster_minus(flat, x->p->v0, x->q->v0, v0);
-  cluster_minus(flat, sum->moment[x->i], sum->moment[x->j], moment);
-  const double rate = cluster_dot(flat, v0, x->n) + cluster_dot(flat, v, x->n),
-               way = l->approach + cluster_dot(flat, moment, x->n);
+  const carom_cluster_contact_state *contact = &cluster->contact[touch->contact];
+  const bool flat = !cluster->in_space;
+  double gained[3], relative[3], moment[3];
+  cluster_minus(flat, sum->v[contact->i], sum->v[contact->j], gained);
+  cluster_minus(flat, contact->ball_i->v0, contact->ball_j->v0, relative);
+  cluster_minus(flat, sum->moment[contact->i], sum->moment[contact->j], moment);
+  const double rate =
+                   cluster_dot(flat, relative, contact->n) + cluster_dot(flat, gained, contact->n),
+               way = touch->approach + cluster_dot(flat, moment, contact->n);
   if (!(way > 0.0))
     return 0.0;
-  return way < rate * l->time ? way / rate : l->time;
+  return way < rate * touch->time ? way / rate : touch->time;
 }
 
 /* How far the struck ball is behind as a touch of it lasts. */
-static double delay_of(const carom_cluster_state *c, const carom_cluster_touch *l) {
-  const carom_cluster_tip *tip = &c->tip;
-  const carom_cluster_contact_state *x = &c->contact[l->contact];
-  if ((x->i != tip->ball && x->j != tip->ball) || !(l->P[0] > 0.0))
+static double delay_of(const carom_cluster_state *cluster, const carom_cluster_touch *touch) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  const carom_cluster_contact_state *contact = &cluster->contact[touch->contact];
+  if ((contact->i != tip->ball && contact->j != tip->ball) || !(touch->P[0] > 0.0))
     return 0.0;
   double P[3];
-  impulse_of(c, l, P);
-  const double late = l->moment / l->P[0] - l->time,
-               along =
-                   late * c->ball[tip->ball].inverse_mass * cluster_dot(!c->in_space, P, tip->axis);
-  return x->i == tip->ball ? along : -along;
+  impulse_of(cluster, touch, P);
+  const double late = touch->moment / touch->P[0] - touch->time,
+               along = late * cluster->ball[tip->ball].inverse_mass *
+                       cluster_dot(!cluster->in_space, P, tip->axis);
+  return contact->i == tip->ball ? along : -along;
 }
 
-void carom_cluster_find_places(carom_cluster_state *c) {
+void carom_cluster_find_places(carom_cluster_state *cluster) {
   changes sum;
-  sort(c);
-  begin(c, &sum);
-  c->tip.delay = 0.0;
-  for (int k = 0; k < c->touches; k++) {
-    const carom_cluster_touch *l = &c->touch[k];
+  sort(cluster);
+  begin(cluster, &sum);
+  cluster->tip.delay = 0.0;
+  for (int index = 0; index < cluster->touches; index++) {
+    const carom_cluster_touch *touch = &cluster->touch[index];
     double instant;
-    if (l->contact < 0) {
-      instant = carom_greater(l->time - carom_linear_lag(c->tip.T, c->tip.e), 0.0);
+    if (touch->contact < 0) {
+      instant = carom_greater(
+          touch->time - carom_linear_lag(cluster->tip.duration, cluster->tip.restitution), 0.0);
     } else {
-      instant = instant_of(c, l, &sum);
-      c->tip.delay += c->struck ? delay_of(c, l) : (double)0.0;
+      instant = instant_of(cluster, touch, &sum);
+      cluster->tip.delay += cluster->struck ? delay_of(cluster, touch) : 0.0;
     }
-    add(c, l, 1.0, instant, &sum);
+    add(cluster, touch, 1.0, instant, &sum);
   }
-  for (int k = 0; k < c->balls; k++) {
-    carom_cluster_ball *p = &c->ball[k];
-    for (int n = 0; n < 3; n++)
-      p->shift[n] = -sum.moment[k][n];
+  for (int index = 0; index < cluster->balls; index++) {
+    carom_cluster_ball *ball = &cluster->ball[index];
+    for (int axis = 0; axis < 3; axis++)
+      ball->shift[axis] = -sum.moment[index][axis];
     /* one on the slate starts from there, and none from below it */
-    p->shift[2] = p->flies ? carom_greater(p->shift[2], p->radius - p->r[2]) : (double)0.0;
+    ball->shift[2] = ball->flies ? carom_greater(ball->shift[2], ball->radius - ball->r[2]) : 0.0;
   }
 }
 
-double carom_cluster_tip_lead(const carom_cluster_state *c) {
-  const carom_cluster_tip *x = &c->tip;
-  const carom_cluster_ball *b = &c->ball[x->ball];
-  const double by_tip = x->impulse * b->inverse_mass, ahead = cluster_dot(false, b->v0, x->axis);
-  const double share = ahead > 0.0 ? by_tip / (by_tip + ahead) : (double)1.0;
-  const double t = c->duration - carom_linear_lag(x->T, x->e) * share;
+double carom_cluster_tip_lead(const carom_cluster_state *cluster) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  const carom_cluster_ball *ball = &cluster->ball[tip->ball];
+
+  /* t_m: less by the lag of the centroid, as far as the ball moves by the push */
+  const double by_tip = tip->impulse * ball->inverse_mass,
+               ahead = cluster_dot(false, ball->v0, tip->axis);
+  const double share = ahead > 0.0 ? by_tip / (by_tip + ahead) : 1.0;
+  const double late = cluster->duration - carom_linear_lag(tip->duration, tip->restitution) * share;
   double place[3]; /* of the ball from where it starts on, against where it is */
-  for (int k = 0; k < 3; k++)
-    place[k] = b->shift[k] + t * b->v[k] - b->s[k];
-  return x->travel - t * x->V - x->delay + cluster_dot(false, place, x->axis);
+  for (int axis = 0; axis < 3; axis++)
+    place[axis] = ball->shift[axis] + late * ball->v[axis] - ball->s[axis];
+  return tip->travel - late * tip->V - tip->delay + cluster_dot(false, place, tip->axis);
 }
 
-double carom_cluster_separation(const carom_cluster_state *c) {
-  static const double overlap = 2e-3; /* of the largest impulse */
-  if (c->struck || c->balls > CAROM_CLUSTER_IN_TURN)
+double carom_cluster_separation(const carom_cluster_state *cluster) {
+  static const double overlap = 2e-3; /* a 500th of the largest impulse */
+  if (cluster->struck || cluster->balls > CAROM_CLUSTER_IN_TURN)
     return 0.0;
   double most = 0.0;
-  for (int k = 0; k < c->contacts; k++)
-    most = carom_greater(most, c->contact[k].impulse);
-  const double left = 1.0 - c->shared / (overlap * most);
-  return left > 0.0 ? left * left : (double)0.0;
+  for (int index = 0; index < cluster->contacts; index++)
+    most = carom_greater(most, cluster->contact[index].impulse);
+  const double left = 1.0 - cluster->shared / (overlap * most);
+  return left > 0.0 ? left * left : 0.0;
 }

@@ -1,93 +1,124 @@
-/* The tip of a cue as a contact of a cluster: directions, arm and stiffness; tip.h has the law. */
+/* The tip of a cue as a contact of a cluster: directions, arm and stiffness; tip.h has the law.
+ *
+ * The place p of a touch has the offsets a to the left of the axis c and b above it, in radii R:
+ *
+ *          above
+ *            ^        .-''''-.           seen along c, which points away from the reader
+ *            |      .'   a    '.
+ *   left <---+     /  p----+    \        p   a left + b above - sqrt(1 - a^2 - b^2) c
+ *                 |        | b   |       q   p x c/R = b left - a above, the arm of the push
+ *                 |        o     |
+ *                  \            /
+ *                   '.        .'
+ *                     '-....-'
+ *
+ * Squirt (motion/strike.h): the end mass m_e of the cue follows the side of the ball, so
+ *
+ *     c' = ((1 + m/m_e + 5/2 (1 - a^2)) c - 5/2 a sqrt(1 - a^2) left), made a unit vector. */
 #include "cluster/cluster.h"
 #include "cluster/cue.h"
 #include "cluster/tip.h"
 #include "cluster/vectors.h"
+#include "motion/sphere.h"
 
 #include <math.h>
 #include <string.h>
 
 static const double least_tip_restitution = 0.05; /* a tip that gives nothing back parts at once */
 
-void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T) {
-  carom_cluster_tip *x = &c->tip;
-  memset(x, 0, sizeof *x);
-  const double a = cue[3], b = cue[4], inverse = c->ball[struck].inverse_mass;
-  const double ratio = 1.0 / (inverse * cue[6]), inside = 1.0 - a * a;
-  double axis[3], left[3], above[3];
-  carom_cue_axes(cue[1], cue[2], axis, left, above);
+/* The places of the numbers of a cue in cue[], which are in the order of carom_cue. */
+enum { SPEED, PHI, THETA, OFFSET_A, OFFSET_B, MASS, END_MASS, RESTITUTION };
 
-  /* squirt turns the push, motion/strike.h; the arm p x c / R */
-  const double aside = -2.5 * a * sqrt(inside), ahead = 1.0 + ratio + 2.5 * inside;
+void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double cue[8],
+                          double duration) {
+  carom_cluster_tip *tip = &cluster->tip;
+  memset(tip, 0, sizeof *tip);
+  const double a = cue[OFFSET_A], b = cue[OFFSET_B], inverse = cluster->ball[struck].inverse_mass;
+  const double ratio = 1.0 / (inverse * cue[END_MASS]), inside = 1.0 - a * a;
+  double cue_axis[3], left[3], above[3];
+  carom_cue_axes(cue[PHI], cue[THETA], cue_axis, left, above);
+
+  /* the direction of the push, which squirt turns, and its arm */
+  const double aside = -CAROM_SPHERE_TURN * a * sqrt(inside),
+               ahead = 1.0 + ratio + CAROM_SPHERE_TURN * inside;
   const double size = sqrt(aside * aside + ahead * ahead);
-  for (int k = 0; k < 3; k++) {
-    x->along[k] = (ahead * axis[k] + aside * left[k]) / size;
-    x->arm[k] = b * left[k] - a * above[k];
-    x->axis[k] = axis[k];
+  for (int axis = 0; axis < 3; axis++) {
+    tip->along[axis] = (ahead * cue_axis[axis] + aside * left[axis]) / size;
+    tip->arm[axis] = b * left[axis] - a * above[axis];
+    tip->axis[axis] = cue_axis[axis];
   }
 
-  x->ball = struck;
-  x->inverse_mass = 1.0 / cue[5];
-  x->V = cue[0];
-  x->T = T;
+  /* the cue as a body */
+  tip->ball = struck;
+  tip->inverse_mass = 1.0 / cue[MASS];
+  tip->V = cue[SPEED];
+  tip->duration = duration;
   /* a restitution of 0 stands for 1, and keeps its derivatives */
-  x->e = least_tip_restitution;
-  if (cue[7] > least_tip_restitution)
-    x->e = cue[7];
-  else if (cue[7] == 0.0)
-    x->e = 1.0 + cue[7];
-  x->k =
-      carom_linear_stiffness(T, x->e) / (x->inverse_mass + (1.0 + 2.5 * (a * a + b * b)) * inverse);
-  x->first = x->V - cluster_dot(false, c->ball[struck].v, x->along) -
-             cluster_dot(false, c->ball[struck].W, x->arm);
+  tip->restitution = least_tip_restitution;
+  if (cue[RESTITUTION] > least_tip_restitution)
+    tip->restitution = cue[RESTITUTION];
+  else if (cue[RESTITUTION] == 0.0)
+    tip->restitution = 1.0 + cue[RESTITUTION];
+
+  /* the stiffness by the duration against 1/M + (1 + 5/2 |q|^2)/m; the speed at which it closes */
+  tip->stiffness = carom_linear_stiffness(duration, tip->restitution) /
+                   (tip->inverse_mass + (1.0 + CAROM_SPHERE_TURN * (a * a + b * b)) * inverse);
+  tip->first = tip->V - cluster_dot(false, cluster->ball[struck].v, tip->along) -
+               cluster_dot(false, cluster->ball[struck].W, tip->arm);
 }
 
-void carom_cluster_tip_slides(carom_cluster_state *c, const double cue[8], double mu) {
-  carom_cluster_tip *x = &c->tip;
+void carom_cluster_tip_slides(carom_cluster_state *cluster, const double cue[8], double mu) {
+  carom_cluster_tip *tip = &cluster->tip;
   double left[3], above[3];
-  carom_cue_axes(cue[1], cue[2], x->axis, left, above);
-  x->slides = true;
-  x->mu = mu;
-  x->end = 1.0 / cue[6];
-  x->kappa = sqrt(1.0 - cue[3] * cue[3] - cue[4] * cue[4]);
-  for (int k = 0; k < 3; k++)
-    x->n[k] = x->kappa * x->axis[k] - cue[3] * left[k] - cue[4] * above[k];
-  for (int k = 0; k < 3; k++)
-    x->place[k] = -x->n[k];
-  x->first = tip_closing(x, &c->ball[x->ball]);
+  carom_cue_axes(cue[PHI], cue[THETA], tip->axis, left, above);
+  tip->slides = true;
+  tip->mu = mu;
+  tip->end = 1.0 / cue[END_MASS];
+
+  /* from the place of the touch to the centre */
+  tip->kappa = sqrt(1.0 - cue[OFFSET_A] * cue[OFFSET_A] - cue[OFFSET_B] * cue[OFFSET_B]);
+  for (int axis = 0; axis < 3; axis++)
+    tip->n[axis] =
+        tip->kappa * tip->axis[axis] - cue[OFFSET_A] * left[axis] - cue[OFFSET_B] * above[axis];
+  for (int axis = 0; axis < 3; axis++)
+    tip->place[axis] = -tip->n[axis];
+  tip->first = tip_closing(tip, &cluster->ball[tip->ball]);
 }
 
-void carom_cluster_push_alone(carom_cluster_state *c) {
-  carom_cluster_tip *x = &c->tip;
-  carom_cluster_ball *p = &c->ball[x->ball];
-  const double arm2 = cluster_dot(false, x->arm, x->arm);
-  const double mobility = x->inverse_mass + (1.0 + 2.5 * arm2) * p->inverse_mass;
-  x->J = x->impulse = (1.0 + x->e) * x->first / mobility;
-  x->touches = 1;
-  x->last = x->T;
+void carom_cluster_push_alone(carom_cluster_state *cluster) {
+  carom_cluster_tip *tip = &cluster->tip;
+  carom_cluster_ball *ball = &cluster->ball[tip->ball];
+  /* the impulse takes the closing speed, and e of it again */
+  const double arm2 = cluster_dot(false, tip->arm, tip->arm);
+  const double mobility = tip->inverse_mass + (1.0 + CAROM_SPHERE_TURN * arm2) * ball->inverse_mass;
+  tip->J = tip->impulse = (1.0 + tip->restitution) * tip->first / mobility;
+  tip->touches = 1;
+  tip->last = tip->duration;
 
   /* as where the integrator ends: the tip opens, and the ball is where it was pushed to */
-  const double rest = x->T - carom_linear_lag(x->T, x->e);
-  c->duration = x->T;
-  x->travel = x->V * x->T - x->J * x->inverse_mass * rest;
-  for (int k = 0; k < 3; k++) {
-    p->v0[k] = p->v[k];
-    p->s[k] = x->T * p->v[k];
-    p->shift[k] = 0.0;
+  const double rest = tip->duration - carom_linear_lag(tip->duration, tip->restitution);
+  cluster->duration = tip->duration;
+  tip->travel = tip->V * tip->duration - tip->J * tip->inverse_mass * rest;
+  for (int axis = 0; axis < 3; axis++) {
+    ball->v0[axis] = ball->v[axis];
+    ball->s[axis] = tip->duration * ball->v[axis];
+    ball->shift[axis] = 0.0;
   }
-  cluster_add(!c->in_space, p->s, rest * x->J * p->inverse_mass, x->along);
-  x->V -= x->J * x->inverse_mass;
-  cluster_add(!c->in_space, p->v, x->J * p->inverse_mass, x->along);
-  cluster_add(false, p->W, 2.5 * x->J * p->inverse_mass, x->arm);
+
+  /* the impulse, as if all of it had come at its centroid */
+  cluster_add(!cluster->in_space, ball->s, rest * tip->J * ball->inverse_mass, tip->along);
+  tip->V -= tip->J * tip->inverse_mass;
+  cluster_add(!cluster->in_space, ball->v, tip->J * ball->inverse_mass, tip->along);
+  cluster_add(false, ball->W, CAROM_SPHERE_TURN * tip->J * ball->inverse_mass, tip->arm);
 }
 
-void carom_cluster_put_on_slate(carom_cluster_state *c) {
-  c->on_slate = c->in_space = true;
-  memset(c->slate, 0, (size_t)c->balls * sizeof *c->slate);
+void carom_cluster_put_on_slate(carom_cluster_state *cluster) {
+  cluster->on_slate = cluster->in_space = true;
+  memset(cluster->slate, 0, (size_t)cluster->balls * sizeof *cluster->slate);
   /* the less a cue is raised, the less the slate does, and the longer its steps may be */
-  c->steepness = carom_freedom_of_balls(0.0, c->tip.along[2]);
+  cluster->steepness = carom_freedom_of_balls(0.0, cluster->tip.along[2]);
 }
 
-double carom_cluster_slate_impulse(const carom_cluster_state *c, int ball) {
-  return c->on_slate ? c->slate[ball].impulse : 0.0;
+double carom_cluster_slate_impulse(const carom_cluster_state *cluster, int ball) {
+  return cluster->on_slate ? cluster->slate[ball].impulse : 0.0;
 }

@@ -11,98 +11,121 @@
 
 #include "carom_shot.h"
 #include "cluster/tip.h"
+#include "motion/sphere.h"
 
 /* Half a step of the overlaps of all, and their impulses; whether one acts. */
-static inline bool slate_acts(carom_cluster_state *c, double h) {
+static inline bool slate_acts(carom_cluster_state *cluster, double step) {
   bool any = false;
-  for (int k = 0; k < c->balls; k++) {
-    carom_cluster_slate *x = &c->slate[k];
-    const carom_cluster_ball *p = &c->ball[k];
-    x->J = 0.0;
-    x->closing = -p->v[2];
-    x->d += 0.5 * h * x->closing;
-    if (x->d <= 0.0 || !(x->e > 0.0))
+  for (int index = 0; index < cluster->balls; index++) {
+    carom_cluster_slate *slate = &cluster->slate[index];
+    const carom_cluster_ball *ball = &cluster->ball[index];
+
+    /* half a step, by the speed at which it begins */
+    slate->J = 0.0;
+    slate->closing = -ball->v[2];
+    slate->overlap += 0.5 * step * slate->closing;
+    if (slate->overlap <= 0.0 || !(slate->restitution > 0.0))
       continue;
-    const double stiff = carom_linear_stiffness((double)CAROM_SLATE_TIME, x->e);
-    x->J = h * carom_linear_force(stiff, x->e, x->d, &x->d_max) / p->inverse_mass;
-    x->impulse += x->J;
-    any |= x->J > 0.0 || x->closing > too_slow * c->tip.first;
+
+    /* the force of a unit of mass, on the mass of the ball */
+    const double stiff = carom_linear_stiffness(CAROM_SLATE_TIME, slate->restitution);
+    slate->J = step *
+               carom_linear_force(stiff, slate->restitution, slate->overlap, &slate->overlap_max) /
+               ball->inverse_mass;
+    slate->impulse += slate->J;
+    any |= slate->J > 0.0 || slate->closing > too_slow * cluster->tip.first;
   }
   return any;
 }
 
 /* The share of the friction `most` of two balls that the tip presses the struck one on the slate
  * by. */
-static inline double share_of_tip(const carom_cluster_state *c, int i, int j, double most) {
-  const carom_cluster_tip *x = &c->tip;
-  if (x->ball != i && x->ball != j)
+static inline double share_of_tip(const carom_cluster_state *cluster, int i, int j, double most) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  if (tip->ball != i && tip->ball != j)
     return 0.0;
-  const double down = -tip_upward(x) * x->J;
+  const double down = -tip_upward(tip) * tip->J;
   if (!(down > 0.0))
     return 0.0;
-  return down < most ? down / most : (double)1.0;
+  return down < most ? down / most : 1.0;
 }
 
-static inline void slate_parts(carom_cluster_state *c, double h) {
-  for (int k = 0; k < c->balls; k++) {
-    carom_cluster_slate *x = &c->slate[k];
-    const double closing = -c->ball[k].v[2], middle = x->d;
-    x->d += 0.5 * h * closing;
-    if (x->d_max == 0.0)
+/* The other half of a step, after which contacts may be open. */
+static inline void slate_parts(carom_cluster_state *cluster, double step) {
+  for (int index = 0; index < cluster->balls; index++) {
+    carom_cluster_slate *slate = &cluster->slate[index];
+    const double closing = -cluster->ball[index].v[2], middle = slate->overlap;
+    slate->overlap += 0.5 * step * closing;
+    if (slate->overlap_max == 0.0)
       continue;
-    x->d_max = carom_hertz_vertex(middle, x->d_max, h, x->closing, closing);
-    x->d_max = carom_set_left(x->e, x->d, x->d_max);
+    slate->overlap_max =
+        carom_hertz_vertex(middle, slate->overlap_max, step, slate->closing, closing);
+    slate->overlap_max = carom_set_left(slate->restitution, slate->overlap, slate->overlap_max);
   }
 }
 
 /* How long a ball above the slate needs down to it; infinite: it does not come. */
-static inline double wait_of_slate(const carom_cluster_state *c, int ball) {
-  const carom_cluster_slate *x = &c->slate[ball];
-  const double down = -c->ball[ball].v[2];
-  const bool comes = x->e > 0.0 && x->d <= 0.0 && down > too_slow * c->tip.first;
-  return comes ? -x->d / down : (double)INFINITY;
+static inline double wait_of_slate(const carom_cluster_state *cluster, int ball) {
+  const carom_cluster_slate *slate = &cluster->slate[ball];
+  const double down = -cluster->ball[ball].v[2];
+  const bool comes =
+      slate->restitution > 0.0 && slate->overlap <= 0.0 && down > too_slow * cluster->tip.first;
+  return comes ? -slate->overlap / down : INFINITY;
 }
 
-static inline void slate_waits(carom_cluster_slate *x, double down, double wait, bool touches) {
-  x->d = touches ? (double)CAROM_LEAST_OVERLAP : x->d + wait * down;
-  x->d_max = carom_set_left(x->e, x->d, x->d_max);
+/* A wait of the push, in which nothing acts; `touches` at its end. */
+static inline void slate_waits(carom_cluster_slate *slate, double down, double wait, bool touches) {
+  slate->overlap = touches ? CAROM_LEAST_OVERLAP : slate->overlap + wait * down;
+  slate->overlap_max = carom_set_left(slate->restitution, slate->overlap, slate->overlap_max);
 }
 
-/* The speed upwards at which the slate lets a ball go that moves at v_z, as a step of h begins, if
+/* The speed upwards at which the slate lets a ball go that moves at v_z, as a step begins, if
  * nothing else acts: by the energy that is stored along the branch it is on. */
-static inline double slate_releases(const carom_cluster_slate *x, double v_z, double h) {
-  const double d = x->d - 0.5 * h * x->closing;
-  if (!(d > 0.0 && x->e > 0.0))
+static inline double slate_releases(const carom_cluster_slate *slate, double v_z, double step) {
+  const double overlap = slate->overlap - 0.5 * step * slate->closing;
+  if (!(overlap > 0.0 && slate->restitution > 0.0))
     return v_z;
-  const double k = carom_linear_stiffness((double)CAROM_SLATE_TIME, x->e), e2 = x->e * x->e;
-  if (d >= x->d_max && v_z < 0.0)
-    return x->e * sqrt(k * d * d + v_z * v_z);
-  const double top = carom_greater(d, x->d_max), y = carom_greater(d - (1.0 - e2) * top, 0.0);
-  const double square = v_z * v_z + k / e2 * y * y, most = k * e2 * top * top;
+  const double stiffness = carom_linear_stiffness(CAROM_SLATE_TIME, slate->restitution),
+               returned = slate->restitution * slate->restitution;
+
+  /* it loads: all of this energy and of the speed comes back by e^2 */
+  if (overlap >= slate->overlap_max && v_z < 0.0)
+    return slate->restitution * sqrt(stiffness * overlap * overlap + v_z * v_z);
+
+  /* it unloads, from d_max: the energy without what the set has lost */
+  const double top = carom_greater(overlap, slate->overlap_max),
+               elastic = carom_greater(overlap - (1.0 - returned) * top, 0.0);
+  const double square = v_z * v_z + stiffness / returned * elastic * elastic,
+               most = stiffness * returned * top * top;
   if (v_z < 0.0 && square > most) /* it loads again beyond its greatest overlap */
-    return x->e * sqrt(k * top * top + square - most);
-  return y > 0.0 || v_z < 0.0 ? sqrt(square) : v_z;
+    return slate->restitution * sqrt(stiffness * top * top + square - most);
+  return elastic > 0.0 || v_z < 0.0 ? sqrt(square) : v_z;
 }
 
-/* Lets all balls go at once, before a step of h; the cloth rubs their feet meanwhile. */
-static inline void slate_lets_go(carom_cluster_state *c, double h) {
-  for (int k = 0; k < c->balls; k++) {
-    carom_cluster_slate *x = &c->slate[k];
-    carom_cluster_ball *p = &c->ball[k];
-    if (!(x->d > 0.0 && x->e > 0.0))
+/* Lets all balls go at once, before a step; the cloth rubs their feet meanwhile. */
+static inline void slate_lets_go(carom_cluster_state *cluster, double step) {
+  for (int index = 0; index < cluster->balls; index++) {
+    carom_cluster_slate *slate = &cluster->slate[index];
+    carom_cluster_ball *ball = &cluster->ball[index];
+    if (!(slate->overlap > 0.0 && slate->restitution > 0.0))
       continue;
-    const double up = slate_releases(x, p->v[2], h), J = up - p->v[2];
-    p->v[2] = up;
-    x->impulse += J / p->inverse_mass - x->J;
-    x->d = x->d_max = x->J = 0.0;
-    const double u_x = p->v[0] - p->W[1], u_y = p->v[1] + p->W[0], u = sqrt(u_x * u_x + u_y * u_y);
-    const double g = carom_lesser(p->mu_slide * J, u / 3.5);
-    if (!(g > 0.0))
+
+    /* the rest of the impulse, in place of that of this step */
+    const double up = slate_releases(slate, ball->v[2], step), gain = up - ball->v[2];
+    ball->v[2] = up;
+    slate->impulse += gain / ball->inverse_mass - slate->J;
+    slate->overlap = slate->overlap_max = slate->J = 0.0;
+
+    /* friction against the slip of the foot, which it stops at most */
+    const double slip_x = ball->v[0] - ball->W[1], slip_y = ball->v[1] + ball->W[0],
+                 slip = sqrt(slip_x * slip_x + slip_y * slip_y);
+    const double friction = carom_lesser(ball->mu_slide * gain, slip / CAROM_SPHERE_SLIP);
+    if (!(friction > 0.0))
       continue;
-    p->v[0] -= g * u_x / u;
-    p->v[1] -= g * u_y / u;
-    p->W[0] -= 2.5 * g * u_y / u;
-    p->W[1] += 2.5 * g * u_x / u;
+    ball->v[0] -= friction * slip_x / slip;
+    ball->v[1] -= friction * slip_y / slip;
+    ball->W[0] -= CAROM_SPHERE_TURN * friction * slip_y / slip;
+    ball->W[1] += CAROM_SPHERE_TURN * friction * slip_x / slip;
   }
 }
 

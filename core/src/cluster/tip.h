@@ -10,6 +10,15 @@
  *     F = k/e^2 (delta - (1 - e^2) delta_max), or 0      below it
  *     M V' = -F      m v' = F c'      (2/5) m W' = F q
  *
+ *           cue, M     delta = int V dt - the way of the touched place along c'
+ *     ================>.-'''-.
+ *           c -->    .'p      '.          p    from the centre to the touch, |p| = R
+ *                   /   '.      \         q    p x c / R: into the page for a touch above
+ *                   |     'o    |              the centre
+ *                   \           /
+ *                    '.       .'
+ *                      '-...-'
+ *
  * so e^2 of the work comes back. k is that of a contact which lasts T with the ball alone:
  *
  *     T = pi/2 (1 + e) sqrt(m_e / k),     1/m_e = 1/M + (1 + 5/2 |q|^2)/m.
@@ -29,6 +38,12 @@
  *     u = r - delta' c, across n;  f stops it in a step, or is mu N
  *     M V' = -P . c      m_e y' = -(P - (P . c) c)      m v' = P      (2/5) m W' = p x P
  *
+ *     c -->  ======\ m_e        n     from the touch to the centre, |n| = 1
+ *                   \.-'''-.   kappa  n . c: 1 where the axis meets the centre
+ *                  .'  '.   '.  y     of the end m_e, across c, which the shaft holds
+ *                 /      'n   \        where it would be drawn into the ball
+ *                 |        'o |
+ *
  * and mu = a/sqrt(1 - a^2), a the offset of a miscue. The power P . r is that of the spring and of
  * friction. A tip that does not slide has r = delta' c, as the first touch has it, whose push goes
  * along c' too. Where friction holds back as much as it pushes, N is at most 2 k delta/kappa: the
@@ -42,228 +57,269 @@
 #include "carom_shot.h"
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
+#include "motion/sphere.h"
 #include "platform/ranges.h"
 
 /* Steps of the duration of tip or slate, for each of a contact of balls: 200 by default, which are
  * 5 us of a leather tip, with errors of 2e-4, and 9e-4 at most. Fewer are not taken. */
 enum { CAROM_TIP_STEPS = 200, CAROM_TIP_STEPS_EACH = 8 };
+/* Iterations for the impulse that stands for the bounces of the end: one where it slips or sticks
+ * throughout, further ones where the slip ends. */
+enum { CAROM_TIP_ITERATIONS = 3 };
 static const double too_slow = 1e-9;   /* of the speed of the cue: contacts that close slower are
                                         none */
 static const double least_kappa = 0.1; /* a tip that slides past it misses */
 
-static inline double tip_closing(const carom_cluster_tip *x, const carom_cluster_ball *p) {
-  if (x->slides)
-    return x->V + (cluster_dot(false, x->y, x->n) - cluster_dot(false, p->v, x->n)) / x->kappa;
-  return x->V - cluster_dot(false, p->v, x->along) - x->lost * x->along[2] -
-         cluster_dot(false, p->W, x->arm);
+/* The part of kappa that friction leaves at least, where it holds back; N is 1 over it at most. */
+#define CAROM_LEAST_PUSH 0.5
+
+/* delta': the speed at which the tip closes. */
+static inline double tip_closing(const carom_cluster_tip *tip, const carom_cluster_ball *ball) {
+  if (tip->slides)
+    return tip->V +
+           (cluster_dot(false, tip->y, tip->n) - cluster_dot(false, ball->v, tip->n)) / tip->kappa;
+  return tip->V - cluster_dot(false, ball->v, tip->along) - tip->lost * tip->along[2] -
+         cluster_dot(false, ball->W, tip->arm);
 }
 
 /* By how much the tip closes less for each m/s that the ball rises. */
-static inline double tip_upward(const carom_cluster_tip *x) {
-  return x->slides ? x->n[2] / x->kappa : x->along[2];
+static inline double tip_upward(const carom_cluster_tip *tip) {
+  return tip->slides ? tip->n[2] / tip->kappa : tip->along[2];
 }
 
-/* The longest step that suits a contact of tip or slate: unloading is shorter than loading by e. */
-static inline double push_step(const carom_cluster_state *c, double T, double e) {
+/* The longest step that suits a contact of tip or slate that lasts so long: unloading, which takes
+ * e/(1 + e) of the duration, has half as many steps. */
+static inline double push_step(const carom_cluster_state *cluster, double duration,
+                               double restitution) {
   const double steps =
-      carom_greater((double)CAROM_TIP_STEPS, c->steps * (double)CAROM_TIP_STEPS_EACH);
-  return 2.0 * e / (1.0 + e) * T / steps;
+      carom_greater((double)CAROM_TIP_STEPS, cluster->steps * (double)CAROM_TIP_STEPS_EACH);
+  return 2.0 * restitution / (1.0 + restitution) * duration / steps;
 }
 
 /* The longest step in which an open tip that is to touch goes no deeper than one of its own steps.
  */
-static inline double step_to_touch(const carom_cluster_state *c, double h) {
-  const carom_cluster_tip *x = &c->tip;
-  const double free_step = push_step(c, x->T, x->e);
-  if (x->gone || !(h > free_step) || x->d > 0.0)
-    return h;
-  const double closing = tip_closing(x, &c->ball[x->ball]);
-  return closing > 0.0 ? carom_lesser(h, free_step - x->d / closing) : h;
+static inline double step_to_touch(const carom_cluster_state *cluster, double step) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  const double free_step = push_step(cluster, tip->duration, tip->restitution);
+  if (tip->gone || !(step > free_step) || tip->overlap > 0.0)
+    return step;
+  const double closing = tip_closing(tip, &cluster->ball[tip->ball]);
+  return closing > 0.0 ? carom_lesser(step, free_step - tip->overlap / closing) : step;
 }
 
-/* FURTHER TOUCH: the impulse P of which J is the part along the axis. With g = 1/m_e + 1/m, u after
- * a step is u0 - (1/m_e + 7/2/m) f + g (N/kappa) c_t, c_t the part of c across n. */
-static inline void slide(const carom_cluster_tip *x, const carom_cluster_ball *p, double P[3]) {
-  const double *n = x->n, *c = x->axis, kappa = x->kappa;
-  const double m = p->inverse_mass,
-               turn[3] = {p->W[2] * n[1] - p->W[1] * n[2], p->W[0] * n[2] - p->W[2] * n[0],
-                          p->W[1] * n[0] - p->W[0] * n[1]};
-  double v[3], u[3], aside[3], f[3]; /* v of the ball against the end; aside: c_t */
-  cluster_minus(false, p->v, x->y, v);
-  const double closing = cluster_dot(false, v, n) / kappa;
-  for (int k = 0; k < 3; k++) {
-    aside[k] = c[k] - kappa * n[k];
-    u[k] = closing * c[k] - v[k] - turn[k];
+/* FURTHER TOUCH: the impulse P of which J is the part along the axis. With c_t the part of c across
+ * n (`aside`), A = 1/m_e + 7/2/m (`across`) and g = 1/m_e + 1/m, the slip after a step is
+ *
+ *     u = u0 - A f + g (N/kappa) c_t,     N = (J - f . c_t)/kappa.
+ *
+ * So f = u0/A + share c_t stops it, with G = g/kappa^2 (`gain`) and
+ *
+ *     share = G (J - u0 . c_t/A) / (A + G c_t . c_t). */
+static inline void slide(const carom_cluster_tip *tip, const carom_cluster_ball *ball,
+                         double P[3]) {
+  const double *normal = tip->n, *cue_axis = tip->axis, kappa = tip->kappa;
+  const double inverse_mass = ball->inverse_mass,
+               turn[3] = {ball->W[2] * normal[1] - ball->W[1] * normal[2],
+                          ball->W[0] * normal[2] - ball->W[2] * normal[0],
+                          ball->W[1] * normal[0] - ball->W[0] * normal[1]};
+
+  /* the slip u0 as the step begins: the end against the ball, less delta' c */
+  double velocity[3], slip[3], aside[3], friction[3];
+  cluster_minus(false, ball->v, tip->y, velocity);
+  const double closing = cluster_dot(false, velocity, normal) / kappa;
+  for (int axis = 0; axis < 3; axis++) {
+    aside[axis] = cue_axis[axis] - kappa * normal[axis];
+    slip[axis] = closing * cue_axis[axis] - velocity[axis] - turn[axis];
   }
 
   /* the friction that stops the slip: along c_t it counts more, as N does too */
-  const double across = x->end + 3.5 * m, gain = (m + x->end) / (kappa * kappa);
-  const double share = gain * (x->J - cluster_dot(false, u, aside) / across) /
+  const double across = tip->end + CAROM_SPHERE_SLIP * inverse_mass,
+               gain = (inverse_mass + tip->end) / (kappa * kappa);
+  const double share = gain * (tip->J - cluster_dot(false, slip, aside) / across) /
                        (across + gain * cluster_dot(false, aside, aside));
-  for (int k = 0; k < 3; k++)
-    f[k] = u[k] / across + share * aside[k];
-  const double f_c = cluster_dot(false, f, aside), size = sqrt(cluster_dot(false, f, f));
-  double N = (x->J - f_c) / kappa;
+  for (int axis = 0; axis < 3; axis++)
+    friction[axis] = slip[axis] / across + share * aside[axis];
+  const double friction_along = cluster_dot(false, friction, aside),
+               size = sqrt(cluster_dot(false, friction, friction));
+  double N = (tip->J - friction_along) / kappa;
 
-  /* or as large as N lets it be */
-  if (size > 0.0 && !(size <= x->mu * N)) {
-    const double part = f_c / size, push = kappa + x->mu * part;
-    const bool wedges = push < 0.5 * kappa;
-    N = wedges ? 2.0 * x->J / kappa : x->J / push;
-    const double rub = wedges ? -x->J / part : x->mu * N;
-    for (int k = 0; k < 3; k++)
-      f[k] *= rub / size;
+  /* or as large as N lets it be: P . c = N (kappa + mu part) is J, unless the tip wedges */
+  if (size > 0.0 && !(size <= tip->mu * N)) {
+    const double part = friction_along / size, push = kappa + tip->mu * part;
+    const bool wedges = push < CAROM_LEAST_PUSH * kappa;
+    N = wedges ? 2.0 * tip->J / kappa : tip->J / push;
+    const double rub = wedges ? -tip->J / part : tip->mu * N;
+    for (int axis = 0; axis < 3; axis++)
+      friction[axis] *= rub / size;
   }
-  for (int k = 0; k < 3; k++)
-    P[k] = N * n[k] + f[k];
+  for (int axis = 0; axis < 3; axis++)
+    P[axis] = N * normal[axis] + friction[axis];
 }
 
-/* The end mass after an impulse -P: it gives way, and is not drawn into the ball. */
-static inline void end_gives_way(carom_cluster_tip *x, const double P[3]) {
-  cluster_add(false, x->y, -x->end, P);
-  cluster_add(false, x->y, x->end * x->J, x->axis);
-  const double inward = cluster_dot(false, x->y, x->n), across = 1.0 - x->kappa * x->kappa;
+/* The end mass after an impulse -P: it gives way across c, and is not drawn into the ball. */
+static inline void end_gives_way(carom_cluster_tip *tip, const double P[3]) {
+  cluster_add(false, tip->y, -tip->end, P);
+  cluster_add(false, tip->y, tip->end * tip->J, tip->axis);
+
+  /* the shaft takes what leads inward, across c: n - kappa c, of the square 1 - kappa^2 */
+  const double inward = cluster_dot(false, tip->y, tip->n), across = 1.0 - tip->kappa * tip->kappa;
   if (!(inward > 0.0 && across > 0.0))
     return;
-  cluster_add(false, x->y, -inward / across, x->n);
-  cluster_add(false, x->y, inward / across * x->kappa, x->axis);
+  cluster_add(false, tip->y, -inward / across, tip->n);
+  cluster_add(false, tip->y, inward / across * tip->kappa, tip->axis);
 }
 
 /* Gives the ball an impulse P of a tip that slides. */
-static inline void slide_on(carom_cluster_state *c, const double P[3]) {
-  carom_cluster_tip *x = &c->tip;
-  carom_cluster_ball *p = &c->ball[x->ball];
-  const double *n = x->n, m = p->inverse_mass;
+static inline void slide_on(carom_cluster_state *cluster, const double P[3]) {
+  carom_cluster_tip *tip = &cluster->tip;
+  carom_cluster_ball *ball = &cluster->ball[tip->ball];
+  const double *normal = tip->n, inverse_mass = ball->inverse_mass;
   double turn[3];
-  carom_cross(P, n, turn);
-  cluster_add(!c->in_space, p->v, m, P);
-  cluster_add(false, p->W, 2.5 * m, turn);
-  cluster_add(false, c->touch[x->touch].P, 1.0, P);
+  carom_cross(P, normal, turn);
+  cluster_add(!cluster->in_space, ball->v, inverse_mass, P);
+  cluster_add(false, ball->W, CAROM_SPHERE_TURN * inverse_mass, turn);
+  cluster_add(false, cluster->touch[tip->touch].P, 1.0, P);
 }
 
 /* Pushes the ball with J. */
-static inline void tip_push(bool flat, carom_cluster_state *c) {
-  carom_cluster_tip *x = &c->tip;
-  carom_cluster_ball *p = &c->ball[x->ball];
-  x->V -= x->J * x->inverse_mass;
-  if (!(x->J > 0.0))
+static inline void tip_push(bool flat, carom_cluster_state *cluster) {
+  carom_cluster_tip *tip = &cluster->tip;
+  carom_cluster_ball *ball = &cluster->ball[tip->ball];
+  tip->V -= tip->J * tip->inverse_mass;
+  if (!(tip->J > 0.0))
     return;
-  if (x->slides) {
+  if (tip->slides) {
     double P[3];
-    slide(x, p, P);
-    end_gives_way(x, P);
-    slide_on(c, P);
+    slide(tip, ball, P);
+    end_gives_way(tip, P);
+    slide_on(cluster, P);
     return;
   }
-  const double J = x->J * p->inverse_mass;
-  cluster_add(flat, p->v, J, x->along);
-  x->lost += flat ? J * x->along[2] : 0.0;
-  cluster_add(false, p->W, 2.5 * J, x->arm);
-  cluster_add(false, c->touch[x->touch].P, x->J, x->along);
+
+  /* a first touch: along c' and by the arm; on the cloth the part downwards is lost */
+  const double gain = tip->J * ball->inverse_mass;
+  cluster_add(flat, ball->v, gain, tip->along);
+  tip->lost += flat ? gain * tip->along[2] : 0.0;
+  cluster_add(false, ball->W, CAROM_SPHERE_TURN * gain, tip->arm);
+  cluster_add(false, cluster->touch[tip->touch].P, tip->J, tip->along);
 }
 
 /* The force has reached 0: the end springs back, and the tip has slid on. If the axis closes from
  * there, the end would press again, and bounce: all of that is one impulse, after which it does not
  * close. */
-static inline void end_springs_back(carom_cluster_state *c) {
-  carom_cluster_tip *x = &c->tip;
-  const carom_cluster_ball *p = &c->ball[x->ball];
-  double n[3], P[3];
-  for (int k = 0; k < 3; k++) {
-    x->y[k] = 0.0;
-    n[k] = -x->place[k] - (x->travel * x->axis[k] - p->s[k]) / p->radius;
+static inline void end_springs_back(carom_cluster_state *cluster) {
+  carom_cluster_tip *tip = &cluster->tip;
+  const carom_cluster_ball *ball = &cluster->ball[tip->ball];
+  double normal[3], P[3];
+
+  /* n from where the tip has slid to; past the side of the ball it misses */
+  for (int axis = 0; axis < 3; axis++) {
+    tip->y[axis] = 0.0;
+    normal[axis] =
+        -tip->place[axis] - (tip->travel * tip->axis[axis] - ball->s[axis]) / ball->radius;
   }
-  const double over = 1.0 / sqrt(cluster_dot(false, n, n)),
-               kappa = over * cluster_dot(false, n, x->axis);
-  x->gone |= kappa < least_kappa;
-  if (x->gone)
+  const double over = 1.0 / sqrt(cluster_dot(false, normal, normal)),
+               kappa = over * cluster_dot(false, normal, tip->axis);
+  tip->gone |= kappa < least_kappa;
+  if (tip->gone)
     return;
-  x->kappa = kappa;
-  for (int k = 0; k < 3; k++)
-    x->n[k] = over * n[k];
+  tip->kappa = kappa;
+  for (int axis = 0; axis < 3; axis++)
+    tip->n[axis] = over * normal[axis];
 
   /* J by its response, which is linear in it unless the slip ends */
-  const double closing = tip_closing(x, p), m = p->inverse_mass, end = x->end;
-  x->closing = carom_lesser(closing, 0.0);
+  const double closing = tip_closing(tip, ball), inverse_mass = ball->inverse_mass, end = tip->end;
+  tip->closing = carom_lesser(closing, 0.0);
   if (!(closing > 0.0))
     return;
-  x->end = 0.0;
-  x->J = closing / (x->inverse_mass + m / (kappa * kappa));
-  for (int k = 0; k < 3; k++) {
-    slide(x, p, P);
-    x->J *= closing / (x->J * x->inverse_mass + m * cluster_dot(!c->in_space, P, x->n) / kappa);
+  tip->end = 0.0;
+  tip->J = closing / (tip->inverse_mass + inverse_mass / (kappa * kappa));
+  for (int iteration = 0; iteration < CAROM_TIP_ITERATIONS; iteration++) {
+    slide(tip, ball, P);
+    tip->J *= closing / (tip->J * tip->inverse_mass +
+                         inverse_mass * cluster_dot(!cluster->in_space, P, tip->n) / kappa);
   }
-  slide(x, p, P);
-  x->end = end;
-  x->V -= x->J * x->inverse_mass;
-  x->impulse += x->J;
-  slide_on(c, P);
-  x->J = 0.0;
+
+  /* given at once */
+  slide(tip, ball, P);
+  tip->end = end;
+  tip->V -= tip->J * tip->inverse_mass;
+  tip->impulse += tip->J;
+  slide_on(cluster, P);
+  tip->J = 0.0;
 }
 
 /* Half a step of its compression, and its impulse; whether it acts. */
-static inline bool tip_acts(carom_cluster_state *c, double h, double tau) {
-  carom_cluster_tip *x = &c->tip;
-  const bool pressed = x->J > 0.0;
-  x->J = 0.0;
-  x->closing = tip_closing(x, &c->ball[x->ball]);
-  x->d += 0.5 * h * x->closing;
-  x->travel += 0.5 * h * x->V;
-  if (x->d <= 0.0 || x->gone)
+static inline bool tip_acts(carom_cluster_state *cluster, double step, double tau) {
+  carom_cluster_tip *tip = &cluster->tip;
+  const bool pressed = tip->J > 0.0;
+
+  /* half a step, by the speed at which it begins */
+  tip->J = 0.0;
+  tip->closing = tip_closing(tip, &cluster->ball[tip->ball]);
+  tip->overlap += 0.5 * step * tip->closing;
+  tip->travel += 0.5 * step * tip->V;
+  if (tip->overlap <= 0.0 || tip->gone)
     return false;
-  if (x->d_max == 0.0) { /* it touches */
-    x->touch = carom_cluster_begin_touch(c, -1, x->touches > 0 ? x->touch : -1, tau, 0.0);
-    x->touches++;
-    if (x->touches == 2)
-      x->second = x->closing;
+
+  /* it touches */
+  if (tip->overlap_max == 0.0) {
+    tip->touch =
+        carom_cluster_begin_touch(cluster, -1, tip->touches > 0 ? tip->touch : -1, tau, 0.0);
+    tip->touches++;
+    if (tip->touches == 2)
+      tip->second = tip->closing;
   }
-  x->J = h * carom_linear_force(x->k, x->e, x->d, &x->d_max);
-  x->impulse += x->J;
-  if (x->slides && pressed && !(x->J > 0.0))
-    end_springs_back(c);
+
+  /* the impulse of the step */
+  tip->J =
+      step * carom_linear_force(tip->stiffness, tip->restitution, tip->overlap, &tip->overlap_max);
+  tip->impulse += tip->J;
+  if (tip->slides && pressed && !(tip->J > 0.0))
+    end_springs_back(cluster);
 
   /* a tip without a force acts where it closes */
-  const bool acts = x->J > 0.0 || x->closing > too_slow * x->first;
-  x->last = acts ? tau : x->last;
+  const bool acts = tip->J > 0.0 || tip->closing > too_slow * tip->first;
+  tip->last = acts ? tau : tip->last;
   return acts;
 }
 
 /* The set recovers; the tip is open where none is left. */
-static inline void tip_recovers(carom_cluster_tip *x) {
-  x->d_max = carom_set_left(x->e, x->d, x->d_max);
-  if (x->d_max > 0.0)
+static inline void tip_recovers(carom_cluster_tip *tip) {
+  tip->overlap_max = carom_set_left(tip->restitution, tip->overlap, tip->overlap_max);
+  if (tip->overlap_max > 0.0)
     return;
-  x->gone |= !(x->reach > 0.0); /* without follow-through it is over */
+  tip->gone |= !(tip->reach > 0.0); /* without follow-through it is over */
 }
 
 /* The other half of the step. */
-static inline void tip_parts(carom_cluster_state *c, double h) {
-  carom_cluster_tip *x = &c->tip;
-  const double closing = tip_closing(x, &c->ball[x->ball]), middle = x->d;
-  x->d += 0.5 * h * closing;
-  x->travel += 0.5 * h * x->V;
-  if (x->d_max == 0.0)
+static inline void tip_parts(carom_cluster_state *cluster, double step) {
+  carom_cluster_tip *tip = &cluster->tip;
+  const double closing = tip_closing(tip, &cluster->ball[tip->ball]), middle = tip->overlap;
+  tip->overlap += 0.5 * step * closing;
+  tip->travel += 0.5 * step * tip->V;
+  if (tip->overlap_max == 0.0)
     return;
-  x->d_max = carom_hertz_vertex(middle, x->d_max, h, x->closing, closing);
-  tip_recovers(x);
+  tip->overlap_max = carom_hertz_vertex(middle, tip->overlap_max, step, tip->closing, closing);
+  tip_recovers(tip);
 }
 
 /* A wait of the push, in which nothing acts; `touches` at its end. */
-static inline void tip_waits(carom_cluster_tip *x, const carom_cluster_ball *p, double wait,
+static inline void tip_waits(carom_cluster_tip *tip, const carom_cluster_ball *ball, double wait,
                              bool touches) {
-  x->d = touches ? (double)CAROM_LEAST_OVERLAP : x->d + wait * tip_closing(x, p);
-  x->travel += wait * x->V;
-  tip_recovers(x);
+  tip->overlap = touches ? CAROM_LEAST_OVERLAP : tip->overlap + wait * tip_closing(tip, ball);
+  tip->travel += wait * tip->V;
+  tip_recovers(tip);
 }
 
 /* How long the cue needs to its next touch, where nothing acts; infinite: it does not touch. */
-static inline double wait_of_tip(const carom_cluster_state *c) {
-  const carom_cluster_tip *x = &c->tip;
-  const double closing = tip_closing(x, &c->ball[x->ball]);
-  if (x->gone || x->d > 0.0 || !(closing > too_slow * x->first))
+static inline double wait_of_tip(const carom_cluster_state *cluster) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  const double closing = tip_closing(tip, &cluster->ball[tip->ball]);
+  if (tip->gone || tip->overlap > 0.0 || !(closing > too_slow * tip->first))
     return INFINITY;
-  const double wait = -x->d / closing;
-  return wait * x->V <= x->reach ? wait : (double)INFINITY;
+  const double wait = -tip->overlap / closing;
+  return wait * tip->V <= tip->reach ? wait : INFINITY;
 }
 
 #endif

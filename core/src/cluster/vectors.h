@@ -19,32 +19,42 @@ static inline void cluster_minus(bool flat, const double a[3], const double b[3]
   out[2] = flat ? 0.0 : a[2] - b[2];
 }
 
-/* a += x b */
-static inline void cluster_add(bool flat, double a[3], double x, const double b[3]) {
-  a[0] += x * b[0];
-  a[1] += x * b[1];
+/* sum += factor term */
+static inline void cluster_add(bool flat, double sum[3], double factor, const double term[3]) {
+  sum[0] += factor * term[0];
+  sum[1] += factor * term[1];
   if (!flat)
-    a[2] += x * b[2];
+    sum[2] += factor * term[2];
 }
 
-/* Two unit vectors across n and each other: t, horizontal, or along n x e_x where n is nearly
- * upright, and t x n, which is up on the cloth. */
-static inline void cluster_across(bool flat, const double n[3], double t[3], double third[3]) {
-  const double level = flat ? 1.0 : carom_plane_size(n);
-  if (level >= 0.1) {
+/* Two unit vectors across the normal n and each other: the tangent t, horizontal, or along n x e_x
+ * where n is nearly upright, and the third one, t x n, which is up on the cloth.
+ *
+ *      third ^   from above, t is to the right of n
+ *            |
+ *            o-----> n
+ *           /
+ *          t
+ *
+ * n is nearly upright where its horizontal part is below 0.1, as rounding would turn t there. */
+#define CAROM_NEARLY_UPRIGHT 0.1
+static inline void cluster_across(bool flat, const double normal[3], double tangent[3],
+                                  double third[3]) {
+  const double level = flat ? 1.0 : carom_plane_size(normal);
+  if (level >= CAROM_NEARLY_UPRIGHT) {
     const double size = flat ? 1.0 : 1.0 / level;
-    t[0] = flat ? n[1] : n[1] * size;
-    t[1] = flat ? -n[0] : -n[0] * size;
-    t[2] = 0.0;
+    tangent[0] = flat ? normal[1] : normal[1] * size;
+    tangent[1] = flat ? -normal[0] : -normal[0] * size;
+    tangent[2] = 0.0;
   } else {
-    const double size = 1.0 / sqrt(n[1] * n[1] + n[2] * n[2]);
-    t[0] = 0.0;
-    t[1] = n[2] * size;
-    t[2] = -n[1] * size;
+    const double size = 1.0 / sqrt(normal[1] * normal[1] + normal[2] * normal[2]);
+    tangent[0] = 0.0;
+    tangent[1] = normal[2] * size;
+    tangent[2] = -normal[1] * size;
   }
-  third[0] = flat ? 0.0 : t[1] * n[2] - t[2] * n[1];
-  third[1] = flat ? 0.0 : t[2] * n[0] - t[0] * n[2];
-  third[2] = flat ? 1.0 : t[0] * n[1] - t[1] * n[0];
+  third[0] = flat ? 0.0 : tangent[1] * normal[2] - tangent[2] * normal[1];
+  third[1] = flat ? 0.0 : tangent[2] * normal[0] - tangent[0] * normal[2];
+  third[2] = flat ? 1.0 : tangent[0] * normal[1] - tangent[1] * normal[0];
 }
 
 #endif

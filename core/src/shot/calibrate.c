@@ -47,12 +47,13 @@ static carom_status comes_back(const carom_table *table, const carom_ball_kind *
                                const carom_bank *bank, double *place) {
   /* the line from behind the corner through the sight */
   const double across = table->width + 2.0 * sight, along = bank->aim * table->length / 8.0 + sight;
-  const double length = sqrt(across * across + along * along), R = kind->radius;
+  const double length = sqrt(across * across + along * along), radius = kind->radius;
   const double v_x = bank->speed * across / length, v_y = bank->speed * along / length;
-  const carom_shot_ball ball = {*kind,
-                                {.r = {start, (start + sight) * along / across - sight, R},
-                                 .v = {v_x, v_y, 0.0},
-                                 .w = {-bank->roll * v_y / R, bank->roll * v_x / R, 0.0}}};
+  const carom_shot_ball ball = {
+      *kind,
+      {.r = {start, (start + sight) * along / across - sight, radius},
+       .v = {v_x, v_y, 0.0},
+       .w = {-bank->roll * v_y / radius, bank->roll * v_x / radius, 0.0}}};
 
   /* the second cushion that it meets */
   carom_event events[EVENTS];
@@ -61,12 +62,12 @@ static carom_status comes_back(const carom_table *table, const carom_ball_kind *
   if (status != CAROM_OK)
     return status;
   int contacts = 0;
-  for (int k = 0; k < EVENTS && k < shot.count; k++) {
-    if (events[k].type != CAROM_EVENT_RAIL && events[k].type != CAROM_EVENT_JAW)
+  for (int index = 0; index < EVENTS && index < shot.count; index++) {
+    if (events[index].type != CAROM_EVENT_RAIL && events[index].type != CAROM_EVENT_JAW)
       continue;
     contacts++;
     if (contacts == 2) {
-      *place = events[k].before[0].r[1];
+      *place = events[index].before[0].r[1];
       return CAROM_OK;
     }
   }
@@ -103,8 +104,8 @@ static carom_status improve(const carom_table *table, const carom_ball_kind *bal
     status = all_come_back(table, ball, less, below);
     if (status == CAROM_OK)
       status = all_come_back(table, ball, more, slope[n]);
-    for (int k = 0; k < CAROM_BANKS; k++)
-      slope[n][k] = (slope[n][k] - below[k]) / (2.0 * step);
+    for (int index = 0; index < CAROM_BANKS; index++)
+      slope[n][index] = (slope[n][index] - below[index]) / (2.0 * step);
   }
   if (status != CAROM_OK)
     return status;
@@ -112,14 +113,14 @@ static carom_status improve(const carom_table *table, const carom_ball_kind *bal
   /* the matrix and the right side, in units of the errors */
   double matrix[2][2] = {{0}}, right[2];
   const double weight = 1.0 / (unsure_reading * unsure_reading);
-  for (int n = 0; n < 2; n++) {
-    const double prior = 1.0 / (unsure[n] * unsure[n]);
-    matrix[n][n] = prior;
-    right[n] = prior * (usual[n] - number[n]);
-    for (int k = 0; k < CAROM_BANKS; k++) {
-      right[n] += weight * slope[n][k] * (reading[k] - calculated[k]);
+  for (int axis = 0; axis < 2; axis++) {
+    const double prior = 1.0 / (unsure[axis] * unsure[axis]);
+    matrix[axis][axis] = prior;
+    right[axis] = prior * (usual[axis] - number[axis]);
+    for (int index = 0; index < CAROM_BANKS; index++) {
+      right[axis] += weight * slope[axis][index] * (reading[index] - calculated[index]);
       for (int m = 0; m < 2; m++)
-        matrix[n][m] += weight * slope[n][k] * slope[m][k];
+        matrix[axis][m] += weight * slope[axis][index] * slope[m][index];
     }
   }
 
@@ -128,9 +129,9 @@ static carom_status improve(const carom_table *table, const carom_ball_kind *bal
   inverse[0][0] = matrix[1][1] / det;
   inverse[1][1] = matrix[0][0] / det;
   inverse[0][1] = inverse[1][0] = -matrix[0][1] / det;
-  for (int n = 0; n < 2; n++) {
-    const double moved = number[n] + inverse[n][0] * right[0] + inverse[n][1] * right[1];
-    number[n] = carom_greater(carom_lesser(moved, 0.99), 0.01);
+  for (int axis = 0; axis < 2; axis++) {
+    const double moved = number[axis] + inverse[axis][0] * right[0] + inverse[axis][1] * right[1];
+    number[axis] = carom_greater(carom_lesser(moved, 0.99), 0.01);
   }
   return CAROM_OK;
 }
@@ -163,9 +164,9 @@ carom_status carom_calibrate(const carom_table *table, const carom_ball_kind *ba
 
   /* what is told of it */
   double squares = 0.0;
-  for (int k = 0; k < CAROM_BANKS; k++) {
-    out->comes_back[k] = place[k] / diamond;
-    squares += (m[k] - place[k]) * (m[k] - place[k]);
+  for (int index = 0; index < CAROM_BANKS; index++) {
+    out->comes_back[index] = place[index] / diamond;
+    squares += (m[index] - place[index]) * (m[index] - place[index]);
   }
   if (reading == NULL)
     return CAROM_OK;

@@ -12,8 +12,8 @@
 #include <stddef.h>
 #include <string.h>
 
-static bool is_flat(const carom_shot_options *o) {
-  return carom_rules_of(o->world)->flat || o->space == CAROM_SPACE_FLAT;
+static bool is_flat(const carom_shot_options *options) {
+  return carom_rules_of(options->world)->flat || options->space == CAROM_SPACE_FLAT;
 }
 
 carom_status carom_check_shot_options(const carom_shot_options *o) {
@@ -23,23 +23,23 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
 
 /* Prepares the table for the balls of a layout. In flat play all radii are to be that of the
  * first. */
-static carom_status prepare_table(const carom_prepared *p, bool flat, carom_features *features,
-                                  int *where) {
-  double least = p->kind[0]->radius, greatest = least;
-  int radii = p->count;
+static carom_status prepare_table(const carom_prepared *prepared, bool flat,
+                                  carom_features *features, int *where) {
+  double least = prepared->kind[0]->radius, greatest = least;
+  int radii = prepared->count;
   if (flat)
     radii = 1;
   for (*where = 0; *where < radii; ++*where) {
-    const double R = p->kind[*where]->radius;
-    if (!carom_is_positive(R))
+    const double radius = prepared->kind[*where]->radius;
+    if (!carom_is_positive(radius))
       return CAROM_ERROR_RADIUS;
-    least = carom_lesser(least, R);
-    greatest = carom_greater(greatest, R);
+    least = carom_lesser(least, radius);
+    greatest = carom_greater(greatest, radius);
   }
   double reference = least;
   if (!flat)
-    reference = carom_reference_of(p->table, p->kind[p->count - 1]->radius);
-  return carom_prepare_table(p->table, least, greatest, reference, features, where);
+    reference = carom_reference_of(prepared->table, prepared->kind[prepared->count - 1]->radius);
+  return carom_prepare_table(prepared->table, least, greatest, reference, features, where);
 }
 
 static carom_status check_kind(const carom_ball_kind *k) {
@@ -52,22 +52,22 @@ static bool bounded(const double x[3], double most) {
   return fabs(x[0]) <= most && fabs(x[1]) <= most && fabs(x[2]) <= most;
 }
 
-static carom_status check_state(const carom_ball_state *s, double R, bool flat) {
-  if (s->label < CAROM_BALL_STATIONARY || s->label > carom_last_label(flat))
+static carom_status check_state(const carom_ball_state *state, double radius, bool flat) {
+  if (state->label < CAROM_BALL_STATIONARY || state->label > carom_last_label(flat))
     return CAROM_ERROR_LABEL;
-  if (!bounded(s->r, 1e6))
+  if (!bounded(state->r, 1e6))
     return CAROM_ERROR_POSITION;
-  if (!bounded(s->v, 1e4))
+  if (!bounded(state->v, 1e4))
     return CAROM_ERROR_VELOCITY;
-  if (!bounded(s->w, 1e6))
+  if (!bounded(state->w, 1e6))
     return CAROM_ERROR_SPIN;
-  if (carom_is_out(s->label))
+  if (carom_is_out(state->label))
     return CAROM_OK;
   if (!flat)
-    return carom_ok_if(s->r[2] - R >= -CAROM_MOST_OVERLAP, CAROM_ERROR_OFF_TABLE);
-  if (s->v[2] != 0.0)
+    return carom_ok_if(state->r[2] - radius >= -CAROM_MOST_OVERLAP, CAROM_ERROR_OFF_TABLE);
+  if (state->v[2] != 0.0)
     return CAROM_ERROR_VERTICAL;
-  return carom_ok_if(fabs(s->r[2] - R) <= CAROM_MOST_OVERLAP, CAROM_ERROR_OFF_TABLE);
+  return carom_ok_if(fabs(state->r[2] - radius) <= CAROM_MOST_OVERLAP, CAROM_ERROR_OFF_TABLE);
 }
 
 carom_status carom_check_ball(const carom_shot_ball *ball, bool flat) {
@@ -79,37 +79,37 @@ carom_status carom_check_ball(const carom_shot_ball *ball, bool flat) {
 
 /* The height of a ball's centre above the cloth as the shot takes it: a ball on the cloth is at
  * z = R. */
-static inline double height_of(const carom_ball_state *state, double R) {
-  return carom_flies_in_layout(state, R) ? state->r[2] : R;
+static inline double height_of(const carom_ball_state *state, double radius) {
+  return carom_flies_in_layout(state, radius) ? state->r[2] : radius;
 }
 
-/* Whether a ball at r, of radius R, overlaps another in play of radius R_other, which is at height
+/* Whether a ball at r, of a radius, overlaps another in play of radius R_other, which is at height
  * z. */
-static inline bool overlaps(const double r[3], double R, const carom_ball_state *neighbor,
+static inline bool overlaps(const double r[3], double radius, const carom_ball_state *neighbor,
                             double R_other, double z) {
   const double along[3] = {r[0] - neighbor->r[0], r[1] - neighbor->r[1], r[2] - z};
-  const double reach = R + R_other - CAROM_MOST_BALL_OVERLAP;
+  const double reach = radius + R_other - CAROM_MOST_BALL_OVERLAP;
   return !carom_is_out(neighbor->label) && carom_space_dot(along, along) < reach * reach;
 }
 
-carom_status carom_check_strike(const carom_prepared *p, const carom_cue *cue) {
+carom_status carom_check_strike(const carom_prepared *prepared, const carom_cue *cue) {
   if (cue == NULL || cue->speed == 0.0)
     return CAROM_OK;
-  if (cue->ball < 0 || cue->ball >= p->count)
+  if (cue->ball < 0 || cue->ball >= prepared->count)
     return CAROM_ERROR_CUE_BALL;
-  if (p->opt->first_of >> p->count != 0)
+  if (prepared->opt->first_of >> prepared->count != 0)
     return CAROM_ERROR_SHOT_OPTIONS;
-  if (carom_is_out(p->state[(int)cue->ball]->label))
+  if (carom_is_out(prepared->state[(int)cue->ball]->label))
     return CAROM_ERROR_CUE_BALL_OUT;
   return carom_check_cue(cue);
 }
 
-bool carom_is_at_rest(const carom_prepared *p, int but) {
+bool carom_is_at_rest(const carom_prepared *prepared, int but) {
   bool rests = true;
-  for (int k = 0; k < p->count; k++) {
-    carom_ball_state s = *p->state[k];
-    const int64_t label = carom_label_of_layout(&s, p->kind[k]->radius);
-    rests &= k == but || label == CAROM_BALL_STATIONARY || carom_is_out(label);
+  for (int index = 0; index < prepared->count; index++) {
+    carom_ball_state state = *prepared->state[index];
+    const int64_t label = carom_label_of_layout(&state, prepared->kind[index]->radius);
+    rests &= index == but || label == CAROM_BALL_STATIONARY || carom_is_out(label);
   }
   return rests;
 }
@@ -139,22 +139,22 @@ carom_status carom_check_job(const carom_shot_job *job) {
   return carom_ok_if(!unused && CAROM_RESERVED_IS_ZERO(job), CAROM_ERROR_SHOT_OPTIONS);
 }
 
-void carom_take_balls(carom_prepared *p, const carom_shot_ball *balls, int64_t count) {
-  p->count = (int)count;
-  for (int k = 0; k < count && k < CAROM_BALLS_MOST; k++) {
-    p->kind[k] = &balls[k].kind;
-    p->state[k] = &balls[k].state;
+void carom_take_balls(carom_prepared *prepared, const carom_shot_ball *balls, int64_t count) {
+  prepared->count = (int)count;
+  for (int index = 0; index < count && index < CAROM_BALLS_MOST; index++) {
+    prepared->kind[index] = &balls[index].kind;
+    prepared->state[index] = &balls[index].state;
   }
 }
 
-void carom_take_row(carom_prepared *p, const carom_shot_job *job, size_t k) {
-  const size_t first = k * (size_t)job->ball_stride;
+void carom_take_row(carom_prepared *prepared, const carom_shot_job *job, size_t row) {
+  const size_t first = row * (size_t)job->ball_stride;
   if (job->balls != NULL)
-    carom_take_balls(p, job->balls + first, job->count);
-  p->count = (int)job->count;
-  for (int i = 0; i < p->count && job->balls == NULL; i++) {
-    p->kind[i] = &job->kinds[i];
-    p->state[i] = &job->states[first + (size_t)i];
+    carom_take_balls(prepared, job->balls + first, job->count);
+  prepared->count = (int)job->count;
+  for (int i = 0; i < prepared->count && job->balls == NULL; i++) {
+    prepared->kind[i] = &job->kinds[i];
+    prepared->state[i] = &job->states[first + (size_t)i];
   }
 }
 
@@ -163,62 +163,64 @@ typedef struct row_rules {
   bool flat, one_mass;
 } row_rules;
 
-/* Ball k by itself, beside the first one, and for the table. */
-static carom_status check_alone(const carom_prepared *p, const row_rules *rules, int k) {
-  const carom_ball_kind *kind = p->kind[k], *first = p->kind[0];
+/* A ball by itself, beside the first one, and for the table. */
+static carom_status check_alone(const carom_prepared *prepared, const row_rules *rules, int index) {
+  const carom_ball_kind *kind = prepared->kind[index], *first = prepared->kind[0];
   /* most balls are of the kind of the one before, which is good */
-  const bool known = k > 0 && memcmp(kind, p->kind[k - 1], sizeof *kind) == 0;
+  const bool known = index > 0 && memcmp(kind, prepared->kind[index - 1], sizeof *kind) == 0;
   if (!known) {
     const carom_status status = check_kind(kind);
     if (status != CAROM_OK)
       return status;
-    const double x = p->table->slope_x, y = p->table->slope_y,
+    const double x = prepared->table->slope_x, y = prepared->table->slope_y,
                  grip = carom_lesser(kind->mu_roll, kind->mu_slide);
     if (x * x + y * y >= grip * grip)
       return CAROM_ERROR_SLOPE;
   }
   if (rules->flat && kind->radius != first->radius)
     return CAROM_ERROR_RADII_DIFFER;
-  if (kind->nose_height >= 2.0 * p->features->reference)
+  if (kind->nose_height >= 2.0 * prepared->features->reference)
     return CAROM_ERROR_BALL_CUSHION;
   if (rules->one_mass && kind->mass != first->mass)
     return CAROM_ERROR_MASSES_DIFFER;
-  return check_state(p->state[k], kind->radius, rules->flat);
+  return check_state(prepared->state[index], kind->radius, rules->flat);
 }
 
-/* Where ball k is: on the table or above it, and beside the balls before it, whose centres have
+/* Where a ball is: on the table or above it, and beside the balls before it, whose centres have
  * these heights. */
-static carom_status check_position(const carom_prepared *p, int k, const double *height) {
-  const carom_ball_kind *kind = p->kind[k];
-  const carom_ball_state *state = p->state[k];
+static carom_status check_position(const carom_prepared *prepared, int index,
+                                   const double *height) {
+  const carom_ball_kind *kind = prepared->kind[index];
+  const carom_ball_state *state = prepared->state[index];
   const bool flies = carom_flies_in_layout(state, kind->radius);
-  if (flies && !carom_is_above_table(p->table, p->features, kind, state->r))
+  if (flies && !carom_is_above_table(prepared->table, prepared->features, kind, state->r))
     return CAROM_ERROR_OFF_TABLE;
-  if (!flies && !carom_stands_on_table(p->table, p->features, kind, state->r))
+  if (!flies && !carom_stands_on_table(prepared->table, prepared->features, kind, state->r))
     return CAROM_ERROR_OFF_TABLE;
-  const double r[3] = {state->r[0], state->r[1], height[k]};
-  for (int j = 0; j < k; j++)
-    if (overlaps(r, kind->radius, p->state[j], p->kind[j]->radius, height[j]))
+  const double centre[3] = {state->r[0], state->r[1], height[index]};
+  for (int earlier = 0; earlier < index; earlier++)
+    if (overlaps(centre, kind->radius, prepared->state[earlier], prepared->kind[earlier]->radius,
+                 height[earlier]))
       return CAROM_ERROR_OVERLAP;
   return CAROM_OK;
 }
 
-carom_status carom_prepare_row(carom_prepared *p, carom_features *features, int *where) {
-  const row_rules rules = {.flat = is_flat(p->opt),
-                           .one_mass = carom_rules_of(p->opt->world)->one_mass ||
-                                       p->opt->ball_model == CAROM_BALL_MODEL_INELASTIC};
-  p->features = features;
-  carom_status status = prepare_table(p, rules.flat, features, where);
+carom_status carom_prepare_row(carom_prepared *prepared, carom_features *features, int *where) {
+  const row_rules rules = {.flat = is_flat(prepared->opt),
+                           .one_mass = carom_rules_of(prepared->opt->world)->one_mass ||
+                                       prepared->opt->ball_model == CAROM_BALL_MODEL_INELASTIC};
+  prepared->features = features;
+  carom_status status = prepare_table(prepared, rules.flat, features, where);
   if (status != CAROM_OK)
     return status;
 
   double height[CAROM_BALLS_MOST];
-  for (int k = 0; k < p->count; k++) {
-    *where = k;
-    status = check_alone(p, &rules, k);
-    height[k] = height_of(p->state[k], p->kind[k]->radius);
-    if (status == CAROM_OK && !carom_is_out(p->state[k]->label))
-      status = check_position(p, k, height);
+  for (int index = 0; index < prepared->count; index++) {
+    *where = index;
+    status = check_alone(prepared, &rules, index);
+    height[index] = height_of(prepared->state[index], prepared->kind[index]->radius);
+    if (status == CAROM_OK && !carom_is_out(prepared->state[index]->label))
+      status = check_position(prepared, index, height);
     if (status != CAROM_OK)
       return status;
   }
@@ -228,21 +230,21 @@ carom_status carom_prepare_row(carom_prepared *p, carom_features *features, int 
 
 carom_status carom_prepare(const carom_table *table, const carom_shot_ball *balls, int64_t count,
                            const carom_shot_options *opt, carom_features *features,
-                           carom_prepared *p, int *where) {
+                           carom_prepared *prepared, int *where) {
   const carom_status status = carom_check_common(table, count, opt, where);
   if (status != CAROM_OK)
     return status;
-  p->table = table;
-  p->opt = opt;
-  carom_take_balls(p, balls, count);
+  prepared->table = table;
+  prepared->opt = opt;
+  carom_take_balls(prepared, balls, count);
   features->radius = 0.0; /* of nothing yet */
-  return carom_prepare_row(p, features, where);
+  return carom_prepare_row(prepared, features, where);
 }
 
 carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count,
                               const carom_cue *cue, const carom_shot_options *opt, int *where) {
   carom_features features;
-  carom_prepared p;
+  carom_prepared prepared;
   int unused;
   if (where == NULL)
     where = &unused;
@@ -250,10 +252,10 @@ carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *b
   if (table == NULL || balls == NULL)
     return CAROM_ERROR_NULL;
   const carom_status status =
-      carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &p, where);
+      carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &prepared, where);
   if (status != CAROM_OK)
     return status;
-  return carom_check_strike(&p, cue);
+  return carom_check_strike(&prepared, cue);
 }
 
 carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball,
@@ -281,10 +283,10 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
     *in_the_way = carom_part_there(&ground, r);
     return CAROM_ERROR_OFF_TABLE;
   }
-  for (int k = 0; k < count; k++) {
-    const double radius = balls[k].kind.radius, z = height_of(&balls[k].state, radius);
-    if (k != ball && overlaps(r, R, &balls[k].state, radius, z)) {
-      *in_the_way = (carom_part){CAROM_PART_BALL, k};
+  for (int index = 0; index < count; index++) {
+    const double radius = balls[index].kind.radius, z = height_of(&balls[index].state, radius);
+    if (index != ball && overlaps(r, R, &balls[index].state, radius, z)) {
+      *in_the_way = (carom_part){CAROM_PART_BALL, index};
       return CAROM_ERROR_OVERLAP;
     }
   }

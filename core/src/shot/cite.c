@@ -136,17 +136,17 @@ static const struct {
 static const unsigned of_cushion[] = {CAROM_CUSHION_MODELS(OF_CUSHION)};
 static const unsigned of_law[] = {CAROM_FRICTION_LAWS(OF_LAW)};
 
-static unsigned sources_of(const carom_shot_options *o) {
-  const carom_rules *rules = carom_rules_of(o->world);
-  const carom_ball_model balls = carom_ball_model_of(o);
+static unsigned sources_of(const carom_shot_options *options) {
+  const carom_rules *rules = carom_rules_of(options->world);
+  const carom_ball_model balls = carom_ball_model_of(options);
   unsigned sources = CAROM_BY_CAROM | CAROM_BY_MARLOW1995 | CAROM_BY_ALCIATORE_SQUIRT;
-  if (o->world == CAROM_WORLD_POOLTOOL)
+  if (options->world == CAROM_WORLD_POOLTOOL)
     sources |= CAROM_BY_KIEFL2024;
   else
     sources |= CAROM_BY_BANNERMAN2014;
   const carom_ball_kind plain = {0}, measured = {.smooth_q = 1};
-  sources |= of_cushion[carom_cushion_model_of(o, &plain)] |
-             of_cushion[carom_cushion_model_of(o, &measured)];
+  sources |= of_cushion[carom_cushion_model_of(options, &plain)] |
+             of_cushion[carom_cushion_model_of(options, &measured)];
 
   /* two balls: the restitution of the 2014 model is energetic, as Stronge's; both solvers began as
    * answers to the question how fast its steps can become */
@@ -155,10 +155,10 @@ static unsigned sources_of(const carom_shot_options *o) {
   if (balls == CAROM_BALL_MODEL_INELASTIC)
     sources |= CAROM_BY_KIEFL2024;
   if (balls != CAROM_BALL_MODEL_MIRROR)
-    sources |= of_law[o->friction];
+    sources |= of_law[options->friction];
 
   /* contacts that overlap in time */
-  if (rules->clusters && o->simultaneous == CAROM_SIMULTANEOUS_CLUSTER &&
+  if (rules->clusters && options->simultaneous == CAROM_SIMULTANEOUS_CLUSTER &&
       (balls == CAROM_BALL_MODEL_EXACT || balls == CAROM_BALL_MODEL_MIRROR))
     sources |= CAROM_BY_HERTZ1882 | CAROM_BY_STRONGE2000;
   return sources;
@@ -174,10 +174,10 @@ size_t carom_cite(const carom_shot_options *options, char *text, size_t room) {
     return 0;
   const unsigned sources = sources_of(o);
   size_t length = 0;
-  for (size_t k = 0; k < sizeof entries / sizeof entries[0]; k++) {
+  for (size_t index = 0; index < sizeof entries / sizeof entries[0]; index++) {
     /* an empty line stands between entries; text that does not fit is only counted */
-    const char *parts[] = {"\n", entries[k].text};
-    for (size_t p = length == 0; p < 2 && (entries[k].source & sources) != 0; p++)
+    const char *parts[] = {"\n", entries[index].text};
+    for (size_t p = length == 0; p < 2 && (entries[index].source & sources) != 0; p++)
       for (const char *c = parts[p]; *c != '\0'; c++, length++)
         if (length + 1 < room)
           text[length] = *c;

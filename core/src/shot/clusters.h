@@ -34,24 +34,24 @@ void carom_take_in_turn(const carom_sim *sim, carom_in_turn *turn);
  * many steps; CAROM_TAKE_IN_TURN where its touches have to be taken in turn first. The caller does
  * that, and asks again, because a cluster and a contact together need too much stack. */
 enum { CAROM_TAKE_IN_TURN = -2 };
-int carom_cluster_now(carom_sim *sim, int i, int j, carom_in_turn *turn, carom_cluster_state *c,
-                      uint8_t order[CAROM_CLUSTER_CONTACTS]);
+int carom_cluster_now(carom_sim *sim, int i, int j, carom_in_turn *turn,
+                      carom_cluster_state *cluster, uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
 /* The motion of a ball after its cluster. */
-void carom_cluster_take(const carom_cluster_ball *b, carom_ball_state *s);
+void carom_cluster_take(const carom_cluster_ball *ball, carom_ball_state *state);
 
 /* The contact of two balls, each of which is as given at a time of its own, s from now on: they
  * become as they are after it, these times that of the touch, and the impulse counts it. Nothing
  * changes where they do not touch by the `last` time. */
-void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball_state *a,
-                         carom_ball_state *b, double last, double since[2], double *impulse);
+void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball_state *state_a,
+                         carom_ball_state *state_b, double last, double since[2], double *impulse);
 /* A ball becomes as it has to start now in order to be as given then; of the change of its motion
  * meanwhile, a share counts: all, unless the energy of all balls, which is `started` then and was
  * `touched` at their touches, would be above that before. */
 void carom_start_in_turn(const carom_ball_kind *kind, double since, double share,
-                         carom_ball_state *s);
+                         carom_ball_state *state);
 double carom_share_in_turn(double before, double touched, double started);
-double carom_energy_in_turn(const carom_ball_kind *kind, const carom_ball_state *s);
+double carom_energy_in_turn(const carom_ball_kind *kind, const carom_ball_state *state);
 
 /* Whether contacts of several balls last by these options. */
 bool carom_lasts(const carom_shot_options *opt);
@@ -66,11 +66,11 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
  * contacts or steps. */
 #define CAROM_LEAST_TOUCH 0.001 /* m/s: a further touch that is slower is none */
 int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
-                         carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]);
+                         carom_cluster_state *cluster, uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
-/* follow_through.c. The cue goes on from now at the speed V, its tip `lead` m ahead of where the
+/* follow_through.c. The cue goes on from now at a speed, its tip `lead` m ahead of where the
  * ball has it, as places.c has it. */
-void carom_follow_on(carom_play *play, double V, double lead);
+void carom_follow_on(carom_play *play, double speed, double lead);
 /* Sets play->follow.time: when its tip touches the struck ball again. */
 void carom_follow_find(carom_play *play);
 /* *moved_cue becomes the cue with the place of its tip and its speed. Returns whether that is a
@@ -80,10 +80,10 @@ bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue);
 /* raised.c: e of the contact of a ball with the slate; and what an impulse J of it, over the mass,
  * takes from the turn about the vertical and the end of hops from v[2]. */
 double carom_slate_under(const carom_ball_kind *kind);
-void carom_leave_slate(const carom_ball_kind *kind, double J, carom_ball_state *s);
+void carom_leave_slate(const carom_ball_kind *kind, double J, carom_ball_state *state);
 
-/* The motion of member k after a push, of a raised cue with what the slate takes from it. */
-void carom_cluster_rest(const carom_sim *sim, const carom_cluster_state *c, int k,
-                        carom_ball_state *s);
+/* The motion of a member after a push, of a raised cue with what the slate takes from it. */
+void carom_cluster_rest(const carom_sim *sim, const carom_cluster_state *cluster, int index,
+                        carom_ball_state *state);
 
 #endif

@@ -10,11 +10,11 @@
 /* The height of the noses of a table, m; 0 where they differ or there are none. */
 static double common_nose_height(const carom_table *table) {
   double height = table->rails > 0 ? table->rail[0].height : 0.0;
-  for (int64_t k = 0; k < table->rails; k++)
-    if (table->rail[k].height != height)
+  for (int64_t index = 0; index < table->rails; index++)
+    if (table->rail[index].height != height)
       height = 0.0;
-  for (int64_t k = 0; k < table->jaws; k++)
-    if (table->jaw[k].height != height)
+  for (int64_t index = 0; index < table->jaws; index++)
+    if (table->jaw[index].height != height)
       height = 0.0;
   return height;
 }

@@ -8,25 +8,25 @@
 void carom_facts_begin(carom_facts *facts) {
   memset(facts, 0, sizeof *facts);
   facts->second_time = INFINITY;
-  for (int k = 0; k < 2; k++) {
-    facts->first[k] = -1;
-    facts->first_time[k] = INFINITY;
+  for (int axis = 0; axis < 2; axis++) {
+    facts->first[axis] = -1;
+    facts->first_time[axis] = INFINITY;
   }
-  for (int i = 0; i < CAROM_BALLS_MOST; i++) {
-    facts->pocket[i] = -1;
-    facts->pocket_time[i] = INFINITY;
-    facts->order[i] = -1;
+  for (int ball = 0; ball < CAROM_BALLS_MOST; ball++) {
+    facts->pocket[ball] = -1;
+    facts->pocket_time[ball] = INFINITY;
+    facts->order[ball] = -1;
   }
 }
 
-static uint32_t set_of(int i) {
-  return UINT32_C(1) << i;
+static uint32_t set_of(int ball) {
+  return UINT32_C(1) << ball;
 }
 
-/* Where ball i is now. */
-static carom_ball_state state_now(const carom_sim *sim, int i) {
+/* Where a ball is now. */
+static carom_ball_state state_now(const carom_sim *sim, int ball) {
   carom_ball_state current;
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &current);
+  carom_path_at(&sim->path[ball], &sim->rates[ball], sim->time, &current);
   return current;
 }
 
@@ -35,11 +35,11 @@ static carom_ball_state state_now(const carom_sim *sim, int i) {
 static void widen_range(carom_facts *facts, const carom_sim *sim, bool begins) {
   const carom_ball_state current = state_now(sim, sim->struck);
   for (int axis = 0; axis < 2; axis++) {
-    const double x = current.r[axis];
+    const double coordinate = current.r[axis];
     if (begins)
-      facts->first_low[axis] = facts->first_high[axis] = x;
-    facts->first_low[axis] = fmin(facts->first_low[axis], x);
-    facts->first_high[axis] = fmax(facts->first_high[axis], x);
+      facts->first_low[axis] = facts->first_high[axis] = coordinate;
+    facts->first_low[axis] = fmin(facts->first_low[axis], coordinate);
+    facts->first_high[axis] = fmax(facts->first_high[axis], coordinate);
   }
 }
 
@@ -52,15 +52,15 @@ static void fly_over(carom_facts *facts, const carom_sim *sim) {
     return;
   const double x = current.r[0] - start->r[0], y = current.r[1] - start->r[1],
                square = x * x + y * y;
-  for (int k = 0; k < sim->count; k++) {
-    const carom_ball_state *over = &sim->path[k].from;
-    if (k == sim->struck || carom_is_out(over->label))
+  for (int index = 0; index < sim->count; index++) {
+    const carom_ball_state *over = &sim->path[index].from;
+    if (index == sim->struck || carom_is_out(over->label))
       continue;
     const double to_x = over->r[0] - start->r[0], to_y = over->r[1] - start->r[1];
     const double along = x * to_x + y * to_y, across = x * to_y - y * to_x;
-    const double reach = sim->rates[k].radius + sim->rates[sim->struck].radius;
+    const double reach = sim->rates[index].radius + sim->rates[sim->struck].radius;
     if (along > 0.0 && along < square && across * across < reach * reach * square)
-      facts->jumped |= set_of(k);
+      facts->jumped |= set_of(index);
   }
 }
 
@@ -72,8 +72,8 @@ static int32_t approach_of(const carom_sim *sim, int ball) {
   int rail = 0;
   while ((rails >> rail & 1) == 0)
     rail++;
-  const double *line = sim->features->line[rail], *r = sim->path[ball].from.r;
-  const double gap = line[0] * r[0] + line[1] * r[1] + line[2] - sim->rates[ball].radius;
+  const double *line = sim->features->line[rail], *centre = sim->path[ball].from.r;
+  const double gap = line[0] * centre[0] + line[1] * centre[1] + line[2] - sim->rates[ball].radius;
   if (rails == UINT32_C(1) << rail && gap < 2.0 * sim->rates[sim->struck].radius)
     return CAROM_APPROACH_RAIL_FIRST;
   return CAROM_APPROACH_KICK;
@@ -109,9 +109,9 @@ static void meet(carom_facts *facts, const carom_sim *sim, int ball) {
 }
 
 /* Whether a ball that meets a cushion is frozen to it: the ball lies where it lay at first. */
-static bool is_frozen(const carom_sim *sim, int i) {
-  const double *first = sim->layout->state[i]->r;
-  const carom_ball_state current = state_now(sim, i);
+static bool is_frozen(const carom_sim *sim, int ball) {
+  const double *first = sim->layout->state[ball]->r;
+  const carom_ball_state current = state_now(sim, ball);
   return fabs(current.r[0] - first[0]) + fabs(current.r[1] - first[1]) < CAROM_RULES_TOUCH;
 }
 
@@ -130,26 +130,26 @@ static void meet_cushion(carom_facts *facts, const carom_sim *sim, const carom_d
 /* Whether a ball that falls into a pocket has met a rail that does not end beside it. */
 static bool is_banked(const carom_sim *sim, int ball, int pocket) {
   const uint32_t rails = sim->shot->facts->rails[ball];
-  for (int k = 0; rails >> k != 0; k++)
-    if ((rails >> k & 1) && !carom_is_beside(sim->table, k, pocket))
+  for (int rail = 0; rails >> rail != 0; rail++)
+    if ((rails >> rail & 1) && !carom_is_beside(sim->table, rail, pocket))
       return true;
   return false;
 }
 
 /* A ball has an event: where it has been. Its last event was at the start of its path; where it
  * comes to rest, it has no other one. */
-static void been_at(carom_facts *facts, const carom_sim *sim, int i, bool rests) {
-  double y = sim->path[i].from.r[1];
+static void been_at(carom_facts *facts, const carom_sim *sim, int ball, bool rests) {
+  double y = sim->path[ball].from.r[1];
   if (rests)
-    y = state_now(sim, i).r[1];
-  const double radius = sim->rates[i].radius;
+    y = state_now(sim, ball).r[1];
+  const double radius = sim->rates[ball].radius;
   const carom_marks marks = carom_marks_of(sim->table->width, sim->table->length);
   if (y + radius < marks.centre_spot[1])
-    facts->past_middle |= set_of(i);
+    facts->past_middle |= set_of(ball);
   if (y - radius > marks.centre_spot[1])
-    facts->beyond_middle |= set_of(i);
+    facts->beyond_middle |= set_of(ball);
   if (y - radius <= marks.head_spot[1])
-    facts->at_head |= set_of(i);
+    facts->at_head |= set_of(ball);
 }
 
 void carom_facts_event(const carom_sim *sim, const carom_due *pending_event) {
@@ -193,12 +193,13 @@ void carom_facts_event(const carom_sim *sim, const carom_due *pending_event) {
   }
 }
 
-/* Whether balls i and k touch by the rules. */
-static bool touch_by_rules(const carom_sim *sim, int i, int k) {
-  const double *r = sim->path[i].from.r, *q = sim->path[k].from.r;
-  const double R = sim->rates[i].radius, Q = sim->rates[k].radius;
-  const double reach = R + Q + CAROM_RULES_TOUCH;
-  const double x = q[0] - r[0], y = q[1] - r[1], z = Q - R;
+/* Whether two balls touch by the rules. */
+static bool touch_by_rules(const carom_sim *sim, int ball, int partner) {
+  const double *centre = sim->path[ball].from.r, *partner_centre = sim->path[partner].from.r;
+  const double radius = sim->rates[ball].radius, partner_radius = sim->rates[partner].radius;
+  const double reach = radius + partner_radius + CAROM_RULES_TOUCH;
+  const double x = partner_centre[0] - centre[0], y = partner_centre[1] - centre[1],
+               z = partner_radius - radius;
   return x * x + y * y + z * z < reach * reach;
 }
 
@@ -207,10 +208,10 @@ void carom_facts_frozen(const carom_sim *sim) {
   if (facts == NULL)
     return;
   facts->frozen = 0;
-  for (int k = 0; k < sim->count; k++) {
-    const bool is_object_ball = k != sim->struck && !carom_is_out(sim->path[k].from.label);
-    if (is_object_ball && touch_by_rules(sim, sim->struck, k))
-      facts->frozen |= set_of(k);
+  for (int index = 0; index < sim->count; index++) {
+    const bool is_object_ball = index != sim->struck && !carom_is_out(sim->path[index].from.label);
+    if (is_object_ball && touch_by_rules(sim, sim->struck, index))
+      facts->frozen |= set_of(index);
   }
 }
 
@@ -229,17 +230,17 @@ void carom_facts_touches(const carom_sim *sim, int touches, double first, double
   }
 }
 
-void carom_facts_push(const carom_sim *sim, const carom_cluster_state *c, const uint8_t order[],
-                      int count) {
+void carom_facts_push(const carom_sim *sim, const carom_cluster_state *cluster,
+                      const uint8_t order[], int count) {
   carom_facts *facts = sim->shot->facts;
   if (facts == NULL)
     return;
-  carom_facts_touches(sim, c->tip.touches, c->tip.first, c->tip.second);
-  for (int k = 0; k < count; k++) {
-    const carom_cluster_contact_state *contact = &c->contact[order[k]];
-    const bool of_tip = contact->i == c->tip.ball || contact->j == c->tip.ball;
-    const int ball = contact->i == c->tip.ball ? contact->j : contact->i;
-    if (of_tip && contact->time <= c->tip.last)
-      facts->pushed |= set_of(c->ball[ball].index);
+  carom_facts_touches(sim, cluster->tip.touches, cluster->tip.first, cluster->tip.second);
+  for (int index = 0; index < count; index++) {
+    const carom_cluster_contact_state *contact = &cluster->contact[order[index]];
+    const bool of_tip = contact->i == cluster->tip.ball || contact->j == cluster->tip.ball;
+    const int ball = contact->i == cluster->tip.ball ? contact->j : contact->i;
+    if (of_tip && contact->time <= cluster->tip.last)
+      facts->pushed |= set_of(cluster->ball[ball].index);
   }
 }

@@ -19,7 +19,7 @@ void carom_facts_frozen(const carom_sim *sim);
 void carom_facts_touches(const carom_sim *sim, int touches, double first, double second);
 
 /* Adds a push with `count` contacts of balls, in their order. */
-void carom_facts_push(const carom_sim *sim, const carom_cluster_state *c, const uint8_t order[],
-                      int count);
+void carom_facts_push(const carom_sim *sim, const carom_cluster_state *cluster,
+                      const uint8_t order[], int count);
 
 #endif

@@ -35,9 +35,9 @@ static carom_status status_of_numbers(carom_status status) {
       {CAROM_ERROR_MASSES_DIFFER, CAROM_ERROR_MASS},
       {CAROM_ERROR_CUE_BALL_OUT, CAROM_ERROR_CUE_BALL},
   };
-  for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++)
-    if (rows[k].beside_others == status)
-      return rows[k].of_numbers;
+  for (size_t index = 0; index < sizeof rows / sizeof rows[0]; index++)
+    if (rows[index].beside_others == status)
+      return rows[index].of_numbers;
   return status;
 }
 

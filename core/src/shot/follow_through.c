@@ -6,6 +6,10 @@
  *
  *     |p| = R,   p = p0 + t V c - v t - a t^2
  *
+ *      where it struck           p
+ *      |---- along ---|-- V t --|<-----o    the ball, at v t + a t^2 from where it is now
+ *      ================= c ====>   R
+ *
  * (gap.c). There it pushes as tip.h has it, with the (a, b) of p, and goes on at the speed that is
  * left. It is looked for from the first contact of the cue ball with another ball or a cushion
  * after a touch on: before that the ball runs away from the cue, but in slow draws, in which an arm
@@ -18,76 +22,90 @@
 
 #include <math.h>
 
-void carom_follow_on(carom_play *play, double V, double lead) {
+/* A touch has the tip not deep in the ball, and the centre of the ball ahead of it: by more than
+ * this part of |p| along the axis, as less is past the middle of the ball. */
+static const double least_distance2 = 0.25; /* |p|^2, of R^2 */
+static const double least_ahead = 0.1;
+
+void carom_follow_on(carom_play *play, double speed, double lead) {
   const carom_sim *sim = &play->sim;
   const carom_cue *cue = sim->cue;
-  carom_follow *f = &play->follow;
-  f->along += lead;
-  const double left = cue->follow - f->along;
-  f->end = -1.0;
-  if (!(left > 0.0 && V > 0.0) || cue->tip_time < 0.0 || !sim->rules->clusters ||
+  carom_follow *follow = &play->follow;
+  follow->along += lead;
+
+  /* how far it still goes; balls must last as it touches them */
+  const double left = cue->follow - follow->along;
+  follow->end = -1.0;
+  if (!(left > 0.0 && speed > 0.0) || cue->tip_time < 0.0 || !sim->rules->clusters ||
       !carom_lasts(sim->opt))
     return;
-  f->start = sim->time;
-  f->end = sim->time + left / V;
-  f->V = V;
+  follow->start = sim->time;
+  follow->end = sim->time + left / speed;
+  follow->V = speed;
 }
 
-/* p, now, and the directions of the cue. */
-static void tip_of(const carom_play *play, const double r[3], double axes[3][3], double p[3]) {
+/* p, from the centre to the tip, now, and the directions of the cue. */
+static void tip_of(const carom_play *play, const double centre[3], double axes[3][3],
+                   double to_tip[3]) {
   const carom_sim *sim = &play->sim;
-  const carom_follow *f = &play->follow;
-  carom_tip_from(sim->cue, sim->rates[sim->struck].radius, f->origin,
-                 f->along + f->V * (sim->time - f->start), r, axes, p);
+  const carom_follow *follow = &play->follow;
+  carom_tip_from(sim->cue, sim->rates[sim->struck].radius, follow->origin,
+                 follow->along + follow->V * (sim->time - follow->start), centre, axes, to_tip);
 }
 
 /* The struck ball from now on, in axes[0] the axis of the cue, and the way from the ball to the
  * tip. */
-static void begin(const carom_play *play, double axes[3][3], carom_separation *d) {
+static void begin(const carom_play *play, double axes[3][3], carom_separation *separation) {
   const carom_sim *sim = &play->sim;
   const int i = sim->struck;
-  carom_ball_state s;
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &s);
-  tip_of(play, s.r, axes, d->d0);
-  for (int k = 0; k < 3; k++) {
-    d->d1[k] = play->follow.V * axes[0][k] - s.v[k];
-    d->d2[k] = -sim->path[i].a[k];
+  carom_ball_state state;
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &state);
+  tip_of(play, state.r, axes, separation->d0);
+  for (int axis = 0; axis < 3; axis++) {
+    separation->d1[axis] = play->follow.V * axes[0][axis] - state.v[axis];
+    separation->d2[axis] = -sim->path[i].a[axis];
   }
 }
 
 void carom_follow_find(carom_play *play) {
   const carom_sim *sim = &play->sim;
-  carom_follow *f = &play->follow;
-  const int i = sim->struck;
-  const carom_path *path = &sim->path[i];
+  carom_follow *follow = &play->follow;
+  const int struck = sim->struck;
+  const carom_path *path = &sim->path[struck];
   const bool out = carom_is_out(path->from.label);
-  f->time = INFINITY;
+
+  /* none where the ball is out, or has met nothing since the last touch */
+  follow->time = INFINITY;
   if (out)
-    f->end = -1.0;
+    follow->end = -1.0;
   if (out || !sim->turned)
     return;
 
-  carom_separation d;
+  /* until the cue stops or the path of the ball ends */
+  carom_separation separation;
   double axes[3][3];
-  begin(play, axes, &d);
-  const double horizon = carom_lesser(f->end, path->end) - sim->time;
+  begin(play, axes, &separation);
+  const double horizon = carom_lesser(follow->end, path->end) - sim->time;
   if (horizon >= 0.0)
-    f->time = sim->time + carom_first_contact_in_space(&d, sim->rates[i].radius, horizon);
+    follow->time =
+        sim->time + carom_first_contact_in_space(&separation, sim->rates[struck].radius, horizon);
 }
 
 bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue) {
   const carom_sim *sim = &play->sim;
-  const int i = sim->struck;
-  const double R = sim->rates[i].radius;
-  carom_ball_state s;
-  double axes[3][3], p[3], offset[3];
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &s);
-  tip_of(play, s.r, axes, p);
-  const double p2 = carom_tip_on(axes, p, offset);
+  const int struck = sim->struck;
+  const double radius = sim->rates[struck].radius;
+  carom_ball_state state;
+  double axes[3][3], to_tip[3], offset[3];
+  carom_path_at(&sim->path[struck], &sim->rates[struck], sim->time, &state);
+  tip_of(play, state.r, axes, to_tip);
+
+  /* the cue with what is left of its way, at this touch */
+  const double square = carom_tip_on(axes, to_tip, offset);
   *moved_cue = *sim->cue;
   moved_cue->speed = play->follow.V;
   moved_cue->follow -= play->follow.along + play->follow.V * (sim->time - play->follow.start);
   moved_cue->a = offset[1];
   moved_cue->b = offset[2];
-  return p2 > 0.25 * R * R && offset[0] < -0.1;
+  return square > least_distance2 * radius * radius && offset[0] < -least_ahead;
 }

@@ -149,8 +149,8 @@ static void seek(replay *state, const keyframes *keep, const carom_shot_ball *ba
   do {
     double least = earliest;
     best = NULL;
-    for (int64_t k = 0; k < slots; k++) {
-      replay *slot = (replay *)(void *)(keep->slots + keep->size * (size_t)k);
+    for (int64_t index = 0; index < slots; index++) {
+      replay *slot = (replay *)(void *)(keep->slots + keep->size * (size_t)index);
       if (slot->count != count || slot->balls_hash != balls_hash || slot->time > time ||
           slot->time <= least)
         continue;
@@ -204,8 +204,8 @@ static bool find_states(replay *state, double *left, carom_ball_state *states,
       return false;
     carom_path_at(&ball->path, &ball->rates, state->time, &states[i]);
     double size = 0.0;
-    for (int k = 0; k < 3; k++)
-      size += fabs(states[i].r[k]) + fabs(states[i].v[k]) + fabs(states[i].w[k]);
+    for (int axis = 0; axis < 3; axis++)
+      size += fabs(states[i].r[axis]) + fabs(states[i].v[axis]) + fabs(states[i].w[axis]);
     if (!(size < INFINITY))
       return false;
     if (turned != NULL)

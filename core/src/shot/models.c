@@ -2,6 +2,7 @@
 #include "cushion/models.h"
 #include "cluster/cluster.h"
 #include "friction/laws.h"
+#include "motion/sphere.h"
 #include "platform/ranges.h"
 #include "schema/numbers.h"
 #include "shot/rules.h"
@@ -15,12 +16,13 @@ typedef struct contact_slip {
   double t[2], along, up;
 } contact_slip;
 
-static contact_slip slip_of(const double n[2], double R, const carom_ball_state *a,
+static contact_slip slip_of(const double normal[2], double radius, const carom_ball_state *a,
                             const carom_ball_state *b) {
-  contact_slip s = {.t = {n[1], -n[0]}};
-  s.along = (a->v[0] - b->v[0]) * s.t[0] + (a->v[1] - b->v[1]) * s.t[1] - R * (a->w[2] + b->w[2]);
-  s.up = R * ((a->w[0] + b->w[0]) * s.t[0] + (a->w[1] + b->w[1]) * s.t[1]);
-  return s;
+  contact_slip slip = {.t = {normal[1], -normal[0]}};
+  slip.along = (a->v[0] - b->v[0]) * slip.t[0] + (a->v[1] - b->v[1]) * slip.t[1] -
+               radius * (a->w[2] + b->w[2]);
+  slip.up = radius * ((a->w[0] + b->w[0]) * slip.t[0] + (a->w[1] + b->w[1]) * slip.t[1]);
+  return slip;
 }
 
 #define IN_ORDER(NAME, ...) \
@@ -29,12 +31,12 @@ CAROM_FRICTION_LAWS(IN_ORDER)
 #undef IN_ORDER
 
 /* law_a, law_b and law_c, or Alciatore's where all are 0. */
-static inline void carom_own_law(const carom_ball_kind *kind, double k[3]) {
+static inline void carom_own_law(const carom_ball_kind *kind, double numbers[3]) {
   const bool has_law = kind->law_a + kind->law_b + kind->law_c > 0.0;
   const carom_speed_law law = has_law ? (carom_speed_law){0} : carom_alciatore();
-  k[0] = law.a + kind->law_a;
-  k[1] = law.b + kind->law_b;
-  k[2] = law.c + kind->law_c;
+  numbers[0] = law.a + kind->law_a;
+  numbers[1] = law.b + kind->law_b;
+  numbers[2] = law.c + kind->law_c;
 }
 
 void carom_law_of_ball(carom_ball_friction law, const carom_ball_kind *kind, double k[3]) {
@@ -52,99 +54,107 @@ void carom_law_of_ball(carom_ball_friction law, const carom_ball_kind *kind, dou
 /* At a slip, m/s. */
 static double friction_of(const carom_sim *sim, int i, int j, double slip) {
   const carom_ball_friction law = sim->opt->friction;
-  double p[3], q[3];
-  carom_law_of_ball(law, sim->layout->kind[i], p);
-  carom_law_of_ball(law, sim->layout->kind[j], q);
-  const double pair[3] = {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.5 * (p[2] + q[2])};
+  double law_i[3], law_j[3];
+  carom_law_of_ball(law, sim->layout->kind[i], law_i);
+  carom_law_of_ball(law, sim->layout->kind[j], law_j);
+  const double pair[3] = {0.5 * (law_i[0] + law_j[0]), 0.5 * (law_i[1] + law_j[1]),
+                          0.5 * (law_i[2] + law_j[2])};
   return carom_friction_at((int)law, pair, slip);
 }
 
 /* Normal velocities by the restitution: w, the same for each unit of mass. */
-static void exchange(double e, double m_a, double m_b, const double n[2], carom_ball_state *a,
-                     carom_ball_state *b) {
-  const double closing = (a->v[0] - b->v[0]) * n[0] + (a->v[1] - b->v[1]) * n[1];
-  const double P = (1.0 + e) * closing / (1.0 / m_a + 1.0 / m_b);
-  for (int k = 0; k < 2; k++) {
-    a->v[k] -= P / m_a * n[k];
-    b->v[k] += P / m_b * n[k];
+static void exchange(double restitution, double m_a, double m_b, const double normal[2],
+                     carom_ball_state *a, carom_ball_state *b) {
+  const double closing = (a->v[0] - b->v[0]) * normal[0] + (a->v[1] - b->v[1]) * normal[1];
+  const double impulse = (1.0 + restitution) * closing / (1.0 / m_a + 1.0 / m_b);
+  for (int axis = 0; axis < 2; axis++) {
+    a->v[axis] -= impulse / m_a * normal[axis];
+    b->v[axis] += impulse / m_b * normal[axis];
   }
 }
 
 /* One closed-form impulse. Friction stops the slip, which takes -c/7 for each unit of mass, or
  * slides to the end with mu times the speed at which the balls part; the vertical velocities
  * that it gives are dropped. As pooltool's default, for equal masses. */
-static void inelastic(const double n[2], double R, double e, double mu, const contact_slip *s,
-                      carom_ball_state *a, carom_ball_state *b) {
-  const double closing = (a->v[0] - b->v[0]) * n[0] + (a->v[1] - b->v[1]) * n[1];
-  const double slip = sqrt(s->along * s->along + s->up * s->up), most = mu * e * fabs(closing);
+static void inelastic(const double normal[2], double radius, double restitution, double mu,
+                      const contact_slip *sliding, carom_ball_state *a, carom_ball_state *b) {
+  const double closing = (a->v[0] - b->v[0]) * normal[0] + (a->v[1] - b->v[1]) * normal[1];
+  const double slip = sqrt(sliding->along * sliding->along + sliding->up * sliding->up),
+               most = mu * restitution * fabs(closing);
   const double share = 7.0 * most >= slip ? 1.0 / 7.0 : most / slip;
-  const double along = -share * s->along, up = -share * s->up;
-  exchange(e, 1.0, 1.0, n, a, b);
-  for (int k = 0; k < 2; k++) {
-    a->v[k] += along * s->t[k];
-    b->v[k] -= along * s->t[k];
-    a->w[k] += 2.5 / R * up * s->t[k];
-    b->w[k] += 2.5 / R * up * s->t[k];
+  const double along = -share * sliding->along, up = -share * sliding->up;
+  exchange(restitution, 1.0, 1.0, normal, a, b);
+  for (int axis = 0; axis < 2; axis++) {
+    a->v[axis] += along * sliding->t[axis];
+    b->v[axis] -= along * sliding->t[axis];
+    a->w[axis] += CAROM_SPHERE_TURN / radius * up * sliding->t[axis];
+    b->w[axis] += CAROM_SPHERE_TURN / radius * up * sliding->t[axis];
   }
-  a->w[2] -= 2.5 / R * along;
-  b->w[2] -= 2.5 / R * along;
+  a->w[2] -= CAROM_SPHERE_TURN / radius * along;
+  b->w[2] -= CAROM_SPHERE_TURN / radius * along;
 }
 
-static carom_ball impact_ball(const carom_ball_kind *kind, const carom_ball_state *s) {
-  return (carom_ball){.v = {s->v[0], s->v[1], s->v[2]},
-                      .w = {s->w[0], s->w[1], s->w[2]},
+static carom_ball impact_ball(const carom_ball_kind *kind, const carom_ball_state *state) {
+  return (carom_ball){.v = {state->v[0], state->v[1], state->v[2]},
+                      .w = {state->w[0], state->w[1], state->w[2]},
                       .radius = kind->radius,
                       .mass = kind->mass,
                       .mu_slide = kind->mu_slide};
 }
 
-static void take_motion(const carom_motion *motion, carom_ball_state *s) {
-  for (int k = 0; k < 3; k++) {
-    s->v[k] = motion->v[k];
-    s->w[k] = motion->w[k];
+static void take_motion(const carom_motion *motion, carom_ball_state *state) {
+  for (int axis = 0; axis < 3; axis++) {
+    state->v[axis] = motion->v[axis];
+    state->w[axis] = motion->w[axis];
   }
 }
 
 void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a,
-                           const carom_ball_kind *kind_b, const carom_ball_state *b, double n[3]) {
-  n[0] = b->r[0] - a->r[0];
-  n[1] = b->r[1] - a->r[1];
-  n[2] = (carom_flies(b) ? b->r[2] : kind_b->radius) - (carom_flies(a) ? a->r[2] : kind_a->radius);
-  const double size = carom_space_size(n);
-  for (int k = 0; k < 3; k++)
-    n[k] /= size;
+                           const carom_ball_kind *kind_b, const carom_ball_state *b,
+                           double normal[3]) {
+  normal[0] = b->r[0] - a->r[0];
+  normal[1] = b->r[1] - a->r[1];
+  normal[2] =
+      (carom_flies(b) ? b->r[2] : kind_b->radius) - (carom_flies(a) ? a->r[2] : kind_a->radius);
+  const double size = carom_space_size(normal);
+  for (int axis = 0; axis < 3; axis++)
+    normal[axis] /= size;
 }
 
 /* A ball on the cloth takes part in a contact whose line of centres n is level; n_z is dropped. The
  * radii are equal. */
 static carom_status balls_on_cloth(const carom_sim *sim, const carom_due *pending_event,
-                                   const double n[3], carom_ball_state *a, carom_ball_state *b) {
+                                   const double normal[3], carom_ball_state *a,
+                                   carom_ball_state *b) {
   const carom_ball_kind *kind_a = sim->layout->kind[pending_event->a],
                         *kind_b = sim->layout->kind[pending_event->b];
-  const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);
+  const double radius = kind_a->radius,
+               restitution = 0.5 * (kind_a->restitution + kind_b->restitution);
   const carom_ball_model model = carom_ball_model_of(sim->opt);
   carom_result out;
 
   /* closed forms */
   if (model == CAROM_BALL_MODEL_MIRROR) {
-    exchange(e, kind_a->mass, kind_b->mass, n, a, b);
+    exchange(restitution, kind_a->mass, kind_b->mass, normal, a, b);
     return CAROM_OK;
   }
 
-  const contact_slip s = slip_of(n, R, a, b);
-  const double mu =
-      friction_of(sim, pending_event->a, pending_event->b, sqrt(s.along * s.along + s.up * s.up));
+  const contact_slip sliding = slip_of(normal, radius, a, b);
+  const double mu = friction_of(sim, pending_event->a, pending_event->b,
+                                sqrt(sliding.along * sliding.along + sliding.up * sliding.up));
   if (model == CAROM_BALL_MODEL_INELASTIC) {
-    inelastic(n, R, e, mu, &s, a, b);
+    inelastic(normal, radius, restitution, mu, &sliding, a, b);
     return CAROM_OK;
   }
 
   /* the 2014 model; the first ball is at the origin, since only the direction counts */
-  carom_impact in = {
-      .a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .mu_ball = mu, .restitution = e};
-  in.b.radius = R;
-  in.b.r[0] = n[0];
-  in.b.r[1] = n[1];
+  carom_impact in = {.a = impact_ball(kind_a, a),
+                     .b = impact_ball(kind_b, b),
+                     .mu_ball = mu,
+                     .restitution = restitution};
+  in.b.radius = radius;
+  in.b.r[0] = normal[0];
+  in.b.r[1] = normal[1];
   const bool euler = model == CAROM_BALL_MODEL_EULER;
   const carom_options options = {.solver = euler ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
                                  .slip = euler ? sim->rules->euler_slip : CAROM_SLIP_PAPER,
@@ -161,39 +171,43 @@ static carom_status balls_on_cloth(const carom_sim *sim, const carom_due *pendin
 }
 
 /* Spheres in space; without friction where the model has none. */
-static void balls_in_space(const carom_sim *sim, const carom_due *pending_event, const double n[3],
-                           carom_ball_state *a, carom_ball_state *b) {
+static void balls_in_space(const carom_sim *sim, const carom_due *pending_event,
+                           const double normal[3], carom_ball_state *a, carom_ball_state *b) {
   const carom_ball_kind *kind_a = sim->layout->kind[pending_event->a],
                         *kind_b = sim->layout->kind[pending_event->b];
-  const double e = 0.5 * (kind_a->restitution + kind_b->restitution);
-  carom_impact in = {.a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .restitution = e};
+  const double restitution = 0.5 * (kind_a->restitution + kind_b->restitution);
+  carom_impact in = {
+      .a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .restitution = restitution};
   if (carom_ball_model_of(sim->opt) != CAROM_BALL_MODEL_MIRROR)
-    in.mu_ball = friction_of(sim, pending_event->a, pending_event->b, carom_spheres_slip(&in, n));
+    in.mu_ball =
+        friction_of(sim, pending_event->a, pending_event->b, carom_spheres_slip(&in, normal));
   carom_result out;
-  carom_spheres_collide(&in, n, &out);
+  carom_spheres_collide(&in, normal, &out);
   take_motion(&out.a, a);
   take_motion(&out.b, b);
 }
 
-/* Turns the plane of n and the level direction across it into that of the cloth: n to `level`, and
+/* Turns the plane of the normal n and the level direction across it into that of the cloth: n to `level`, and
  * k, which is up across n, to z. Or back. */
-static void turn_plane(const double source[2][3], const double target[2][3], double x[3]) {
+static void turn_plane(const double source[2][3], const double target[2][3], double vector[3]) {
   double along[2];
   for (int axis = 0; axis < 2; axis++)
-    along[axis] = carom_space_dot(x, source[axis]);
-  for (int k = 0; k < 3; k++)
-    x[k] += along[0] * (target[0][k] - source[0][k]) + along[1] * (target[1][k] - source[1][k]);
+    along[axis] = carom_space_dot(vector, source[axis]);
+  for (int component = 0; component < 3; component++)
+    vector[component] += along[0] * (target[0][component] - source[0][component]) +
+                         along[1] * (target[1][component] - source[1][component]);
 }
 
 /* Two balls as balls_on_cloth() has them, though n is tilted or the radii differ: all vectors are
  * turned until n is level, and R_b w_b is kept, as the law has R and w only as this product. The
  * velocities along k stay. */
 static carom_status balls_on_tilted_cloth(const carom_sim *sim, const carom_due *pending_event,
-                                          const double n[3], carom_ball_state *a,
+                                          const double normal[3], carom_ball_state *a,
                                           carom_ball_state *b) {
-  const double size = carom_plane_size(n);
-  const double level[3] = {n[0] / size, n[1] / size, 0.0};
-  const double tilted[2][3] = {{n[0], n[1], n[2]}, {-level[0] * n[2], -level[1] * n[2], size}};
+  const double size = carom_plane_size(normal);
+  const double level[3] = {normal[0] / size, normal[1] / size, 0.0};
+  const double tilted[2][3] = {{normal[0], normal[1], normal[2]},
+                               {-level[0] * normal[2], -level[1] * normal[2], size}};
   const double upright[2][3] = {{level[0], level[1], 0.0}, {0.0, 0.0, 1.0}};
   const double ratio =
       sim->layout->kind[pending_event->b]->radius / sim->layout->kind[pending_event->a]->radius;
@@ -206,13 +220,13 @@ static carom_status balls_on_tilted_cloth(const carom_sim *sim, const carom_due 
     rise[side] = ball[side]->v[2];
     ball[side]->v[2] = 0.0;
   }
-  for (int k = 0; k < 3; k++)
-    b->w[k] *= ratio;
+  for (int axis = 0; axis < 3; axis++)
+    b->w[axis] *= ratio;
 
   const carom_status status = balls_on_cloth(sim, pending_event, level, a, b);
 
-  for (int k = 0; k < 3; k++)
-    b->w[k] /= ratio;
+  for (int axis = 0; axis < 3; axis++)
+    b->w[axis] /= ratio;
   for (int side = 0; side < 2; side++) {
     ball[side]->v[2] = rise[side];
     turn_plane(upright, tilted, ball[side]->v);
@@ -221,44 +235,44 @@ static carom_status balls_on_tilted_cloth(const carom_sim *sim, const carom_due 
   return status;
 }
 
-static double height_above_cloth(const carom_ball_kind *kind, const carom_ball_state *s) {
-  return carom_flies(s) ? s->r[2] - kind->radius : (double)0.0;
+static double height_above_cloth(const carom_ball_kind *kind, const carom_ball_state *state) {
+  return carom_flies(state) ? state->r[2] - kind->radius : 0.0;
 }
 
 double carom_freedom_of_pair(const carom_sim *sim, const carom_due *pending_event,
-                             const double n[3], const carom_ball_state *a,
+                             const double normal[3], const carom_ball_state *a,
                              const carom_ball_state *b) {
   const double height = carom_greater(height_above_cloth(sim->layout->kind[pending_event->a], a),
                                       height_above_cloth(sim->layout->kind[pending_event->b], b));
-  return carom_freedom_of_balls(height, n[2]);
+  return carom_freedom_of_balls(height, normal[2]);
 }
 
 __attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim,
                                                          const carom_due *pending_event,
-                                                         const double n[3], bool in_space,
+                                                         const double normal[3], bool in_space,
                                                          carom_ball_state *a, carom_ball_state *b) {
   if (!in_space)
-    return balls_on_cloth(sim, pending_event, n, a, b);
+    return balls_on_cloth(sim, pending_event, normal, a, b);
 
   /* how free of the cloth they are; without friction the cloth takes no part at all */
-  const double freedom = carom_freedom_of_pair(sim, pending_event, n, a, b);
+  const double freedom = carom_freedom_of_pair(sim, pending_event, normal, a, b);
   carom_ball_state held[2] = {*a, *b}, *ball[2] = {a, b};
-  balls_in_space(sim, pending_event, n, a, b);
+  balls_in_space(sim, pending_event, normal, a, b);
   if (freedom >= 1.0 || carom_ball_model_of(sim->opt) == CAROM_BALL_MODEL_MIRROR)
     return CAROM_OK;
 
-  const carom_status status = balls_on_tilted_cloth(sim, pending_event, n, &held[0], &held[1]);
+  const carom_status status = balls_on_tilted_cloth(sim, pending_event, normal, &held[0], &held[1]);
   for (int side = 0; side < 2 && status >= 0; side++)
-    for (int k = 0; k < 3; k++) {
-      double *v = &ball[side]->v[k], *w = &ball[side]->w[k];
-      *v = (1.0 - freedom) * held[side].v[k] + freedom * *v;
-      *w = (1.0 - freedom) * held[side].w[k] + freedom * *w;
+    for (int axis = 0; axis < 3; axis++) {
+      double *velocity = &ball[side]->v[axis], *rotation = &ball[side]->w[axis];
+      *velocity = (1.0 - freedom) * held[side].v[axis] + freedom * *velocity;
+      *rotation = (1.0 - freedom) * held[side].w[axis] + freedom * *rotation;
     }
   return status;
 }
 
 carom_nose carom_nose_of(const carom_sim *sim, const carom_due *pending_event,
-                         const carom_ball_state *s) {
+                         const carom_ball_state *state) {
   const carom_table *table = sim->table;
   const carom_ball_kind *kind = sim->layout->kind[pending_event->a];
   if (pending_event->type == CAROM_EVENT_RAIL) {
@@ -270,7 +284,7 @@ carom_nose carom_nose_of(const carom_sim *sim, const carom_due *pending_event,
   carom_nose nose = {jaw->height, jaw->radius, carom_or_usual(jaw->mu_cushion, kind->mu_cushion),
                      carom_or_usual(jaw->restitution, kind->restitution_cushion)};
   if (!sim->rules->abrupt_jaws)
-    carom_blend_jaw(table, pending_event->b, kind, s->r, &nose.mu_cushion, &nose.restitution);
+    carom_blend_jaw(table, pending_event->b, kind, state->r, &nose.mu_cushion, &nose.restitution);
   return nose;
 }
 
@@ -311,10 +325,10 @@ static double friction_in_flight(carom_contact *c, double v_n, double slip,
 
 /* A ball in flight, by the model without the cloth. */
 static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const double N[3],
-                        const carom_nose *nose, carom_ball_state *s) {
+                        const carom_nose *nose, carom_ball_state *state) {
   carom_cushion_options options;
   take_cushion_options(sim, kind, &options);
-  const carom_touch touch = carom_touch_of(N, kind->radius, s);
+  const carom_touch touch = carom_touch_of(N, kind->radius, state);
 
   /* restitution and friction by the closing speed; of a ball on the cloth it is v_y cos(theta) */
   const double sine = carom_nose_height(kind, nose->height) / kind->radius - 1.0;
@@ -324,16 +338,16 @@ static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const
   carom_apply_law(&c, &options);
 
   const double J_t = friction_in_flight(&c, touch.closing, touch.slip, &options);
-  carom_take_impulse(&touch, kind->radius, (1.0 + c.e) * touch.closing, J_t, s);
+  carom_take_impulse(&touch, kind->radius, (1.0 + c.e) * touch.closing, J_t, state);
 }
 
 /* A ball on the cloth, by the model asked for. */
 static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind *kind,
-                                    const double n[2], const carom_nose *nose,
-                                    carom_ball_state *s) {
-  const carom_cushion_impact in = {.v = {s->v[0], s->v[1], 0.0},
-                                   .w = {s->w[0], s->w[1], s->w[2]},
-                                   .normal = {n[0], n[1]},
+                                    const double normal[2], const carom_nose *nose,
+                                    carom_ball_state *state) {
+  const carom_cushion_impact in = {.v = {state->v[0], state->v[1], 0.0},
+                                   .w = {state->w[0], state->w[1], state->w[2]},
+                                   .normal = {normal[0], normal[1]},
                                    .height = carom_nose_height(kind, nose->height),
                                    .radius = kind->radius,
                                    .mass = kind->mass,
@@ -355,33 +369,33 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
   }
   if (status < 0)
     return status;
-  take_motion(&out, s);
-  s->v[2] = 0.0;
+  take_motion(&out, state);
+  state->v[2] = 0.0;
   return status;
 }
 
 /* NEAR THE CLOTH in resolve.c has the blend. */
 carom_status carom_model_cushion(const carom_sim *sim, const carom_due *pending_event,
-                                 const double n[3], carom_ball_state *s) {
+                                 const double normal[3], carom_ball_state *state) {
   const carom_ball_kind *kind = sim->layout->kind[pending_event->a];
-  const carom_nose nose = carom_nose_of(sim, pending_event, s);
-  if (!carom_flies(s))
-    return impact_on_cloth(sim, kind, n, &nose, s);
-  const double chi = carom_freedom_of_height(s->r[2] - kind->radius);
-  carom_ball_state flat = *s;
-  free_impact(sim, kind, n, &nose, s);
+  const carom_nose nose = carom_nose_of(sim, pending_event, state);
+  if (!carom_flies(state))
+    return impact_on_cloth(sim, kind, normal, &nose, state);
+  const double chi = carom_freedom_of_height(state->r[2] - kind->radius);
+  carom_ball_state flat = *state;
+  free_impact(sim, kind, normal, &nose, state);
   if (chi >= 1.0)
     return CAROM_OK;
 
   /* the flat model, along the horizontal part of n; a ball that does not move into the cushion
    * stays as it is */
-  const double size = carom_plane_size(n), level[2] = {n[0] / size, n[1] / size};
+  const double size = carom_plane_size(normal), level[2] = {normal[0] / size, normal[1] / size};
   const double v_z = carom_lesser(flat.v[2], 0.0);
   const carom_status status = impact_on_cloth(sim, kind, level, &nose, &flat);
   flat.v[2] = v_z;
-  for (int k = 0; k < 3; k++) {
-    s->v[k] = (1.0 - chi) * flat.v[k] + chi * s->v[k];
-    s->w[k] = (1.0 - chi) * flat.w[k] + chi * s->w[k];
+  for (int axis = 0; axis < 3; axis++) {
+    state->v[axis] = (1.0 - chi) * flat.v[axis] + chi * state->v[axis];
+    state->w[axis] = (1.0 - chi) * flat.w[axis] + chi * state->w[axis];
   }
   return status;
 }

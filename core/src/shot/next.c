@@ -7,8 +7,8 @@
 
 enum { MOST_DUE = 128 };
 
-static int type_of_end(const carom_sim *sim, int i) {
-  const carom_path *path = &sim->path[i];
+static int type_of_end(const carom_sim *sim, int ball) {
+  const carom_path *path = &sim->path[ball];
   if (path->goes_on)
     return CAROM_DUE_PIECE;
   if (path->from.label == CAROM_BALL_SLIDING)
@@ -18,37 +18,38 @@ static int type_of_end(const carom_sim *sim, int i) {
   if (carom_flies(&path->from))
     return CAROM_EVENT_SLATE;
   carom_ball_state end;
-  carom_path_end(path, &sim->rates[i], &end);
+  carom_path_end(path, &sim->rates[ball], &end);
   return end.label == CAROM_BALL_SPINNING ? CAROM_EVENT_ROLLING_SPINNING
                                           : CAROM_EVENT_ROLLING_STATIONARY;
 }
 
-static carom_due end_of(const carom_sim *sim, int i) {
-  return (carom_due){sim->path[i].end, type_of_end(sim, i), i, -1};
+static carom_due end_of(const carom_sim *sim, int ball) {
+  return (carom_due){sim->path[ball].end, type_of_end(sim, ball), ball, -1};
 }
-static carom_due meeting_of(const carom_sim *sim, int i) {
-  return (carom_due){sim->meeting[i].time, sim->meeting[i].type, i, sim->meeting[i].part};
+static carom_due meeting_of(const carom_sim *sim, int ball) {
+  return (carom_due){sim->meeting[ball].time, sim->meeting[ball].type, ball,
+                     sim->meeting[ball].part};
 }
-static carom_due pair_of(const carom_sim *sim, int i, int j) {
-  return (carom_due){sim->pair[i][j], CAROM_EVENT_BALL_BALL, i, j};
+static carom_due pair_of(const carom_sim *sim, int ball, int partner) {
+  return (carom_due){sim->pair[ball][partner], CAROM_EVENT_BALL_BALL, ball, partner};
 }
 
 /* All that is due up to a time. */
 static int list_due(const carom_sim *sim, double limit, carom_due pending_events[MOST_DUE]) {
   int count = 0;
-  for (int i = 0; i < sim->count && count < MOST_DUE - CAROM_BALLS_MOST - 2; i++) {
+  for (int ball = 0; ball < sim->count && count < MOST_DUE - CAROM_BALLS_MOST - 2; ball++) {
     /* neither the ball itself nor a pair with one behind it is due */
-    if (sim->own_end[i] > limit && sim->first[i] > limit)
+    if (sim->own_end[ball] > limit && sim->first[ball] > limit)
       continue;
 
-    /* the end of its phase, its meeting with the table, its pairs with balls j > i */
-    if (sim->path[i].end <= limit)
-      pending_events[count++] = end_of(sim, i);
-    if (sim->meeting[i].time <= limit)
-      pending_events[count++] = meeting_of(sim, i);
-    for (int j = i + 1; sim->first[i] <= limit && j < sim->count; j++)
-      if (sim->pair[i][j] <= limit)
-        pending_events[count++] = pair_of(sim, i, j);
+    /* the end of its phase, its meeting with the table, its pairs with those behind it */
+    if (sim->path[ball].end <= limit)
+      pending_events[count++] = end_of(sim, ball);
+    if (sim->meeting[ball].time <= limit)
+      pending_events[count++] = meeting_of(sim, ball);
+    for (int partner = ball + 1; sim->first[ball] <= limit && partner < sim->count; partner++)
+      if (sim->pair[ball][partner] <= limit)
+        pending_events[count++] = pair_of(sim, ball, partner);
   }
   CAROM_PROMISE(count >= 1 && count <= MOST_DUE);
   return count;
@@ -57,8 +58,8 @@ static int list_due(const carom_sim *sim, double limit, carom_due pending_events
 carom_due carom_next(const carom_sim *sim) {
   /* the earliest time that anything is due */
   double first = INFINITY;
-  for (int i = 0; i < sim->count; i++) {
-    const double soonest = carom_lesser(sim->own_end[i], sim->first[i]);
+  for (int ball = 0; ball < sim->count; ball++) {
+    const double soonest = carom_lesser(sim->own_end[ball], sim->first[ball]);
     first = carom_lesser(soonest, first);
   }
 

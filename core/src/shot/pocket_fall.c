@@ -9,6 +9,14 @@
  * where its way passes the middle farther off than that, W is that distance, and where it flies
  * across the circle and is on its way out, W is where it is.
  *
+ *         .-'''''-.   pocket       v   p: from the middle to where the ball comes in
+ *       .' .-'''-. '.          .-'     W: the wall, on which its centre goes around
+ *      /  '   W   ' <----- . -'
+ *      |  |   o---+--|   p             from above
+ *      \  '.     .'  /
+ *       '.  '---'  .'
+ *         '-.....-'
+ *
  * A ball that comes down on one that lies, at q, goes on around it in the direction in which it
  * touched it, at the level distance
  *     D = sqrt((R + R_q)^2 - (z - z_q)^2),
@@ -30,7 +38,7 @@ typedef struct lying {
 } lying;
 
 /* A fall: its ball, and those that lie in its pocket. */
-typedef struct fall {
+typedef struct pocket_fall {
   const carom_pocket *pocket;
   const carom_ball_kind *kind;
   const carom_ball_state *entry;
@@ -42,189 +50,200 @@ typedef struct fall {
    * the one that lies, whose x points to the middle, the direction of the touch */
   const lying *touched;
   double touch, most, inward, aside;
-} fall;
+} pocket_fall;
 
-static double height_of(const fall *f, double t) {
-  return f->entry->r[2] + t * (f->entry->v[2] - 0.5 * f->kind->gravity * t);
+/* z at a time since it reached the circle. */
+static double height_of(const pocket_fall *fall, double time) {
+  return fall->entry->r[2] + time * (fall->entry->v[2] - 0.5 * fall->kind->gravity * time);
 }
 
 /* The wall, and when the ball comes to it. */
-static void find_wall(fall *f) {
+static void find_wall(pocket_fall *fall) {
   /* the middle of the way is nearest to the pocket's; W */
-  const double x = f->entry->r[0] - f->pocket->centre[0], y = f->entry->r[1] - f->pocket->centre[1],
-               vx = f->entry->v[0], vy = f->entry->v[1];
+  const double x = fall->entry->r[0] - fall->pocket->centre[0],
+               y = fall->entry->r[1] - fall->pocket->centre[1], vx = fall->entry->v[0],
+               vy = fall->entry->v[1];
+
   const double speed2 = vx * vx + vy * vy, inward = -(x * vx + y * vy);
   double middle = 0.0;
   if (speed2 > 0.0)
     middle = inward / speed2;
   const double nearest2 = carom_greater(x * x + y * y - middle * inward, 0.0);
-  f->wall = carom_greater(f->pocket->radius - f->kind->radius, sqrt(nearest2));
-  f->hit = INFINITY;
+  fall->wall = carom_greater(fall->pocket->radius - fall->kind->radius, sqrt(nearest2));
+
+  /* when it is there; a ball on its way out goes around where it is */
+  fall->hit = INFINITY;
   if (speed2 > 0.0)
-    f->hit = middle + sqrt(carom_greater(f->wall * f->wall - nearest2, 0.0) / speed2);
-  if (f->hit < 0.0) {
-    f->hit = 0.0;
-    f->wall = sqrt(x * x + y * y);
+    fall->hit = middle + sqrt(carom_greater(fall->wall * fall->wall - nearest2, 0.0) / speed2);
+  if (fall->hit < 0.0) {
+    fall->hit = 0.0;
+    fall->wall = sqrt(x * x + y * y);
   }
 }
 
 /* The way of a ball in an empty pocket: place from the pocket's middle, and velocity. */
-static void fall_alone(const fall *f, double t, double p[2], double v[2]) {
+static void fall_alone(const pocket_fall *fall, double time, double place[2], double velocity[2]) {
   /* straight to the wall */
-  const double straight = carom_lesser(t, f->hit);
-  for (int k = 0; k < 2; k++) {
-    v[k] = f->entry->v[k];
-    p[k] = f->entry->r[k] - f->pocket->centre[k] + straight * v[k];
+  const double straight = carom_lesser(time, fall->hit);
+  for (int axis = 0; axis < 2; axis++) {
+    velocity[axis] = fall->entry->v[axis];
+    place[axis] = fall->entry->r[axis] - fall->pocket->centre[axis] + straight * velocity[axis];
   }
-  if (!(t > f->hit && f->wall > 0.0))
+  if (!(time > fall->hit && fall->wall > 0.0))
     return;
 
   /* and around on it */
-  const double along = (p[0] * v[1] - p[1] * v[0]) / f->wall;
-  double s, c;
-  carom_sincos(along * (t - f->hit) / f->wall, &s, &c);
-  const double x = p[0] * c - p[1] * s, y = p[0] * s + p[1] * c;
-  p[0] = x;
-  p[1] = y;
-  v[0] = -along * y / f->wall;
-  v[1] = along * x / f->wall;
+  const double along = (place[0] * velocity[1] - place[1] * velocity[0]) / fall->wall;
+  double sine, cosine;
+  carom_sincos(along * (time - fall->hit) / fall->wall, &sine, &cosine);
+  const double x = place[0] * cosine - place[1] * sine, y = place[0] * sine + place[1] * cosine;
+  place[0] = x;
+  place[1] = y;
+  velocity[0] = -along * y / fall->wall;
+  velocity[1] = along * x / fall->wall;
 }
 
-/* Level distance that a ball at height z has to keep from one that lies. */
-static double distance_from(const fall *f, const lying *neighbor, double z) {
-  const double sum = f->kind->radius + neighbor->radius, up = z - neighbor->r[2];
+/* Level distance that a ball at a height has to keep from one that lies. */
+static double distance_from(const pocket_fall *fall, const lying *neighbor, double height) {
+  const double sum = fall->kind->radius + neighbor->radius, up = height - neighbor->r[2];
   return sqrt(carom_greater(sum * sum - up * up, 0.0));
 }
 
 /* That one of those that lie, other than the touched one, in which a ball would be at a place. */
-static const lying *in_its_way(const fall *f, double t, const double p[2]) {
-  const double z = height_of(f, t);
-  for (int k = 0; k < f->count; k++) {
-    const lying *neighbor = f->others[k];
-    const double x = f->pocket->centre[0] + p[0] - neighbor->r[0],
-                 y = f->pocket->centre[1] + p[1] - neighbor->r[1];
-    if (neighbor != f->touched &&
-        x * x + y * y < distance_from(f, neighbor, z) * distance_from(f, neighbor, z))
+static const lying *in_its_way(const pocket_fall *fall, double time, const double place[2]) {
+  const double height = height_of(fall, time);
+  for (int index = 0; index < fall->count; index++) {
+    const lying *neighbor = fall->others[index];
+    const double x = fall->pocket->centre[0] + place[0] - neighbor->r[0],
+                 y = fall->pocket->centre[1] + place[1] - neighbor->r[1];
+    if (neighbor != fall->touched && x * x + y * y < distance_from(fall, neighbor, height) *
+                                                         distance_from(fall, neighbor, height))
       return neighbor;
   }
   return NULL;
 }
 
 /* From one that lies, the direction of the pocket's middle, and its distance. */
-static double to_middle(const fall *f, const lying *neighbor, double e[2]) {
-  const double x = f->pocket->centre[0] - neighbor->r[0], y = f->pocket->centre[1] - neighbor->r[1],
-               far = sqrt(x * x + y * y);
-  e[0] = 1.0;
-  e[1] = 0.0;
+static double to_middle(const pocket_fall *fall, const lying *neighbor, double toward[2]) {
+  const double x = fall->pocket->centre[0] - neighbor->r[0],
+               y = fall->pocket->centre[1] - neighbor->r[1], far = sqrt(x * x + y * y);
+  toward[0] = 1.0;
+  toward[1] = 0.0;
   if (far > 0.0) {
-    e[0] = x / far;
-    e[1] = y / far;
+    toward[0] = x / far;
+    toward[1] = y / far;
   }
   return far;
 }
 
 /* The place from the pocket's middle around the one that was touched. Returns whether there is
  * one within the wall. */
-static bool around(const fall *f, double t, double p[2]) {
-  double e[2];
-  const double far = to_middle(f, f->touched, e), D = distance_from(f, f->touched, height_of(f, t));
-  /* |q + D way| <= most */
-  double least = far + D <= f->most ? -1.0 : 2.0;
+static bool around(const pocket_fall *fall, double time, double place[2]) {
+  double toward[2];
+  const double far = to_middle(fall, fall->touched, toward),
+               D = distance_from(fall, fall->touched, height_of(fall, time));
+
+  /* |q + D way| <= most: how far inward the direction of way is at least, by its cosine */
+  double least = far + D <= fall->most ? -1.0 : 2.0;
   if (far * D > 0.0)
-    least = (far * far + D * D - f->most * f->most) / (2.0 * far * D);
-  const double inward = carom_greater(f->inward, least),
-               across = copysign(sqrt(carom_greater(1.0 - inward * inward, 0.0)), f->aside);
-  p[0] = -far * e[0] + D * (inward * e[0] - across * e[1]);
-  p[1] = -far * e[1] + D * (inward * e[1] + across * e[0]);
+    least = (far * far + D * D - fall->most * fall->most) / (2.0 * far * D);
+
+  /* the direction of the touch, or the nearest that is within the wall */
+  const double inward = carom_greater(fall->inward, least),
+               across = copysign(sqrt(carom_greater(1.0 - inward * inward, 0.0)), fall->aside);
+  place[0] = -far * toward[0] + D * (inward * toward[0] - across * toward[1]);
+  place[1] = -far * toward[1] + D * (inward * toward[1] + across * toward[0]);
   return least <= 1.0;
 }
 
 /* The place from the pocket's middle, and the velocity of a ball that touches none. Returns whether
  * it is free. */
-static bool place_at(const fall *f, double t, double p[2], double v[2]) {
-  fall_alone(f, t, p, v);
-  const bool within = f->touched == NULL || t < f->touch || around(f, t, p);
-  return within && in_its_way(f, t, p) == NULL;
+static bool place_at(const pocket_fall *fall, double time, double place[2], double velocity[2]) {
+  fall_alone(fall, time, place, velocity);
+  const bool within = fall->touched == NULL || time < fall->touch || around(fall, time, place);
+  return within && in_its_way(fall, time, place) == NULL;
 }
 
 /* The last time up to the end at which the place is still free, from a time on. */
-static double last_free(const fall *f, double start) {
-  static const int parts = 200;
-  enum { BISECTIONS = 40 };
-  double p[2], v[2];
-  for (int k = 0; k <= parts && f->count > 0; k++) {
-    double low = start + (f->end - start) * (k - 1) / parts,
-           high = start + (f->end - start) * k / parts;
-    if (place_at(f, high, p, v))
+static double last_free(const pocket_fall *fall, double start) {
+  static const int parts = 200; /* of the time: drawings show no shorter passage */
+  enum { BISECTIONS = 40 };     /* to rounding */
+  double place[2], velocity[2];
+  for (int part = 0; part <= parts && fall->count > 0; part++) {
+    double low = start + (fall->end - start) * (part - 1) / parts,
+           high = start + (fall->end - start) * part / parts;
+    if (place_at(fall, high, place, velocity))
       continue;
-    for (int n = 0; n < BISECTIONS && k > 0; n++) {
+
+    /* between the last part that is free and this one */
+    for (int bisection = 0; bisection < BISECTIONS && part > 0; bisection++) {
       const double middle = 0.5 * (low + high);
-      if (place_at(f, middle, p, v))
+      if (place_at(fall, middle, place, velocity))
         low = middle;
       else
         high = middle;
     }
-    if (k == 0)
+    if (part == 0)
       return start;
     return high;
   }
-  return f->end;
+  return fall->end;
 }
 
 /* The first touch, and when the ball lies: at the depth, or on others. */
-static void find_end(fall *f) {
-  const double g = f->kind->gravity, rise = f->entry->v[2],
-               down = carom_greater(f->entry->r[2] + f->pocket->depth, 0.0);
-  double p[2], v[2], e[2];
-  f->end = (rise + sqrt(rise * rise + 2.0 * g * down)) / g;
-  f->touched = NULL;
-  f->touch = last_free(f, 0.0);
-  fall_alone(f, f->touch, p, v);
-  const lying *neighbor = in_its_way(f, f->touch, p);
+static void find_end(pocket_fall *fall) {
+  const double gravity = fall->kind->gravity, rise = fall->entry->v[2],
+               down = carom_greater(fall->entry->r[2] + fall->pocket->depth, 0.0);
+  double place[2], velocity[2], toward[2];
+  fall->end = (rise + sqrt(rise * rise + 2.0 * gravity * down)) / gravity;
+  fall->touched = NULL;
+  fall->touch = last_free(fall, 0.0);
+  fall_alone(fall, fall->touch, place, velocity);
+  const lying *neighbor = in_its_way(fall, fall->touch, place);
   if (neighbor == NULL)
     return;
 
   /* the direction, inward where the ball is right above the other one */
-  const double far = to_middle(f, neighbor, e), x = p[0] + far * e[0], y = p[1] + far * e[1],
-               apart = sqrt(x * x + y * y);
-  f->inward = 1.0;
+  const double far = to_middle(fall, neighbor, toward), x = place[0] + far * toward[0],
+               y = place[1] + far * toward[1], apart = sqrt(x * x + y * y);
+  fall->inward = 1.0;
   if (apart > 0.0)
-    f->inward = (x * e[0] + y * e[1]) / apart;
-  f->aside = y * e[0] - x * e[1];
-  f->most = carom_greater(f->wall, carom_plane_size(p));
-  f->touched = neighbor;
-  f->end = last_free(f, f->touch);
+    fall->inward = (x * toward[0] + y * toward[1]) / apart;
+  fall->aside = y * toward[0] - x * toward[1];
+  fall->most = carom_greater(fall->wall, carom_plane_size(place));
+  fall->touched = neighbor;
+  fall->end = last_free(fall, fall->touch);
 }
 
 /* A fall among those that lie already, all pockets' `known`. */
-static void begin(fall *f, const lying *others, int known, int64_t pocket) {
-  f->count = 0;
-  for (int k = 0; k < known; k++)
-    if (others[k].pocket == pocket)
-      f->others[f->count++] = &others[k];
-  find_wall(f);
-  find_end(f);
+static void begin(pocket_fall *fall, const lying *others, int known, int64_t pocket) {
+  fall->count = 0;
+  for (int index = 0; index < known; index++)
+    if (others[index].pocket == pocket)
+      fall->others[fall->count++] = &others[index];
+  find_wall(fall);
+  find_end(fall);
 }
 
 /* The state at a time since its begin. */
-static void state_at(const fall *f, double t, carom_ball_state *state) {
-  static const double soon = 1e-7; /* s */
-  double p[2], v[2], previous[2], none[2];
-  const bool lies = t >= f->end;
-  t = carom_lesser(t, f->end);
-  place_at(f, t, p, v);
+static void state_at(const pocket_fall *fall, double time, carom_ball_state *state) {
+  static const double soon = 1e-7; /* s: of a difference, where rounding is 1e-9 m/s */
+  double place[2], velocity[2], previous[2], none[2];
+  const bool lies = time >= fall->end;
+  time = carom_lesser(time, fall->end);
+  place_at(fall, time, place, velocity);
   /* around another one the velocity is that of the way */
-  if (!lies && f->touched != NULL && t > f->touch) {
-    place_at(f, carom_greater(t - soon, 0.0), previous, none);
-    for (int k = 0; k < 2; k++)
-      v[k] = (p[k] - previous[k]) / soon;
+  if (!lies && fall->touched != NULL && time > fall->touch) {
+    place_at(fall, carom_greater(time - soon, 0.0), previous, none);
+    for (int axis = 0; axis < 2; axis++)
+      velocity[axis] = (place[axis] - previous[axis]) / soon;
   }
-  for (int k = 0; k < 2; k++) {
-    state->r[k] = f->pocket->centre[k] + p[k];
-    state->v[k] = v[k];
+  for (int axis = 0; axis < 2; axis++) {
+    state->r[axis] = fall->pocket->centre[axis] + place[axis];
+    state->v[axis] = velocity[axis];
   }
-  state->r[2] = height_of(f, t);
-  state->v[2] = f->entry->v[2] - f->kind->gravity * t;
+  state->r[2] = height_of(fall, time);
+  state->v[2] = fall->entry->v[2] - fall->kind->gravity * time;
   if (lies)
     memset(state->v, 0, sizeof state->v);
 }
@@ -237,36 +256,37 @@ carom_status carom_shot_falls(const carom_table *table, const carom_shot_ball *b
   const carom_status status = carom_shot_at_times(balls, count, shot, NULL, 0, NULL);
   if (status < 0)
     return status;
-  for (size_t k = 0; k < n; k++)
-    if (!(times[k] >= 0.0))
+  for (size_t instant = 0; instant < n; instant++)
+    if (!(times[instant] >= 0.0))
       return CAROM_ERROR_TIME;
 
   /* balls that fall, in the order in which they do; those that lie in the pockets already */
   const int64_t known = carom_events_kept(shot);
   lying others[CAROM_BALLS_MOST];
   int down = 0;
-  for (int64_t e = 0; e < known; e++) {
-    const carom_event *event = &shot->events[e];
+  for (int64_t index = 0; index < known; index++) {
+    const carom_event *event = &shot->events[index];
     if (event->type != CAROM_EVENT_POCKET || event->a < 0 || event->a >= count || event->b < 0 ||
         event->b >= table->pockets || !(balls[event->a].kind.gravity > 0.0))
       continue;
 
     /* its fall, seen at all times that are later */
-    fall f = {.pocket = &table->pocket[event->b],
-              .kind = &balls[event->a].kind,
-              .entry = &event->before[0]};
-    begin(&f, others, down, event->b);
-    for (size_t k = 0; k < n; k++)
-      if (times[k] >= event->time)
-        state_at(&f, times[k] - event->time, &states[k * (size_t)count + (size_t)event->a]);
+    pocket_fall fall = {.pocket = &table->pocket[event->b],
+                        .kind = &balls[event->a].kind,
+                        .entry = &event->before[0]};
+    begin(&fall, others, down, event->b);
+    for (size_t instant = 0; instant < n; instant++)
+      if (times[instant] >= event->time)
+        state_at(&fall, times[instant] - event->time,
+                 &states[instant * (size_t)count + (size_t)event->a]);
 
     /* where it lies at last, for those that fall on it */
     if (down == CAROM_BALLS_MOST) /* events that no shot has */
       continue;
     carom_ball_state last = event->before[0];
-    state_at(&f, f.end, &last);
+    state_at(&fall, fall.end, &last);
     others[down].pocket = event->b;
-    others[down].radius = f.kind->radius;
+    others[down].radius = fall.kind->radius;
     memcpy(others[down++].r, last.r, sizeof last.r);
   }
   return status;

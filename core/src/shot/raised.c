@@ -8,6 +8,13 @@
  *   y'' = S F - N              S = -c'_z                    f = 2/7 D F where it holds
  *   s'  = D F - 7/2 f          D t = c'_h + 5/2 z x q
  *
+ *      F c'\   .-'''-.       x   compression of the tip, along c'
+ *           \.'       '.     y   compression of the slate, downwards
+ *           (     o     )    s   slip of the foot, along t
+ *            '.       .'     F   of the tip, along c'
+ *     _________'-.^.-'____   N   of the slate, upwards
+ *          <-- f  N  --> t   f   of the cloth, against t
+ *
  * c' is the direction of the push, c'_h its horizontal part, q the arm of the tip, and t a unit
  * vector. The slip begins at 0 and the push gives it the direction t, so that direction never
  * changes. Therefore a ball finally rolls where Coriolis found. Weight has no part, and positions
@@ -37,6 +44,7 @@
  * Found by trial (core/tests/physics/strike.c, raised_alone): STEP may be 0.3 to 0.6; at 1.2 the
  * cubic misses ends of phases. Usual strikes have 5 to 8 phases. */
 #include "cluster/hertz.h"
+#include "motion/sphere.h"
 #include "platform/ranges.h"
 #include "shot/clusters.h"
 
@@ -51,16 +59,31 @@ static const double too_slow = 1e-9; /* of the cue's speed: contacts that close 
 static const double least_e = 0.2;   /* of a slate */
 static const double least_tip = 0.05; /* e of a tip, as in cluster/push.c */
 
+/* A vertex is too near to 0 to tell its sign where it is less than this part of its fall. */
+#define UNCLEAR_PART 0.1
+/* Eigenvalues are this part of their sum apart at least, so that there are two modes. */
+#define LEAST_SPLIT 1e-8
+/* Newton's method corrects the end of a phase by less than this part of a step. */
+#define CORRECTION_MOST 0.2
+/* A phase that ends within this part of a step has taken no time. */
+#define NO_TIME 1e-9
+
+/* What can end a phase: the branch of a contact, or the state of the foot. The branches:
+ *
+ *     LOADS      until d' falls to 0: then UNLOADS
+ *     UNLOADS    until d falls to its rest: then LEAVES; or rises to its top: then LOADS
+ *     LEAVES     until d falls to 0: then OPEN, or GONE; or d' rises to 0: then UNLOADS
+ *     OPEN       until d rises to 0: then LOADS */
 enum { TIP, SLATE, FOOT, ENDS };
 enum { OPEN, LOADS, UNLOADS, LEAVES, GONE }; /* GONE: a cue that does not follow through */
 
 typedef struct push_spring {
   int branch;
-  bool returns;       /* touches anew once it is open */
-  double k, e;        /* over the mass of the ball, 1/s^2; restitution */
-  double d, v;        /* compression, m, and its rate, m/s */
-  double top;         /* d_max */
-  double rest, stiff; /* of the branch: d without a force, and the rate of the force, 1/s^2 */
+  bool returns;                /* touches anew once it is open */
+  double loading, restitution; /* over the mass of the ball, 1/s^2; restitution */
+  double compression, rate;    /* compression, m, and its rate, m/s */
+  double top;                  /* d_max */
+  double rest, stiffness; /* of the branch: d without a force, and the rate of the force, 1/s^2 */
 } push_spring;
 
 typedef struct push_state {
@@ -84,14 +107,14 @@ typedef struct swing {
 /* One phase: A, its eigenvalues, and what each mode has of compressions and speeds at its start. */
 typedef struct push_phase {
   double A[2][2], lambda[2], quick; /* quick: sqrt(lambda[0]), the faster one */
-  double z[2][2], v[2][2];          /* [mode][contact] */
+  double z[2][2], z_rate[2][2];     /* [mode][contact] */
   double of_tip, of_slate;          /* the slip by the changes of both speeds */
 } push_phase;
 
 /* Values at one time of a phase. `foot` ends its state as it passes 0: the slip, or the friction
  * that it needs to hold less what it has. */
 typedef struct instant {
-  double d[2], v[2], a[2], slip, foot, foot_rate;
+  double compression[2], rate[2], acceleration[2], slip, foot, foot_rate;
 } instant;
 
 /* A value whose sign ends a phase: at the start of a step and at its end, or at its vertex within
@@ -108,131 +131,146 @@ double carom_slate_under(const carom_ball_kind *kind) {
 /* ---- Contacts */
 
 /* Begins a branch where the last one has ended. */
-static void turn_to(push_spring *x, int next) {
-  const double lost = 1.0 - x->e * x->e;
-  const bool comes_back = x->branch == LEAVES;
-  x->stiff = x->rest = 0.0;
-  x->branch = next;
+static void turn_to(push_spring *spring, int next) {
+  const double lost = 1.0 - spring->restitution * spring->restitution;
+  const bool comes_back = spring->branch == LEAVES;
+  spring->stiffness = spring->rest = 0.0;
+  spring->branch = next;
   if (next == LOADS) {
-    x->v = carom_greater(x->v, 0.0);
-    x->stiff = x->k;
+    spring->rate = carom_greater(spring->rate, 0.0);
+    spring->stiffness = spring->loading;
   } else if (next == UNLOADS) {
-    x->v = 0.0;
-    x->top = comes_back ? x->d / lost : x->d;
-    x->rest = lost * x->top;
-    x->stiff = x->k / (x->e * x->e);
-  } else if (next == OPEN || x->d <= 0.0 || !(lost > 0.0)) {
-    x->branch = x->returns ? OPEN : GONE;
-    x->top = 0.0;
-    x->d = carom_lesser(x->d, 0.0); /* it is not beyond by rounding */
+    spring->rate = 0.0;
+    spring->top = comes_back ? spring->compression / lost : spring->compression;
+    spring->rest = lost * spring->top;
+    spring->stiffness = spring->loading / (spring->restitution * spring->restitution);
+  } else if (next == OPEN || spring->compression <= 0.0 || !(lost > 0.0)) {
+    spring->branch = spring->returns ? OPEN : GONE;
+    spring->top = 0.0;
+    spring->compression = carom_lesser(spring->compression, 0.0); /* it is not beyond by rounding */
   }
 }
 
 /* Whether a value that is not beyond 0 at either end of a step is so at its vertex within it.
  * *is_unclear becomes true where that is too close to tell. */
-static bool dips(double value, double from_rate, double to_rate, double h, int next,
-                 bool *is_unclear, ending *e) {
+static bool dips(double value, double from_rate, double to_rate, double step, int next,
+                 bool *is_unclear, ending *found) {
   const bool falls_first =
       value > 0.0 ? from_rate < 0.0 && to_rate > 0.0 : from_rate > 0.0 && to_rate < 0.0;
   if (!falls_first)
     return false;
-  const double share = from_rate / (from_rate - to_rate), fall = 0.5 * from_rate * share * h;
+  const double share = from_rate / (from_rate - to_rate), fall = 0.5 * from_rate * share * step;
   const double vertex = value + fall;
-  *is_unclear |= fabs(vertex) < 0.1 * fabs(fall);
+  *is_unclear |= fabs(vertex) < UNCLEAR_PART * fabs(fall);
   if ((vertex > 0.0) == (value > 0.0))
     return false;
-  *e = (ending){value, from_rate, vertex, 0.0, share, next};
+  *found = (ending){value, from_rate, vertex, 0.0, share, next};
   return true;
 }
 
 /* The end of a branch that is left as its compression passes `level`, downwards or upwards. */
-static bool passes(double level, bool down, int i, const instant *first, const instant *last,
-                   double h, int next, bool *is_unclear, ending *e) {
-  const double start = first->d[i] - level, end = last->d[i] - level;
+static bool passes(double level, bool down, int contact, const instant *first, const instant *last,
+                   double step, int next, bool *is_unclear, ending *found) {
+  const double start = first->compression[contact] - level,
+               end = last->compression[contact] - level;
   if (down ? end < 0.0 : end > 0.0) {
-    *e = (ending){start, first->v[i], end, last->v[i], 1.0, next};
+    *found = (ending){start, first->rate[contact], end, last->rate[contact], 1.0, next};
     return true;
   }
   const bool inside = down ? start > 0.0 : start < 0.0;
-  return inside && dips(start, first->v[i], last->v[i], h, next, is_unclear, e);
+  return inside &&
+         dips(start, first->rate[contact], last->rate[contact], step, next, is_unclear, found);
 }
 
 /* The same of one that is left as it begins to unload, or to close. */
-static bool turns(bool unloads, int i, const instant *start, const instant *end, double h,
-                  bool *is_unclear, ending *e) {
-  if (unloads ? end->v[i] < 0.0 : end->v[i] > 0.0) {
-    *e = (ending){start->v[i], start->a[i], end->v[i], end->a[i], 1.0, UNLOADS};
+static bool turns(bool unloads, int contact, const instant *start, const instant *end, double step,
+                  bool *is_unclear, ending *found) {
+  if (unloads ? end->rate[contact] < 0.0 : end->rate[contact] > 0.0) {
+    *found = (ending){start->rate[contact],
+                      start->acceleration[contact],
+                      end->rate[contact],
+                      end->acceleration[contact],
+                      1.0,
+                      UNLOADS};
     return true;
   }
-  return dips(start->v[i], start->a[i], end->a[i], h, UNLOADS, is_unclear, e);
+  return dips(start->rate[contact], start->acceleration[contact], end->acceleration[contact], step,
+              UNLOADS, is_unclear, found);
 }
 
-/* Whether the branch of contact i ends within a step of h. */
-static bool branch_ends(const push_spring *x, int i, const instant *start, const instant *end,
-                        double h, bool *is_unclear, ending *e) {
-  switch (x->branch) {
+/* Whether the branch of a contact ends within a step. */
+static bool branch_ends(const push_spring *spring, int contact, const instant *start,
+                        const instant *end, double step, bool *is_unclear, ending *found) {
+  switch (spring->branch) {
   case LOADS:
-    return turns(true, i, start, end, h, is_unclear, e);
+    return turns(true, contact, start, end, step, is_unclear, found);
   case UNLOADS:
-    return passes(x->rest, true, i, start, end, h, LEAVES, is_unclear, e) ||
-           passes(x->top, false, i, start, end, h, LOADS, is_unclear, e);
+    return passes(spring->rest, true, contact, start, end, step, LEAVES, is_unclear, found) ||
+           passes(spring->top, false, contact, start, end, step, LOADS, is_unclear, found);
   case LEAVES:
-    return dips(start->d[i], start->v[i], end->v[i], h, OPEN, is_unclear, e) ||
-           turns(false, i, start, end, h, is_unclear, e) ||
-           passes(0.0, true, i, start, end, h, OPEN, is_unclear, e);
+    return dips(start->compression[contact], start->rate[contact], end->rate[contact], step, OPEN,
+                is_unclear, found) ||
+           turns(false, contact, start, end, step, is_unclear, found) ||
+           passes(0.0, true, contact, start, end, step, OPEN, is_unclear, found);
   case OPEN:
-    return passes(0.0, false, i, start, end, h, LOADS, is_unclear, e);
+    return passes(0.0, false, contact, start, end, step, LOADS, is_unclear, found);
   default:
     return false;
   }
 }
 
-/* Whether the foot begins to hold, or to slip, within a step of h. */
-static bool foot_ends(const push_state *p, const instant *start, const instant *end, double h,
-                      bool *is_unclear, ending *e) {
-  const bool passed = p->slips ? end->foot < 0.0 : end->foot > 0.0,
-             inside = p->slips ? start->foot > 0.0 : start->foot < 0.0;
+/* Whether the foot begins to hold, or to slip, within a step. */
+static bool foot_ends(const push_state *push, const instant *start, const instant *end, double step,
+                      bool *is_unclear, ending *found) {
+  const bool passed = push->slips ? end->foot < 0.0 : end->foot > 0.0,
+             inside = push->slips ? start->foot > 0.0 : start->foot < 0.0;
   if (passed) {
-    *e = (ending){start->foot, start->foot_rate, end->foot, end->foot_rate, 1.0, 0};
+    *found = (ending){start->foot, start->foot_rate, end->foot, end->foot_rate, 1.0, 0};
     return true;
   }
-  return inside && dips(start->foot, start->foot_rate, end->foot_rate, h, 0, is_unclear, e);
+  return inside && dips(start->foot, start->foot_rate, end->foot_rate, step, 0, is_unclear, found);
 }
 
-/* The part of a step of h at which an ending is 0: of Hermite's cubic, less the zeros that it has
+/* The part of a step at which an ending is 0: of Hermite's cubic, less the zeros that it has
  * at its start, by Newton's method within bounds. */
-static double part_of_step(const ending *e, double step) {
-  const double h = e->share * step, rise = e->end - e->start;
-  double c[4] = {e->start, h * e->from_rate, 3.0 * rise - h * (2.0 * e->from_rate + e->to_rate),
-                 h * (e->from_rate + e->to_rate) - 2.0 * rise};
-  for (int n = 0; n < 2 && c[0] == 0.0; n++) {
-    c[0] = c[1];
-    c[1] = c[2];
-    c[2] = c[3];
-    c[3] = 0.0;
+static double part_of_step(const ending *found, double step) {
+
+  /* the cubic over the span, by the values and rates at its ends */
+  const double span = found->share * step, rise = found->end - found->start;
+  double cubic[4] = {found->start, span * found->from_rate,
+                     3.0 * rise - span * (2.0 * found->from_rate + found->to_rate),
+                     span * (found->from_rate + found->to_rate) - 2.0 * rise};
+
+  /* it begins at a zero, where the phase has just begun: that one is left out */
+  for (int zero = 0; zero < 2 && cubic[0] == 0.0; zero++) {
+    cubic[0] = cubic[1];
+    cubic[1] = cubic[2];
+    cubic[2] = cubic[3];
+    cubic[3] = 0.0;
   }
-  const double end = c[0] + c[1] + c[2] + c[3];
-  if ((c[0] > 0.0) == (end > 0.0))
+  const double end = cubic[0] + cubic[1] + cubic[2] + cubic[3];
+  if ((cubic[0] > 0.0) == (end > 0.0))
     return 0.0; /* it is beyond at once */
 
-  double low = 0.0, high = 1.0, t = c[0] / (c[0] - end);
-  for (int n = 0; n < 3; n++) {
-    const double q = c[0] + t * (c[1] + t * (c[2] + t * c[3])),
-                 slope = c[1] + t * (2.0 * c[2] + 3.0 * t * c[3]);
-    *((q > 0.0) == (c[0] > 0.0) ? &low : &high) = t;
-    const double next = t - q / slope;
-    t = next >= low && next <= high ? next : 0.5 * (low + high);
+  /* from where the chord is 0; within bounds, which halve where a step leads out of them */
+  double low = 0.0, high = 1.0, part = cubic[0] / (cubic[0] - end);
+  for (int iteration = 0; iteration < 3; iteration++) {
+    const double value = cubic[0] + part * (cubic[1] + part * (cubic[2] + part * cubic[3])),
+                 slope = cubic[1] + part * (2.0 * cubic[2] + 3.0 * part * cubic[3]);
+    *((value > 0.0) == (cubic[0] > 0.0) ? &low : &high) = part;
+    const double next = part - value / slope;
+    part = next >= low && next <= high ? next : 0.5 * (low + high);
   }
-  return e->share * t;
+  return found->share * part;
 }
 
 /* ---- A phase */
 
-/* C and U of an eigenvalue at a time up to STEP of the faster mode, to 1e-15, by sums and products
- * alone: C is the sum of q^n/(2n)!, and U/t that of q^n/(2n + 1)!, each by its even and its odd
+/* C and U of an eigenvalue at a time t up to STEP of the faster mode, to 1e-15, by sums and products
+ * alone. With q = -lambda t^2, C is the sum of q^n/(2n)!, and U/t that of q^n/(2n + 1)!, each by its even and its odd
  * powers, which are computed at one time. */
-static void swing_of(double lambda, double t, double *C, double *U) {
-  const double q = -lambda * t * t, q2 = q * q;
+static void swing_of(double lambda, double time, double *C, double *U) {
+  const double q = -lambda * time * time, q2 = q * q;
   const double c_even = 1.0 + q2 * (1.0 / 24.0 + q2 * (1.0 / 40320.0 + q2 * (1.0 / 479001600.0)));
   const double c_odd =
       1.0 / 2.0 + q2 * (1.0 / 720.0 + q2 * (1.0 / 3628800.0 + q2 * (1.0 / 87178291200.0)));
@@ -241,230 +279,251 @@ static void swing_of(double lambda, double t, double *C, double *U) {
   const double u_odd =
       1.0 / 6.0 + q2 * (1.0 / 5040.0 + q2 * (1.0 / 39916800.0 + q2 * (1.0 / 1307674368000.0)));
   *C = c_even + q * c_odd;
-  *U = t * (u_even + q * u_odd);
+  *U = time * (u_even + q * u_odd);
 }
 
-static swing swing_by(const push_phase *f, double t) {
+static swing swing_by(const push_phase *phase, double time) {
   swing change;
-  for (int n = 0; n < 2; n++)
-    swing_of(f->lambda[n], t, &change.C[n], &change.U[n]);
+  for (int mode = 0; mode < 2; mode++)
+    swing_of(phase->lambda[mode], time, &change.C[mode], &change.U[mode]);
   return change;
 }
 
 /* At the sum of two times. */
-static swing swing_on(const push_phase *f, const swing *a, const swing *b) {
+static swing swing_on(const push_phase *phase, const swing *first, const swing *second) {
   swing sum;
-  for (int n = 0; n < 2; n++) {
-    sum.C[n] = a->C[n] * b->C[n] - f->lambda[n] * a->U[n] * b->U[n];
-    sum.U[n] = a->U[n] * b->C[n] + a->C[n] * b->U[n];
+  for (int mode = 0; mode < 2; mode++) {
+    sum.C[mode] =
+        first->C[mode] * second->C[mode] - phase->lambda[mode] * first->U[mode] * second->U[mode];
+    sum.U[mode] = first->U[mode] * second->C[mode] + first->C[mode] * second->U[mode];
   }
   return sum;
 }
 
 /* The two modes of the phase that begins. */
-static void begin_phase(const push_state *p, push_phase *f) {
-  const push_spring *tip = &p->spring[TIP], *slate = &p->spring[SLATE];
-  const double held = p->D * p->D / 3.5;
-  const double B = p->slips ? p->B : p->B - held,
-               S = p->slips ? p->S + p->mu * p->D : p->S; /* of N in x'' */
-  f->A[TIP][TIP] = B * tip->stiff;
-  f->A[TIP][SLATE] = -S * slate->stiff;
-  f->A[SLATE][TIP] = -p->S * tip->stiff;
-  f->A[SLATE][SLATE] = slate->stiff;
+static void begin_phase(const push_state *push, push_phase *phase) {
+  const push_spring *tip = &push->spring[TIP], *slate = &push->spring[SLATE];
+
+  /* A, with the friction of the foot in place: that which holds, or mu N */
+  const double held = push->D * push->D / CAROM_SPHERE_SLIP;
+  const double B = push->slips ? push->B : push->B - held,
+               S = push->slips ? push->S + push->mu * push->D : push->S; /* of N in x'' */
+  phase->A[TIP][TIP] = B * tip->stiffness;
+  phase->A[TIP][SLATE] = -S * slate->stiffness;
+  phase->A[SLATE][TIP] = -push->S * tip->stiffness;
+  phase->A[SLATE][SLATE] = slate->stiffness;
 
   /* eigenvalues: the first is the greater; a steep cue on a rough cloth wedges the ball where the
    * second is below 0 */
-  const double half = 0.5 * (f->A[0][0] - f->A[1][1]), sum = f->A[0][0] + f->A[1][1];
-  const double root = carom_greater(sqrt(half * half + f->A[0][1] * f->A[1][0]), 1e-8 * sum);
-  f->lambda[0] = 0.5 * sum + root;
-  f->lambda[1] = tip->stiff * slate->stiff * (B - p->S * S) / f->lambda[0];
-  f->quick = sqrt(f->lambda[0]);
+  const double half = 0.5 * (phase->A[0][0] - phase->A[1][1]),
+               sum = phase->A[0][0] + phase->A[1][1];
+  const double root =
+      carom_greater(sqrt(half * half + phase->A[0][1] * phase->A[1][0]), LEAST_SPLIT * sum);
+  phase->lambda[0] = 0.5 * sum + root;
+  phase->lambda[1] = tip->stiffness * slate->stiffness * (B - push->S * S) / phase->lambda[0];
+  phase->quick = sqrt(phase->lambda[0]);
 
   /* the first mode has (A - lambda_1) z / (lambda_0 - lambda_1), the second the rest */
   const double over = 0.5 / root;
-  const double y[2] = {tip->d - tip->rest, slate->d - slate->rest}, w[2] = {tip->v, slate->v};
-  for (int i = 0; i < 2; i++) {
-    f->z[0][i] = f->v[0][i] = 0.0;
-    for (int j = 0; j < 2; j++) {
-      const double share = over * (i == j ? f->A[i][j] - f->lambda[1] : f->A[i][j]);
-      f->z[0][i] += share * y[j];
-      f->v[0][i] += share * w[j];
+  const double compression[2] = {tip->compression - tip->rest, slate->compression - slate->rest},
+               rate[2] = {tip->rate, slate->rate};
+  for (int row = 0; row < 2; row++) {
+    phase->z[0][row] = phase->z_rate[0][row] = 0.0;
+    for (int column = 0; column < 2; column++) {
+      const double share =
+          over * (row == column ? phase->A[row][column] - phase->lambda[1] : phase->A[row][column]);
+      phase->z[0][row] += share * compression[column];
+      phase->z_rate[0][row] += share * rate[column];
     }
-    f->z[1][i] = y[i] - f->z[0][i];
-    f->v[1][i] = w[i] - f->v[0][i];
+    phase->z[1][row] = compression[row] - phase->z[0][row];
+    phase->z_rate[1][row] = rate[row] - phase->z_rate[0][row];
   }
 
   /* s' as a sum of x'' and y'' */
-  const double both = p->B - p->S * (p->S + p->mu * p->D);
-  f->of_tip = p->slips && both != 0.0 ? -(p->D - 3.5 * p->mu * p->S) / both : (double)0.0;
-  f->of_slate = p->slips ? f->of_tip * S + 3.5 * p->mu : (double)0.0;
+  const double both = push->B - push->S * (push->S + push->mu * push->D);
+  phase->of_tip =
+      push->slips && both != 0.0 ? -(push->D - CAROM_SPHERE_SLIP * push->mu * push->S) / both : 0.0;
+  phase->of_slate = push->slips ? phase->of_tip * S + CAROM_SPHERE_SLIP * push->mu : 0.0;
 }
 
-static void instant_at(const push_state *p, const push_phase *f, const swing *q, instant *values) {
-  double force[2], rate[2], y[2];
-  for (int i = 0; i < 2; i++) {
-    y[i] = values->v[i] = 0.0;
-    for (int n = 0; n < 2; n++) {
-      y[i] += f->z[n][i] * q->C[n] + f->v[n][i] * q->U[n];
-      values->v[i] += f->v[n][i] * q->C[n] - f->lambda[n] * f->z[n][i] * q->U[n];
+/* All values at a time of the phase, by C and U of it. */
+static void instant_at(const push_state *push, const push_phase *phase, const swing *swung,
+                       instant *values) {
+
+  /* compressions and speeds, of which each mode has a part; and the forces */
+  double force[2], rate[2], pressed[2];
+  for (int contact = 0; contact < 2; contact++) {
+    pressed[contact] = values->rate[contact] = 0.0;
+    for (int mode = 0; mode < 2; mode++) {
+      pressed[contact] +=
+          phase->z[mode][contact] * swung->C[mode] + phase->z_rate[mode][contact] * swung->U[mode];
+      values->rate[contact] += phase->z_rate[mode][contact] * swung->C[mode] -
+                               phase->lambda[mode] * phase->z[mode][contact] * swung->U[mode];
     }
-    values->d[i] = y[i] + p->spring[i].rest;
-    force[i] = p->spring[i].stiff * y[i];
-    rate[i] = p->spring[i].stiff * values->v[i];
+    values->compression[contact] = pressed[contact] + push->spring[contact].rest;
+    force[contact] = push->spring[contact].stiffness * pressed[contact];
+    rate[contact] = push->spring[contact].stiffness * values->rate[contact];
   }
-  for (int i = 0; i < 2; i++)
-    values->a[i] = -carom_plane_dot(f->A[i], y);
+  for (int contact = 0; contact < 2; contact++)
+    values->acceleration[contact] = -carom_plane_dot(phase->A[contact], pressed);
 
   /* the foot */
-  values->slip = p->slip + f->of_tip * (values->v[TIP] - p->spring[TIP].v) +
-                 f->of_slate * (values->v[SLATE] - p->spring[SLATE].v);
-  if (p->slips) {
+  values->slip = push->slip + phase->of_tip * (values->rate[TIP] - push->spring[TIP].rate) +
+                 phase->of_slate * (values->rate[SLATE] - push->spring[SLATE].rate);
+  if (push->slips) {
     values->foot = values->slip;
-    values->foot_rate = p->D * force[TIP] - 3.5 * p->mu * force[SLATE];
+    values->foot_rate = push->D * force[TIP] - CAROM_SPHERE_SLIP * push->mu * force[SLATE];
   } else {
-    values->foot = p->D / 3.5 * force[TIP] - p->mu * force[SLATE];
-    values->foot_rate = p->D / 3.5 * rate[TIP] - p->mu * rate[SLATE];
+    values->foot = push->D / CAROM_SPHERE_SLIP * force[TIP] - push->mu * force[SLATE];
+    values->foot_rate = push->D / CAROM_SPHERE_SLIP * rate[TIP] - push->mu * rate[SLATE];
   }
 }
 
 /* Which of the endings comes first within a step, or -1, and at which part of it. */
-static int first_ending(const push_state *p, const instant *start, const instant *end, double h,
-                        bool *is_unclear, double *part, ending *first) {
+static int first_ending(const push_state *push, const instant *start, const instant *end,
+                        double step, bool *is_unclear, double *part, ending *first) {
   int contact = -1;
   *part = 2.0;
   *first = (ending){0.0, 0.0, 0.0, 0.0, 1.0, 0};
-  for (int k = 0; k < ENDS; k++) {
-    ending e;
-    const bool ends = k == FOOT ? foot_ends(p, start, end, h, is_unclear, &e)
-                                : branch_ends(&p->spring[k], k, start, end, h, is_unclear, &e);
-    const double share = ends ? part_of_step(&e, h) : (double)2.0;
+  for (int candidate = 0; candidate < ENDS; candidate++) {
+    ending found;
+    const bool ends = candidate == FOOT ? foot_ends(push, start, end, step, is_unclear, &found)
+                                        : branch_ends(&push->spring[candidate], candidate, start,
+                                                      end, step, is_unclear, &found);
+    const double share = ends ? part_of_step(&found, step) : 2.0;
     if (!(share < *part))
       continue;
     *part = share;
-    *first = e;
-    contact = k;
+    *first = found;
+    contact = candidate;
   }
   return contact;
 }
 
 /* The value of an ending, and its rate. */
-static double value_of(const push_state *p, int contact, int next, const instant *values,
+static double value_of(const push_state *push, int contact, int next, const instant *values,
                        double *rate) {
   if (contact == FOOT) {
     *rate = values->foot_rate;
     return values->foot;
   }
-  const push_spring *x = &p->spring[contact];
+  const push_spring *spring = &push->spring[contact];
   if (next == UNLOADS) {
-    *rate = values->a[contact];
-    return values->v[contact];
+    *rate = values->acceleration[contact];
+    return values->rate[contact];
   }
-  *rate = values->v[contact];
+  *rate = values->rate[contact];
   double level = 0.0;
   if (next == LEAVES)
-    level = x->rest;
-  else if (x->branch == UNLOADS)
-    level = x->top;
-  return values->d[contact] - level;
+    level = spring->rest;
+  else if (spring->branch == UNLOADS)
+    level = spring->top;
+  return values->compression[contact] - level;
 }
 
-static bool held(const push_state *p) {
-  const push_spring *tip = &p->spring[TIP], *slate = &p->spring[SLATE];
-  return p->D / 3.5 * tip->stiff * (tip->d - tip->rest) <=
-         p->mu * slate->stiff * (slate->d - slate->rest);
+/* Whether the friction that the foot needs to hold is at most what it has. */
+static bool held(const push_state *push) {
+  const push_spring *tip = &push->spring[TIP], *slate = &push->spring[SLATE];
+  return push->D / CAROM_SPHERE_SLIP * tip->stiffness * (tip->compression - tip->rest) <=
+         push->mu * slate->stiffness * (slate->compression - slate->rest);
 }
 
 /* The tip touches anew. */
-static void count_touch(push_state *p) {
-  p->out->touches++;
-  if (p->out->touches == 2)
-    p->out->second = p->spring[TIP].v;
+static void count_touch(push_state *push) {
+  push->out->touches++;
+  if (push->out->touches == 2)
+    push->out->second = push->spring[TIP].rate;
 }
 
-/* Ends the phase where an ending is 0, near the time of q. */
-static void end_phase(push_state *p, const push_phase *f, swing q, double elapsed, double h,
-                      int contact, int next) {
+/* Ends the phase where an ending is 0, near the time of C and U. */
+static void end_phase(push_state *push, const push_phase *phase, swing swung, double elapsed,
+                      double step, int contact, int next) {
   instant values;
   double rate;
-  instant_at(p, f, &q, &values);
-  const double value = value_of(p, contact, next, &values, &rate);
-  double off = rate != 0.0 ? -value / rate : (double)0.0;
-  off = fabs(off) < 0.2 * h ? carom_greater(off, -elapsed) : (double)0.0;
-  const swing change = swing_by(f, off), total = swing_on(f, &q, &change);
-  p->time = p->time + elapsed + off;
-  p->stuck = elapsed + off > 1e-9 * h ? 0 : p->stuck + 1;
-  instant_at(p, f, &total, &values);
+  instant_at(push, phase, &swung, &values);
+
+  /* the exact time, by one step of Newton's method on the modes; not before the phase began */
+  const double value = value_of(push, contact, next, &values, &rate);
+  double off = rate != 0.0 ? -value / rate : 0.0;
+  off = fabs(off) < CORRECTION_MOST * step ? carom_greater(off, -elapsed) : 0.0;
+  const swing change = swing_by(phase, off), total = swing_on(phase, &swung, &change);
+  push->time = push->time + elapsed + off;
+  push->stuck = elapsed + off > NO_TIME * step ? 0 : push->stuck + 1;
+  instant_at(push, phase, &total, &values);
 
   /* the state there, and the branch that follows */
-  for (int i = 0; i < 2; i++) {
-    p->spring[i].d = values.d[i];
-    p->spring[i].v = values.v[i];
+  for (int side = 0; side < 2; side++) {
+    push->spring[side].compression = values.compression[side];
+    push->spring[side].rate = values.rate[side];
   }
-  p->slip = carom_greater(values.slip, 0.0);
-  p->out->course = p->out->course * 31U + (unsigned)(contact * 4 + next) + 1U;
-  p->lets_go = false;
+  push->slip = carom_greater(values.slip, 0.0);
+
+  /* the course, by which derivatives know whether another one is near */
+  push->out->course = push->out->course * 31U + (unsigned)(contact * 4 + next) + 1U;
+  push->lets_go = false;
   if (contact == FOOT) {
-    p->slips = !p->slips;
-    p->lets_go = p->slips;
-    p->slip = 0.0;
+    push->slips = !push->slips;
+    push->lets_go = push->slips;
+    push->slip = 0.0;
     return;
   }
-  if (p->spring[contact].branch == OPEN) {
-    p->spring[contact].d = 0.0;
+  if (push->spring[contact].branch == OPEN) {
+    push->spring[contact].compression = 0.0;
     if (contact == TIP)
-      count_touch(p);
+      count_touch(push);
   }
-  turn_to(&p->spring[contact], next);
-  p->slips = p->slips || !held(p);
+  turn_to(&push->spring[contact], next);
+  push->slips = push->slips || !held(push);
 }
 
 /* One phase, to its end. False: it takes too many steps. */
-static bool run_phase(push_state *p) {
-  push_phase f;
-  begin_phase(p, &f);
-  const double whole = STEP / f.quick;
-  double h = whole, short_steps = 1.0, done = 0.0;
+static bool run_phase(push_state *push) {
+  push_phase phase;
+  begin_phase(push, &phase);
+  const double whole = STEP / phase.quick;
+  double step = whole, short_steps = 1.0, done = 0.0;
   int finer = 0;
-  for (; finer < p->stuck - 2 && finer < FINER_MOST; finer++) {
+  for (; finer < push->stuck - 2 && finer < FINER_MOST; finer++) {
     /* where the cubic sees two endings at once, as it is not exact, shorter steps part them */
-    h = h / FINER;
+    step = step / FINER;
     short_steps = short_steps * FINER;
   }
-  swing total = {{1.0, 1.0}, {0.0, 0.0}}, change = swing_by(&f, h);
+  swing total = {{1.0, 1.0}, {0.0, 0.0}}, change = swing_by(&phase, step);
   instant start, end;
-  instant_at(p, &f, &total, &start);
-  if (p->lets_go && start.slip == 0.0)
+  instant_at(push, &phase, &total, &start);
+  if (push->lets_go && start.slip == 0.0)
     start.foot_rate = 0.0; /* as it lets go, it begins to slip without a rate */
 
-  for (int n = 0; n < STEPS_OF_PHASE; n++) {
-    const swing next = swing_on(&f, &total, &change);
-    instant_at(p, &f, &next, &end);
+  for (int count = 0; count < STEPS_OF_PHASE; count++) {
+    const swing next = swing_on(&phase, &total, &change);
+    instant_at(push, &phase, &next, &end);
     bool is_unclear = false;
     double part;
-    ending e;
-    const int contact = first_ending(p, &start, &end, h, &is_unclear, &part, &e);
+    ending found;
+    const int contact = first_ending(push, &start, &end, step, &is_unclear, &part, &found);
     if (is_unclear && finer < FINER_MOST) { /* the same once more, in shorter steps */
       short_steps = finer == 0 ? FINER : short_steps * FINER;
       finer++;
-      h = h / FINER;
-      change = swing_by(&f, h);
+      step = step / FINER;
+      change = swing_by(&phase, step);
       continue;
     }
     if (contact >= 0) { /* back from the end of the step */
-      const swing back = swing_by(&f, part * h - h);
-      end_phase(p, &f, swing_on(&f, &next, &back), done + part * h, h, contact, e.next);
+      const swing back = swing_by(&phase, part * step - step);
+      end_phase(push, &phase, swing_on(&phase, &next, &back), done + part * step, step, contact,
+                found.next);
       return true;
     }
     total = next;
     start = end;
-    done = done + h;
+    done = done + step;
 
     /* past it, in long steps again */
     short_steps -= 1.0;
     if (finer > 0 && short_steps < 0.5) {
       finer = 0;
-      h = whole;
-      change = swing_by(&f, h);
+      step = whole;
+      change = swing_by(&phase, step);
     }
   }
   return false;
@@ -473,123 +532,129 @@ static bool run_phase(push_state *p) {
 /* ---- All of it */
 
 /* The impulse of the tip so far. */
-static double impulse_of_tip(const push_state *p) {
-  const double both = p->B - p->S * p->S - p->D * p->D / 3.5;
-  return (p->V - p->spring[TIP].v - p->S * p->spring[SLATE].v - p->D / 3.5 * p->slip) / both;
+static double impulse_of_tip(const push_state *push) {
+  const double both = push->B - push->S * push->S - push->D * push->D / CAROM_SPHERE_SLIP;
+  return (push->V - push->spring[TIP].rate - push->S * push->spring[SLATE].rate -
+          push->D / CAROM_SPHERE_SLIP * push->slip) /
+         both;
 }
 
-/* How long contact i, which has no force, needs until it has one again; infinite: it has none any
+/* How long a contact that has no force needs until it has one again; infinite: it has none any
  * more. */
-static double wait_of(const push_state *p, int i) {
-  const push_spring *x = &p->spring[i];
-  if (x->branch == LEAVES)
-    return x->v > 0.0 ? (double)0.0 : (double)INFINITY;
-  if (x->branch == GONE || !(x->v > too_slow * p->V))
+static double wait_of(const push_state *push, int contact) {
+  const push_spring *spring = &push->spring[contact];
+  if (spring->branch == LEAVES)
+    return spring->rate > 0.0 ? 0.0 : INFINITY;
+  if (spring->branch == GONE || !(spring->rate > too_slow * push->V))
     return INFINITY;
-  const double wait = -x->d / x->v;
-  const double V = p->V - p->mass_ratio * impulse_of_tip(p);
-  return i == TIP && wait * V > p->follow ? (double)INFINITY : wait;
+  const double wait = -spring->compression / spring->rate;
+  const double speed = push->V - push->mass_ratio * impulse_of_tip(push);
+  return contact == TIP && wait * speed > push->follow ? INFINITY : wait;
 }
 
 /* Nothing acts: on to where a contact does. False: none will. */
-static bool fly(push_state *p) {
-  const double wait[2] = {wait_of(p, TIP), wait_of(p, SLATE)},
+static bool fly(push_state *push) {
+  const double wait[2] = {wait_of(push, TIP), wait_of(push, SLATE)},
                first = carom_lesser(wait[TIP], wait[SLATE]);
   if (!(first < INFINITY))
     return false;
-  p->time = p->time + first;
-  for (int i = 0; i < 2; i++) {
-    push_spring *x = &p->spring[i];
-    x->d += first * x->v;
-    if (x->branch == LEAVES && x->d < 0.0)
-      turn_to(x, OPEN);
+  push->time = push->time + first;
+  for (int contact = 0; contact < 2; contact++) {
+    push_spring *spring = &push->spring[contact];
+    spring->compression += first * spring->rate;
+    if (spring->branch == LEAVES && spring->compression < 0.0)
+      turn_to(spring, OPEN);
   }
-  for (int i = 0; i < 2; i++) {
-    push_spring *x = &p->spring[i];
-    if (wait[i] > first)
+  for (int contact = 0; contact < 2; contact++) {
+    push_spring *spring = &push->spring[contact];
+    if (wait[contact] > first)
       continue;
-    if (x->branch == OPEN) {
-      x->d = 0.0;
-      turn_to(x, LOADS);
-      if (i == TIP)
-        count_touch(p);
+    if (spring->branch == OPEN) {
+      spring->compression = 0.0;
+      turn_to(spring, LOADS);
+      if (contact == TIP)
+        count_touch(push);
     } else {
-      turn_to(x, UNLOADS);
+      turn_to(spring, UNLOADS);
     }
   }
-  p->slips = true;
-  p->out->course = p->out->course * 31U + 17U;
+  push->slips = true;
+  push->out->course = push->out->course * 31U + 17U;
   return true;
 }
 
 /* From the touch of the tip until nothing acts. False: that takes too long. */
-static bool push_on(push_state *p) {
-  for (int n = 0; n < PHASES_MOST; n++) {
+static bool push_on(push_state *push) {
+  for (int phases = 0; phases < PHASES_MOST; phases++) {
     /* a contact without a force at which nothing moves any more has parted */
-    for (int i = 0; i < 2; i++) {
-      push_spring *x = &p->spring[i];
-      if (x->branch == UNLOADS && p->spring[1 - i].stiff == 0.0 && x->d <= x->rest && x->v <= 0.0)
-        turn_to(x, LEAVES);
+    for (int contact = 0; contact < 2; contact++) {
+      push_spring *spring = &push->spring[contact];
+      if (spring->branch == UNLOADS && push->spring[1 - contact].stiffness == 0.0 &&
+          spring->compression <= spring->rest && spring->rate <= 0.0)
+        turn_to(spring, LEAVES);
     }
-    const bool acts = p->spring[TIP].stiff > 0.0 || p->spring[SLATE].stiff > 0.0;
-    if (acts ? !run_phase(p) : !fly(p))
+    const bool acts = push->spring[TIP].stiffness > 0.0 || push->spring[SLATE].stiffness > 0.0;
+    if (acts ? !run_phase(push) : !fly(push))
       return !acts;
   }
   return false;
 }
 
-bool carom_push_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *s,
+bool carom_push_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *state,
                       carom_raised *out) {
-  const carom_touch touch = carom_touch_slate(kind, s);
+  const carom_touch touch = carom_touch_slate(kind, state);
   const double speed = carom_strike_speed(cue, kind), over = 1.0 / speed;
-  push_state p;
-  memset(&p, 0, sizeof p);
+  push_state push;
+  memset(&push, 0, sizeof push);
   memset(out, 0, sizeof *out);
-  p.out = out;
-  p.mass_ratio = kind->mass / cue->mass;
-  p.B = 1.0 + p.mass_ratio + 2.5 * (cue->a * cue->a + cue->b * cue->b);
-  p.S = touch.closing * over;
-  p.D = touch.slip * over;
-  p.mu = kind->mu_slide;
-  p.V = cue->speed;
-  p.follow = cue->follow;
-  p.slips = true;
+  push.out = out;
+  push.mass_ratio = kind->mass / cue->mass;
+  push.B = 1.0 + push.mass_ratio + CAROM_SPHERE_TURN * (cue->a * cue->a + cue->b * cue->b);
+  push.S = touch.closing * over;
+  push.D = touch.slip * over;
+  push.mu = kind->mu_slide;
+  push.V = cue->speed;
+  push.follow = cue->follow;
+  push.slips = true;
 
   /* both contacts at their touch */
-  push_spring *tip = &p.spring[TIP], *slate = &p.spring[SLATE];
-  tip->e = carom_greater(carom_tip_of(cue), least_tip);
-  tip->k = carom_linear_stiffness(carom_tip_time(cue), tip->e) / p.B;
-  tip->v = p.V;
-  slate->e = carom_slate_under(kind);
-  slate->k = carom_linear_stiffness(CAROM_SLATE_TIME, slate->e);
-  tip->returns = p.follow > 0.0;
+  push_spring *tip = &push.spring[TIP], *slate = &push.spring[SLATE];
+  tip->restitution = carom_greater(carom_tip_of(cue), least_tip);
+  tip->loading = carom_linear_stiffness(carom_tip_time(cue), tip->restitution) / push.B;
+  tip->rate = push.V;
+  slate->restitution = carom_slate_under(kind);
+  slate->loading = carom_linear_stiffness(CAROM_SLATE_TIME, slate->restitution);
+  tip->returns = push.follow > 0.0;
   slate->returns = true;
   turn_to(tip, LOADS);
   turn_to(slate, LOADS);
   out->touches = 1;
-  if (!push_on(&p))
+  if (!push_on(&push))
     return false;
 
   /* the impulses of tip, slate and cloth */
-  const double P = impulse_of_tip(&p), Q = p.S * P - slate->v, G = (p.D * P - p.slip) / 3.5;
-  const double part = P * over;
-  out->impulse = P * kind->mass;
-  out->V = p.V - p.mass_ratio * P;
-  out->lead = tip->d - tip->v * (p.time - carom_linear_lag(carom_tip_time(cue), tip->e));
-  for (int k = 0; k < 3; k++) {
-    s->v[k] *= part;
-    s->w[k] *= part;
+  const double of_tip = impulse_of_tip(&push), of_slate = push.S * of_tip - slate->rate,
+               of_cloth = (push.D * of_tip - push.slip) / CAROM_SPHERE_SLIP;
+  const double part = of_tip * over;
+  out->impulse = of_tip * kind->mass;
+  out->V = push.V - push.mass_ratio * of_tip;
+  out->lead = tip->compression -
+              tip->rate * (push.time - carom_linear_lag(carom_tip_time(cue), tip->restitution));
+  for (int axis = 0; axis < 3; axis++) {
+    state->v[axis] *= part;
+    state->w[axis] *= part;
   }
-  carom_take_impulse(&touch, kind->radius, Q, G, s);
-  carom_leave_slate(kind, Q, s);
-  out->leaves = -slate->v;
+  carom_take_impulse(&touch, kind->radius, of_slate, of_cloth, state);
+  carom_leave_slate(kind, of_slate, state);
+  out->leaves = -slate->rate;
   return true;
 }
 
-void carom_leave_slate(const carom_ball_kind *kind, double J, carom_ball_state *s) {
-  const double e = carom_slate_restitution(kind->restitution_table);
-  const double fall = 2.5 * kind->mu_spin * J / kind->radius;
-  s->w[2] = fabs(s->w[2]) <= fall ? 0.0 : s->w[2] - copysign(fall, s->w[2]);
-  if (s->v[2] > 0.0)
-    s->v[2] = carom_rebound(s->v[2] * (e < least_e ? e / least_e : (double)1.0), 1.0);
+void carom_leave_slate(const carom_ball_kind *kind, double J, carom_ball_state *state) {
+  const double restitution = carom_slate_restitution(kind->restitution_table);
+  const double fall = CAROM_SPHERE_TURN * kind->mu_spin * J / kind->radius;
+  state->w[2] = fabs(state->w[2]) <= fall ? 0.0 : state->w[2] - copysign(fall, state->w[2]);
+  if (state->v[2] > 0.0)
+    state->v[2] =
+        carom_rebound(state->v[2] * (restitution < least_e ? restitution / least_e : 1.0), 1.0);
 }

@@ -66,6 +66,7 @@
  * A fall then ends after 130 events in the mean, and after 301 of 2,912 falls at most
  * (core/tests/physics/air.c). */
 #include "cluster/cluster.h"
+#include "motion/sphere.h"
 #include "platform/promise.h"
 #include "shot/sim.h"
 
@@ -73,6 +74,8 @@
 
 static const double slow_first = 1e-3, slow_most = 0.2; /* m/s */
 static const double slow_instants = 1500.0;
+/* Rounding, by which a little more is taken from the spin than parting adds. */
+#define ROUNDED_ENERGY 1e-15
 /* ON TOP: n_z, the s there in m/s, the bound of q, and the speed of a balanced ball, m/s */
 static const double steep = 0.7, slow_steep = 0.02, on_top = 0.05, balanced = 0.01;
 
@@ -89,159 +92,167 @@ static void count_slow(carom_sim *sim) {
   sim->slow_last = sim->time;
 }
 
-static double spin_energy(const carom_ball_kind *kind, const carom_ball_state *s) {
-  const double w2 = carom_space_dot(s->w, s->w);
-  return 0.2 * kind->mass * kind->radius * kind->radius * w2;
+static double spin_energy(const carom_ball_kind *kind, const carom_ball_state *state) {
+  const double w2 = carom_space_dot(state->w, state->w);
+  return CAROM_SPHERE_ENERGY * kind->mass * kind->radius * kind->radius * w2;
 }
 
-static void slow_spin(carom_ball_state *s, double share) {
-  for (int k = 0; k < 3; k++)
-    s->w[k] *= share;
+static void slow_spin(carom_ball_state *state, double share) {
+  for (int axis = 0; axis < 3; axis++)
+    state->w[axis] *= share;
 }
 
 /* A contact. b is NULL where it is one with a cushion. */
-typedef struct contact {
+typedef struct contact_pair {
   const carom_ball_kind *kind_a, *kind_b;
   carom_ball_state *a, *b;
-  double n[3];         /* from a to b, or into the cushion */
+  double normal[3];    /* from a to b, or into the cushion */
   bool in_space;       /* a ball flies, or the radii differ */
   double freedom;      /* phi, NEAR THE CLOTH */
   bool held_a, held_b; /* the cloth takes the vertical part of an impulse that pushes the ball
                           down */
-} contact;
+} contact_pair;
 
-/* An impulse of P along a direction, against a and on b. */
-static void push(const contact *c, double P, const double along[3]) {
-  for (int k = 0; k < 3; k++) {
-    if (!(k == 2 && c->held_a))
-      c->a->v[k] -= P / c->kind_a->mass * along[k];
-    if (c->b != NULL && !(k == 2 && c->held_b))
-      c->b->v[k] += P / c->kind_b->mass * along[k];
+/* An impulse along a direction, against a and on b. */
+static void push(const contact_pair *contact, double impulse, const double along[3]) {
+  for (int axis = 0; axis < 3; axis++) {
+    if (!(axis == 2 && contact->held_a))
+      contact->a->v[axis] -= impulse / contact->kind_a->mass * along[axis];
+    if (contact->b != NULL && !(axis == 2 && contact->held_b))
+      contact->b->v[axis] += impulse / contact->kind_b->mass * along[axis];
   }
 }
 
 /* The change of the relative velocity along an axis for a unit impulse along it. */
-static double mobility(const contact *c, int axis) {
-  const double of_a = axis == 2 && c->held_a ? 0.0 : 1.0 / c->kind_a->mass;
-  return c->b == NULL || (axis == 2 && c->held_b) ? of_a : of_a + 1.0 / c->kind_b->mass;
+static double mobility(const contact_pair *contact, int axis) {
+  const double of_a = axis == 2 && contact->held_a ? 0.0 : 1.0 / contact->kind_a->mass;
+  return contact->b == NULL || (axis == 2 && contact->held_b) ? of_a
+                                                              : of_a + 1.0 / contact->kind_b->mass;
 }
 
 /* The reduced mass along n. */
-static double reduced_mass(const contact *c) {
-  const double level = carom_plane_dot(c->n, c->n), m_a = c->kind_a->mass;
-  if (c->b == NULL)
+static double reduced_mass(const contact_pair *contact) {
+  const double level = carom_plane_dot(contact->normal, contact->normal),
+               m_a = contact->kind_a->mass;
+  if (contact->b == NULL)
     return m_a;
-  return c->held_a || c->held_b
-             ? 1.0 / (level * mobility(c, 0) + c->n[2] * c->n[2] * mobility(c, 2))
-             : m_a * c->kind_b->mass / (m_a + c->kind_b->mass);
+  return contact->held_a || contact->held_b
+             ? 1.0 / (level * mobility(contact, 0) +
+                      contact->normal[2] * contact->normal[2] * mobility(contact, 2))
+             : m_a * contact->kind_b->mass / (m_a + contact->kind_b->mass);
 }
 
 /* The motion of a and b past each other, which an impulse along n does not change: u = v_a - v_b
  * - closing m W n, with the mobilities W and m = 1/(n.W n). Returns its energy, u.u/W / 2. */
-static double passing(const contact *c, double m, double closing, double u[3]) {
+static double passing(const contact_pair *contact, double m, double closing, double u[3]) {
   double energy = 0.0;
-  for (int k = 0; k < 3; k++) {
-    const double W = mobility(c, k);
-    u[k] = c->a->v[k] - (c->b != NULL ? c->b->v[k] : 0.0) - closing * m * W * c->n[k];
-    energy += 0.5 * u[k] * u[k] / W;
+  for (int axis = 0; axis < 3; axis++) {
+    const double W = mobility(contact, axis);
+    u[axis] = contact->a->v[axis] - (contact->b != NULL ? contact->b->v[axis] : 0.0) -
+              closing * m * W * contact->normal[axis];
+    energy += 0.5 * u[axis] * u[axis] / W;
   }
   return energy;
 }
 
-/* The speed at which a slow contact parts, `s` or less; takes the energy that it needs more from
+/* The speed at which a slow contact parts, `slow` or less; takes the energy that it needs more from
  * the spins and, in space, in the same proportion from the motion past each other. `m`: the
  * reduced mass along n. */
-static double part_slowly(const contact *c, double s, double m, double closing) {
+static double part_slowly(const contact_pair *contact, double slow, double m, double closing) {
   double u[3] = {0.0};
-  const double spin = spin_energy(c->kind_a, c->a) +
-                      (c->b != NULL ? spin_energy(c->kind_b, c->b) : 0.0) +
-                      (c->in_space ? c->freedom * passing(c, m, closing, u) : 0.0);
-  const double lost = fmin(0.5 * m * (s * s - closing * closing), 0.5 * spin);
+  const double spin =
+      spin_energy(contact->kind_a, contact->a) +
+      (contact->b != NULL ? spin_energy(contact->kind_b, contact->b) : 0.0) +
+      (contact->in_space ? contact->freedom * passing(contact, m, closing, u) : 0.0);
+  const double lost = fmin(0.5 * m * (slow * slow - closing * closing), 0.5 * spin);
   if (!(lost > 0.0))
     return fmax(closing, 0.0);
 
   /* the same share of all spins and of the motion past each other */
-  const double share = sqrt(1.0 - lost / spin) * (1.0 - 1e-15);
+  const double share = sqrt(1.0 - lost / spin) * (1.0 - ROUNDED_ENERGY);
   CAROM_PROMISE(!(share < 0.5 || share > 1.0));
-  slow_spin(c->a, share);
-  if (c->b != NULL)
-    slow_spin(c->b, share);
-  if (c->in_space) {
-    const double of_all = sqrt(1.0 - c->freedom * (1.0 - share * share));
-    for (int k = 0; k < 3; k++)
-      u[k] /= mobility(c, k);
-    push(c, 1.0 - (c->freedom < 1.0 ? of_all : share), u);
+  slow_spin(contact->a, share);
+  if (contact->b != NULL)
+    slow_spin(contact->b, share);
+  if (contact->in_space) {
+    const double of_all = sqrt(1.0 - contact->freedom * (1.0 - share * share));
+    for (int axis = 0; axis < 3; axis++)
+      u[axis] /= mobility(contact, axis);
+    push(contact, 1.0 - (contact->freedom < 1.0 ? of_all : share), u);
   }
   return sqrt(closing * closing + 2.0 * lost / m);
 }
 
 /* A contact that closes slowly, or that its model has left closing. */
-static void resolve_slowly(const contact *c, double slow, double closing) {
-  const double m = reduced_mass(c), q2 = carom_plane_dot(c->n, c->n);
-  double parting = closing < slow ? part_slowly(c, slow, m, closing) : slow;
-  if ((c->held_a || c->held_b) && q2 < on_top * on_top)
+static void resolve_slowly(const contact_pair *contact, double slow, double closing) {
+  const double m = reduced_mass(contact), q2 = carom_plane_dot(contact->normal, contact->normal);
+  double parting = closing < slow ? part_slowly(contact, slow, m, closing) : slow;
+  if ((contact->held_a || contact->held_b) && q2 < on_top * on_top)
     parting = carom_greater(parting, balanced);
   const double change = closing + parting;
-  if (c->b != NULL)
-    push(c, m * change, c->n);
+  if (contact->b != NULL)
+    push(contact, m * change, contact->normal);
   else
-    for (int k = 0; k < 3; k++)
-      c->a->v[k] -= change * c->n[k];
+    for (int axis = 0; axis < 3; axis++)
+      contact->a->v[axis] -= change * contact->normal[axis];
 }
 
 /* ON TOP: the least part of the motion that goes aside. Returns whether it was less. Apart, for the
  * stack of derivatives. */
-__attribute__((noinline, cold)) static bool part_aside(const contact *c, double slow) {
-  const double q2 = carom_plane_dot(c->n, c->n), q = q2 > 0.0 ? sqrt(q2) : 0.0;
+__attribute__((noinline, cold)) static bool part_aside(const contact_pair *contact, double slow) {
+  const double q2 = carom_plane_dot(contact->normal, contact->normal),
+               q = q2 > 0.0 ? sqrt(q2) : 0.0;
   if (!(q < on_top))
     return false;
 
   /* the upper ball seen from the lower one: how fast it moves away from the axis, and up */
-  const double up = c->n[2] > 0.0 ? 1.0 : -1.0, z[3] = {0.0, 0.0, 1.0};
-  const double h[3] = {q > 0.0 ? up * c->n[0] / q : up, q > 0.0 ? up * c->n[1] / q : 0.0, 0.0};
-  const double aside = -up * carom_closing(c->a, c->b, h),
-               rise = -up * carom_closing(c->a, c->b, z);
+  const double up = contact->normal[2] > 0.0 ? 1.0 : -1.0, upward[3] = {0.0, 0.0, 1.0};
+  const double outward[3] = {q > 0.0 ? up * contact->normal[0] / q : up,
+                             q > 0.0 ? up * contact->normal[1] / q : 0.0, 0.0};
+  const double aside = -up * carom_closing(contact->a, contact->b, outward),
+               rise = -up * carom_closing(contact->a, contact->b, upward);
   const double least = (1.0 - q / on_top) * (rise > slow ? slow / rise : 1.0);
   if (!(fabs(aside) < least * rise))
     return false;
 
   /* impulses aside and up change energy each by itself: aside = least rise, and its sum stays */
-  const double level = 1.0 / mobility(c, 0), upright = 1.0 / mobility(c, 2);
+  const double level = 1.0 / mobility(contact, 0), upright = 1.0 / mobility(contact, 2);
   const double energy = level * aside * aside + upright * rise * rise;
-  const double risen = sqrt(energy / (level * least * least + upright)) * (1.0 - 1e-15);
-  push(c, up * level * (least * risen - aside), h);
-  push(c, up * upright * (risen - rise), z);
+  const double risen = sqrt(energy / (level * least * least + upright)) * (1.0 - ROUNDED_ENERGY);
+  push(contact, up * level * (least * risen - aside), outward);
+  push(contact, up * upright * (risen - rise), upward);
   return true;
 }
 
 /* The phase after a contact. One in space may have lifted the ball or pushed it down. */
-void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_state *s) {
+void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_state *state) {
   if (!in_space) {
-    carom_label_of(s, kind->radius);
+    carom_label_of(state, kind->radius);
     return;
   }
-  if (!carom_flies(s))
-    s->r[2] = kind->radius;
-  carom_label_in_space(s, kind->radius);
+  if (!carom_flies(state))
+    state->r[2] = kind->radius;
+  carom_label_in_space(state, kind->radius);
 }
 
 void carom_into_nose(const carom_table *table, const double line[3], double reference,
                      const carom_ball_kind *kind, const carom_due *pending_event,
-                     const carom_ball_state *s, double N[3]) {
-  const double *r = s->r;
+                     const carom_ball_state *state, double N[3]) {
+  const double *centre = state->r;
   double out[2], across, height; /* the horizontal direction from the nose to the centre; the
                                     distance from the wall */
   if (pending_event->type == CAROM_EVENT_RAIL) {
     out[0] = line[0];
     out[1] = line[1];
-    across = carom_plane_dot(line, r) + line[2];
+    across = carom_plane_dot(line, centre) + line[2];
     height = table->rail[pending_event->b].height;
   } else {
     const carom_jaw *jaw = &table->jaw[pending_event->b];
-    const double x = r[0] - jaw->centre[0], y = r[1] - jaw->centre[1], q = sqrt(x * x + y * y);
-    out[0] = q > 0.0 ? x / q : 0.0;
-    out[1] = q > 0.0 ? y / q : 0.0;
-    across = q - jaw->radius;
+    const double x = centre[0] - jaw->centre[0], y = centre[1] - jaw->centre[1],
+                 distance = sqrt(x * x + y * y);
+    out[0] = distance > 0.0 ? x / distance : 0.0;
+    out[1] = distance > 0.0 ? y / distance : 0.0;
+    across = distance - jaw->radius;
     height = jaw->height;
   }
 
@@ -249,18 +260,18 @@ void carom_into_nose(const carom_table *table, const double line[3], double refe
   N[0] = -out[0];
   N[1] = -out[1];
   N[2] = 0.0;
-  if (!carom_flies(s))
+  if (!carom_flies(state))
     return;
-  const double h = carom_nose_height(kind, height), up = r[2] - h;
-  across -= carom_nose_shift(h, reference);
+  const double nose = carom_nose_height(kind, height), up = centre[2] - nose;
+  across -= carom_nose_shift(nose, reference);
   const double size = sqrt(across * across + up * up);
   N[0] = -across / size * out[0];
   N[1] = -across / size * out[1];
   N[2] = -up / size;
 }
 
-double carom_height_on_top(const carom_sim *sim, int i, int part) {
-  const carom_ball_kind *kind = sim->layout->kind[i];
+double carom_height_on_top(const carom_sim *sim, int ball, int part) {
+  const carom_ball_kind *kind = sim->layout->kind[ball];
   const int jaw = part - sim->features->rails;
   return carom_nose_height(kind,
                            jaw < 0 ? sim->table->rail[part].height : sim->table->jaw[jaw].height) +
@@ -268,68 +279,72 @@ double carom_height_on_top(const carom_sim *sim, int i, int part) {
 }
 
 void carom_contact_normal(const carom_sim *sim, const carom_due *pending_event,
-                          const carom_ball_state *a, const carom_ball_state *b, double n[3]) {
+                          const carom_ball_state *a, const carom_ball_state *b, double normal[3]) {
   if (b != NULL)
     carom_line_of_centres(sim->layout->kind[pending_event->a], a,
-                          sim->layout->kind[pending_event->b], b, n);
+                          sim->layout->kind[pending_event->b], b, normal);
   else
     carom_into_nose(
         sim->table,
         sim->features->line[pending_event->type == CAROM_EVENT_RAIL ? pending_event->b : 0],
-        sim->features->reference, sim->layout->kind[pending_event->a], pending_event, a, n);
+        sim->features->reference, sim->layout->kind[pending_event->a], pending_event, a, normal);
 }
 
-double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const double n[3]) {
+double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const double normal[3]) {
   double closing = 0.0;
-  for (int k = 0; k < 3; k++)
-    closing += (a->v[k] - (b != NULL ? b->v[k] : 0.0)) * n[k];
+  for (int axis = 0; axis < 3; axis++)
+    closing += (a->v[axis] - (b != NULL ? b->v[axis] : 0.0)) * normal[axis];
   return closing;
 }
 
 /* Which things touch, along which line, and what the cloth holds. */
 static void find_contact(const carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
-                         carom_ball_state *b, contact *c) {
-  *c = (contact){.kind_a = sim->layout->kind[pending_event->a], .a = a, .b = b};
-  c->in_space = carom_flies(a);
-  carom_contact_normal(sim, pending_event, a, b, c->n);
-  CAROM_PROMISE(!(fabs(carom_space_dot(c->n, c->n) - 1.0) > 1e-9));
+                         carom_ball_state *b, contact_pair *contact) {
+  *contact = (contact_pair){.kind_a = sim->layout->kind[pending_event->a], .a = a, .b = b};
+  contact->in_space = carom_flies(a);
+  carom_contact_normal(sim, pending_event, a, b, contact->normal);
+  CAROM_PROMISE(!(fabs(carom_space_dot(contact->normal, contact->normal) - 1.0) > 1e-9));
   if (b == NULL) {
-    c->freedom = c->in_space
-                     ? carom_lesser(carom_freedom_of_height(a->r[2] - c->kind_a->radius), 1.0)
-                     : (double)0.0;
+    contact->freedom =
+        contact->in_space
+            ? carom_lesser(carom_freedom_of_height(a->r[2] - contact->kind_a->radius), 1.0)
+            : 0.0;
     return;
   }
-  c->kind_b = sim->layout->kind[pending_event->b];
-  c->in_space = c->in_space || carom_flies(b) || c->kind_a->radius != c->kind_b->radius;
-  c->freedom = carom_freedom_of_pair(sim, pending_event, c->n, a, b);
-  c->held_a = c->in_space && !carom_flies(a) && c->n[2] > 0.0;
-  c->held_b = c->in_space && !carom_flies(b) && c->n[2] < 0.0;
+  contact->kind_b = sim->layout->kind[pending_event->b];
+  contact->in_space =
+      contact->in_space || carom_flies(b) || contact->kind_a->radius != contact->kind_b->radius;
+  contact->freedom = carom_freedom_of_pair(sim, pending_event, contact->normal, a, b);
+  contact->held_a = contact->in_space && !carom_flies(a) && contact->normal[2] > 0.0;
+  contact->held_b = contact->in_space && !carom_flies(b) && contact->normal[2] < 0.0;
 }
 
 /* The motion by the model, which leaves what the cloth holds to the slate. *closing becomes how
  * fast a ball still moves into a cushion. */
-static carom_status take_model(const carom_sim *sim, const carom_due *pending_event, contact *c,
-                               double *closing) {
-  c->held_a = c->held_b = false;
-  if (c->b != NULL) {
+static carom_status take_model(const carom_sim *sim, const carom_due *pending_event,
+                               contact_pair *contact, double *closing) {
+  contact->held_a = contact->held_b = false;
+  if (contact->b != NULL) {
     *closing = 0.0;
-    return carom_model_balls(sim, pending_event, c->n, c->in_space, c->a, c->b);
+    return carom_model_balls(sim, pending_event, contact->normal, contact->in_space, contact->a,
+                             contact->b);
   }
-  const carom_status status = carom_model_cushion(sim, pending_event, c->n, c->a);
-  *closing = carom_closing(c->a, NULL, c->n);
+  const carom_status status = carom_model_cushion(sim, pending_event, contact->normal, contact->a);
+  *closing = carom_closing(contact->a, NULL, contact->normal);
   return status;
 }
 
-static bool has_finite_motion(const carom_ball_state *s) {
-  return carom_is_finite(s->v) && carom_is_finite(s->w);
+static bool has_finite_motion(const carom_ball_state *state) {
+  return carom_is_finite(state->v) && carom_is_finite(state->w);
 }
 
 carom_status carom_resolve(carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
                            carom_ball_state *b) {
-  contact c;
-  find_contact(sim, pending_event, a, b, &c);
-  const bool above = b != NULL && fabs(c.n[2]) > steep;
-  const double usual = carom_slow_speed(sim->slow_instants), speed = carom_closing(a, b, c.n),
+  contact_pair contact;
+  find_contact(sim, pending_event, a, b, &contact);
+  const bool above = b != NULL && fabs(contact.normal[2]) > steep;
+  const double usual = carom_slow_speed(sim->slow_instants),
+               speed = carom_closing(a, b, contact.normal),
                slow = above ? carom_greater(usual, slow_steep) : usual;
 
   /* by the model, or slowly; a ball that the model leaves moving into a cushion parts slowly, as
@@ -337,18 +352,18 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *pending_event, carom
   carom_status status = CAROM_OK;
   double closing = speed;
   if (speed >= slow)
-    status = take_model(sim, pending_event, &c, &closing);
+    status = take_model(sim, pending_event, &contact, &closing);
   if (speed < slow || closing > 0.0) {
     count_slow(sim);
-    resolve_slowly(&c, slow, closing);
+    resolve_slowly(&contact, slow, closing);
   }
-  if (above && part_aside(&c, slow))
+  if (above && part_aside(&contact, slow))
     count_slow(sim);
 
   /* the phases that follow */
-  carom_label_after(c.in_space, c.kind_a, a);
+  carom_label_after(contact.in_space, contact.kind_a, a);
   if (b != NULL)
-    carom_label_after(c.in_space, c.kind_b, b);
+    carom_label_after(contact.in_space, contact.kind_b, b);
   if (status < 0)
     return status;
   const bool good = has_finite_motion(a) && (b == NULL || has_finite_motion(b));

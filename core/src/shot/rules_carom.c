@@ -22,7 +22,7 @@ static const double equal_speeds = 1e-9; /* relative */
 /* How fast the contact closes, m/s. */
 static double closing_speed(const carom_sim *sim, const carom_due *pending_event) {
   carom_ball_state a, b;
-  double n[3];
+  double normal[3];
   carom_path_at(&sim->path[pending_event->a], &sim->rates[pending_event->a], pending_event->time,
                 &a);
   if (pending_event->type == CAROM_EVENT_SLATE || pending_event->type == CAROM_EVENT_RAIL_TOP)
@@ -34,8 +34,8 @@ static double closing_speed(const carom_sim *sim, const carom_due *pending_event
   const carom_ball_state *partner = NULL;
   if (two)
     partner = &b;
-  carom_contact_normal(sim, pending_event, &a, partner, n);
-  return carom_closing(&a, partner, n);
+  carom_contact_normal(sim, pending_event, &a, partner, normal);
+  return carom_closing(&a, partner, normal);
 }
 
 static int rank(int type) {
@@ -56,46 +56,46 @@ static int rank(int type) {
 static carom_due choose(const carom_sim *sim, const carom_due *pending_events, int count) {
   int best = 0;
   double speed = -1.0; /* of the best, where it is a contact and had to be compared */
-  for (int k = 1; k < count; k++) {
-    const int order = rank(pending_events[k].type) - rank(pending_events[best].type);
-    if (order > 0 || (order == 0 && rank(pending_events[k].type) < 2))
+  for (int index = 1; index < count; index++) {
+    const int order = rank(pending_events[index].type) - rank(pending_events[best].type);
+    if (order > 0 || (order == 0 && rank(pending_events[index].type) < 2))
       continue;
     if (order == 0) {
       if (speed < 0.0)
         speed = closing_speed(sim, &pending_events[best]);
-      const double candidate = closing_speed(sim, &pending_events[k]);
+      const double candidate = closing_speed(sim, &pending_events[index]);
       if (!(candidate > speed * (1.0 + equal_speeds)))
         continue;
       speed = candidate;
     } else {
       speed = -1.0;
     }
-    best = k;
+    best = index;
   }
   return pending_events[best];
 }
 
 /* ---- Contacts */
 
-static int touch_rail(const double g[3], double T, double times[2]) {
-  if (g[0] < -CAROM_BEHIND) { /* coming out of the cushion's back and falling onto it is the only
+static int touch_rail(const double gap[3], double horizon, double times[2]) {
+  if (gap[0] < -CAROM_BEHIND) { /* coming out of the cushion's back and falling onto it is the only
                                  way */
-    const double D = g[1] * g[1] - 4.0 * g[2] * g[0];
+    const double discriminant = gap[1] * gap[1] - 4.0 * gap[2] * gap[0];
     times[0] = INFINITY;
-    if (g[2] < 0.0 && D > 0.0 && g[1] > 0.0)
-      times[0] = (-g[1] - sqrt(D)) / (2.0 * g[2]);
+    if (gap[2] < 0.0 && discriminant > 0.0 && gap[1] > 0.0)
+      times[0] = (-gap[1] - sqrt(discriminant)) / (2.0 * gap[2]);
   } else {
-    times[0] = carom_first_touch(g, CAROM_SLACK, T);
+    times[0] = carom_first_touch(gap, CAROM_SLACK, horizon);
   }
-  return times[0] <= T;
+  return times[0] <= horizon;
 }
 
 /* A ball in a pocket's circle is there by rounding, at an event on the circle: a layout has none
  * in there. */
-static double enter_pocket(const carom_separation *d, double radius, double T) {
-  if (carom_plane_dot(d->d0, d->d0) <= radius * radius)
+static double enter_pocket(const carom_separation *separation, double radius, double horizon) {
+  if (carom_plane_dot(separation->d0, separation->d0) <= radius * radius)
     return 0.0;
-  return carom_first_crossing(d, radius, T);
+  return carom_first_crossing(separation, radius, horizon);
 }
 
 static const carom_rules rules = {

@@ -26,16 +26,20 @@
 /* s: pooltool's EPS; earlier zeros are no contact with a rail */
 static const double root_least = 2.220446049250313e-14;
 static const double spacer = 1e-6, longest = 5e-6; /* m */
+/* Balls keep touching where their normal velocities, m/s, differ by less than this, and the cosine
+ * of their directions is above that; this part of the faster one passes over. */
+static const double keeps_touching = 0.01, nearly_parallel = 0.9, passed_over = 0.1;
+static const double nearly_real = 1e-3; /* imaginary part of a zero, of its real part */
 
 /* ---- ORDER */
 
-static double energy_of(const carom_sim *sim, int i) {
-  const carom_ball_kind *k = sim->layout->kind[i];
-  carom_ball_state s;
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &s);
-  const double v2 = carom_space_dot(s.v, s.v), w2 = carom_space_dot(s.w, s.w);
-  return 0.5 * k->mass * v2 + 0.5 * 0.4 * k->mass * k->radius * k->radius * w2 +
-         k->mass * k->gravity * (s.r[2] - k->radius);
+static double energy_of(const carom_sim *sim, int ball) {
+  const carom_ball_kind *kind = sim->layout->kind[ball];
+  carom_ball_state state;
+  carom_path_at(&sim->path[ball], &sim->rates[ball], sim->time, &state);
+  const double v2 = carom_space_dot(state.v, state.v), w2 = carom_space_dot(state.w, state.w);
+  return 0.5 * kind->mass * v2 + 0.5 * 0.4 * kind->mass * kind->radius * kind->radius * w2 +
+         kind->mass * kind->gravity * (state.r[2] - kind->radius);
 }
 
 static double energy_of_event(const carom_sim *sim, const carom_due *pending_event) {
@@ -77,39 +81,40 @@ static int round_of(const carom_sim *sim, const carom_due *pending_event) {
 
 static carom_due choose(const carom_sim *sim, const carom_due *pending_events, int count) {
   const carom_due *of_kind[5] = {NULL}, *best = NULL;
-  for (int k = 0; k < count; k++) {
-    const carom_due **leader = &of_kind[kind_of(pending_events[k].type)];
-    if (*leader == NULL || round_of(sim, &pending_events[k]) < round_of(sim, *leader))
-      *leader = &pending_events[k];
+  for (int index = 0; index < count; index++) {
+    const carom_due **leader = &of_kind[kind_of(pending_events[index].type)];
+    if (*leader == NULL || round_of(sim, &pending_events[index]) < round_of(sim, *leader))
+      *leader = &pending_events[index];
   }
-  for (int k = 0; k < 5; k++) {
-    if (of_kind[k] == NULL)
+  for (int index = 0; index < 5; index++) {
+    if (of_kind[index] == NULL)
       continue;
     int tiers = -1;
     if (best != NULL)
-      tiers = tier_of(k) - tier_of(kind_of(best->type));
-    if (tiers < 0 || (tiers == 0 && energy_of_event(sim, of_kind[k]) > energy_of_event(sim, best)))
-      best = of_kind[k];
+      tiers = tier_of(index) - tier_of(kind_of(best->type));
+    if (tiers < 0 ||
+        (tiers == 0 && energy_of_event(sim, of_kind[index]) > energy_of_event(sim, best)))
+      best = of_kind[index];
   }
   return *best;
 }
 
 /* ---- ZEROS */
 
-static int touch_rail(const double g[3], double T, double times[2]) {
+static int touch_rail(const double gap[3], double horizon, double times[2]) {
   double zero[2];
-  const int zeros = carom_quadratic_zeros(g[2], g[1], g[0], zero);
+  const int zeros = carom_quadratic_zeros(gap[2], gap[1], gap[0], zero);
   int count = 0;
-  for (int z = 0; z < zeros; z++)
-    if (zero[z] > root_least && zero[z] <= T)
-      times[count++] = zero[z];
+  for (int index = 0; index < zeros; index++)
+    if (zero[index] > root_least && zero[index] <= horizon)
+      times[count++] = zero[index];
   return count;
 }
 
-static double touch_ball(const carom_separation *d, double reach, double T) {
-  if (carom_plane_dot(d->d0, d->d0) < reach * reach)
+static double touch_ball(const carom_separation *separation, double reach, double horizon) {
+  if (carom_plane_dot(separation->d0, separation->d0) < reach * reach)
     return 0.0;
-  return carom_first_crossing(d, reach, T);
+  return carom_first_crossing(separation, reach, horizon);
 }
 
 /* ---- CONTACTS */
@@ -121,7 +126,7 @@ static double nearest_zero(double a, double b, double c) {
   const int zeros = carom_quadratic_zeros(a, b, c, zero);
   if (zeros == 0) {
     const double real = -b / (2.0 * a), imaginary = sqrt(4.0 * a * c - b * b) / (2.0 * a);
-    if (fabs(imaginary) < 1e-3 * fabs(real))
+    if (fabs(imaginary) < nearly_real * fabs(real))
       return real;
     return NAN;
   }
@@ -130,133 +135,137 @@ static double nearest_zero(double a, double b, double c) {
   return zero[0];
 }
 
-/* Two balls, set apart; n becomes the direction from a to b. False where pooltool has no answer. */
-static bool kiss_balls(double R, double n[2], carom_ball_state *a, carom_ball_state *b) {
-  const double reach = 2.0 * R + spacer;
+/* Two balls, set apart; the normal becomes the direction from a to b. False where pooltool has no answer. */
+static bool kiss_balls(double radius, double normal[2], carom_ball_state *a, carom_ball_state *b) {
+  const double reach = 2.0 * radius + spacer;
   const double x = b->r[0] - a->r[0], y = b->r[1] - a->r[1], v_x = b->v[0] - a->v[0],
                v_y = b->v[1] - a->v[1];
-  const double t =
+  const double time =
       nearest_zero(v_x * v_x + v_y * v_y, 2.0 * (x * v_x + y * v_y), x * x + y * y - reach * reach);
-  if (isnan(t))
+  if (isnan(time))
     return false;
-  const double m_x = 0.5 * t * (a->v[0] + b->v[0]), m_y = 0.5 * t * (a->v[1] + b->v[1]);
+  const double m_x = 0.5 * time * (a->v[0] + b->v[0]), m_y = 0.5 * time * (a->v[1] + b->v[1]);
   const double apart = sqrt(x * x + y * y), half = 0.5 * (reach - apart) / apart;
   const bool along = sqrt(m_x * m_x + m_y * m_y) <= longest;
   if (along) {
-    a->r[0] += t * a->v[0];
-    a->r[1] += t * a->v[1];
-    b->r[0] += t * b->v[0];
-    b->r[1] += t * b->v[1];
+    a->r[0] += time * a->v[0];
+    a->r[1] += time * a->v[1];
+    b->r[0] += time * b->v[0];
+    b->r[1] += time * b->v[1];
   } else {
     a->r[0] -= half * x;
     a->r[1] -= half * y;
     b->r[0] += half * x;
     b->r[1] += half * y;
   }
-  n[0] = b->r[0] - a->r[0];
-  n[1] = b->r[1] - a->r[1];
-  const double size = carom_plane_size(n);
-  n[0] /= size;
-  n[1] /= size;
+  normal[0] = b->r[0] - a->r[0];
+  normal[1] = b->r[1] - a->r[1];
+  const double size = carom_plane_size(normal);
+  normal[0] /= size;
+  normal[1] /= size;
   return true;
 }
 
 /* See above. n from a to b. */
-static void keep_touching(const double n[2], carom_ball_state *a, carom_ball_state *b) {
+static void keep_touching(const double normal[2], carom_ball_state *a, carom_ball_state *b) {
   const double speed_a = carom_plane_size(a->v), speed_b = carom_plane_size(b->v);
   if (!(speed_a > 0.0 && speed_b > 0.0))
     return;
-  const double p = carom_plane_dot(a->v, n), q = carom_plane_dot(b->v, n);
-  if (!(fabs(q - p) < 0.01) || !(carom_plane_dot(a->v, b->v) / (speed_a * speed_b) > 0.9))
+  const double normal_a = carom_plane_dot(a->v, normal), normal_b = carom_plane_dot(b->v, normal);
+  if (!(fabs(normal_b - normal_a) < keeps_touching) ||
+      !(carom_plane_dot(a->v, b->v) / (speed_a * speed_b) > nearly_parallel))
     return;
-  double passed = -0.1 * q;
-  if (p > q)
-    passed = 0.1 * p;
-  for (int k = 0; k < 2; k++) {
-    a->v[k] -= passed * n[k];
-    b->v[k] += passed * n[k];
+  double passed = -passed_over * normal_b;
+  if (normal_a > normal_b)
+    passed = passed_over * normal_a;
+  for (int axis = 0; axis < 2; axis++) {
+    a->v[axis] -= passed * normal[axis];
+    b->v[axis] += passed * normal[axis];
   }
 }
 
-/* Sets the ball at the spacer's distance from a rail; n becomes the direction into it. */
-static void kiss_rail(const carom_rail *rail, const double line[3], double R, double n[2],
-                      carom_ball_state *s) {
-  const double reach = R + spacer;
+/* Sets the ball at the spacer's distance from a rail; the normal becomes the direction into it. */
+static void kiss_rail(const carom_rail *rail, const double line[3], double radius, double normal[2],
+                      carom_ball_state *state) {
+  const double reach = radius + spacer;
   double turn = -1.0;
-  if (carom_plane_dot(line, s->v) > 0.0)
+  if (carom_plane_dot(line, state->v) > 0.0)
     turn = 1.0;
-  n[0] = turn * line[0];
-  n[1] = turn * line[1];
-  const double d = (s->r[0] - rail->p[0]) * n[0] + (s->r[1] - rail->p[1]) * n[1],
-               v = carom_plane_dot(s->v, n);
-  const double t1 = (reach - d) / v;
-  double t = (-reach - d) / v;
-  if (fabs(t1) < fabs(t))
-    t = t1;
-  const double speed = carom_plane_size(s->v);
-  if (fabs(t) * speed <= longest) {
-    s->r[0] += t * s->v[0];
-    s->r[1] += t * s->v[1];
+  normal[0] = turn * line[0];
+  normal[1] = turn * line[1];
+  const double distance =
+                   (state->r[0] - rail->p[0]) * normal[0] + (state->r[1] - rail->p[1]) * normal[1],
+               closing = carom_plane_dot(state->v, normal);
+  const double front = (reach - distance) / closing;
+  double time = (-reach - distance) / closing;
+  if (fabs(front) < fabs(time))
+    time = front;
+  const double speed = carom_plane_size(state->v);
+  if (fabs(time) * speed <= longest) {
+    state->r[0] += time * state->v[0];
+    state->r[1] += time * state->v[1];
   } else {
-    double more = -reach - d;
-    if (d > 0.0)
-      more = reach - d;
-    s->r[0] += more * n[0];
-    s->r[1] += more * n[1];
+    double more = -reach - distance;
+    if (distance > 0.0)
+      more = reach - distance;
+    state->r[0] += more * normal[0];
+    state->r[1] += more * normal[1];
   }
 }
 
-static bool kiss_jaw(const carom_jaw *jaw, double R, double n[2], carom_ball_state *s) {
-  const double reach = R + jaw->radius + spacer;
-  const double x = s->r[0] - jaw->centre[0], y = s->r[1] - jaw->centre[1],
-               v2 = carom_plane_dot(s->v, s->v);
-  const double t =
-      nearest_zero(v2, 2.0 * (x * s->v[0] + y * s->v[1]), x * x + y * y - reach * reach);
-  if (isnan(t))
+static bool kiss_jaw(const carom_jaw *jaw, double radius, double normal[2],
+                     carom_ball_state *state) {
+  const double reach = radius + jaw->radius + spacer;
+  const double x = state->r[0] - jaw->centre[0], y = state->r[1] - jaw->centre[1],
+               square = carom_plane_dot(state->v, state->v);
+  const double time = nearest_zero(square, 2.0 * (x * state->v[0] + y * state->v[1]),
+                                   x * x + y * y - reach * reach);
+  if (isnan(time))
     return false;
-  if (fabs(t) * sqrt(v2) <= longest) {
-    s->r[0] += t * s->v[0];
-    s->r[1] += t * s->v[1];
+  if (fabs(time) * sqrt(square) <= longest) {
+    state->r[0] += time * state->v[0];
+    state->r[1] += time * state->v[1];
   } else {
     const double size = sqrt(x * x + y * y);
-    s->r[0] = jaw->centre[0] + reach * x / size;
-    s->r[1] = jaw->centre[1] + reach * y / size;
+    state->r[0] = jaw->centre[0] + reach * x / size;
+    state->r[1] = jaw->centre[1] + reach * y / size;
   }
-  n[0] = jaw->centre[0] - s->r[0];
-  n[1] = jaw->centre[1] - s->r[1];
+  normal[0] = jaw->centre[0] - state->r[0];
+  normal[1] = jaw->centre[1] - state->r[1];
   return true;
 }
 
-static bool kiss_cushion(const carom_sim *sim, const carom_due *pending_event, double n[2],
-                         carom_ball_state *s) {
-  const double R = sim->rates[pending_event->a].radius;
+static bool kiss_cushion(const carom_sim *sim, const carom_due *pending_event, double normal[2],
+                         carom_ball_state *state) {
+  const double radius = sim->rates[pending_event->a].radius;
   if (pending_event->type == CAROM_EVENT_JAW)
-    return kiss_jaw(&sim->table->jaw[pending_event->b], R, n, s);
-  kiss_rail(&sim->table->rail[pending_event->b], sim->features->line[pending_event->b], R, n, s);
+    return kiss_jaw(&sim->table->jaw[pending_event->b], radius, normal, state);
+  kiss_rail(&sim->table->rail[pending_event->b], sim->features->line[pending_event->b], radius,
+            normal, state);
   return true;
 }
 
 static carom_status resolve(carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
                             carom_ball_state *b) {
-  double n[3] = {0.0};
+  double normal[3] = {0.0};
   bool kissed;
   if (b != NULL)
-    kissed = kiss_balls(sim->rates[pending_event->a].radius, n, a, b);
+    kissed = kiss_balls(sim->rates[pending_event->a].radius, normal, a, b);
   else
-    kissed = kiss_cushion(sim, pending_event, n, a);
+    kissed = kiss_cushion(sim, pending_event, normal, a);
   if (!kissed)
     return CAROM_ERROR_UNRESOLVED;
   carom_status status;
   if (b != NULL)
-    status = carom_model_balls(sim, pending_event, n, false, a, b);
+    status = carom_model_balls(sim, pending_event, normal, false, a, b);
   else
-    status = carom_model_cushion(sim, pending_event, n, a);
+    status = carom_model_cushion(sim, pending_event, normal, a);
   a->label = CAROM_BALL_SLIDING;
   if (status < 0)
     return status;
   if (b == NULL)
     return CAROM_OK;
-  keep_touching(n, a, b);
+  keep_touching(normal, a, b);
   b->label = CAROM_BALL_SLIDING;
   return CAROM_OK;
 }

@@ -56,19 +56,19 @@ static double impulse_of(const carom_sim *sim, const carom_event *event) {
  * path->from. */
 static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
                             const carom_event *event) {
-  const int i = pending_event->a, j = pending_event->b;
-  carom_ball_state *state = &sim->path[i].from;
+  const int ball = pending_event->a, partner = pending_event->b;
+  carom_ball_state *state = &sim->path[ball].from;
   switch (pending_event->type) {
   case CAROM_EVENT_BALL_BALL:
     *state = event->before[0];
-    sim->path[j].from = event->before[1];
-    return sim->rules->resolve(sim, pending_event, state, &sim->path[j].from);
+    sim->path[partner].from = event->before[1];
+    return sim->rules->resolve(sim, pending_event, state, &sim->path[partner].from);
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW:
     *state = event->before[0];
     return sim->rules->resolve(sim, pending_event, state, NULL);
   case CAROM_EVENT_POCKET: {
-    const carom_pocket *pocket = &sim->table->pocket[j];
+    const carom_pocket *pocket = &sim->table->pocket[partner];
     *state = (carom_ball_state){.r = {pocket->centre[0], pocket->centre[1], -pocket->depth},
                                 .label = CAROM_BALL_POCKETED};
     return CAROM_OK;
@@ -76,47 +76,48 @@ static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
   case CAROM_EVENT_SLATE:
   case CAROM_EVENT_RAIL_TOP:
     *state = event->before[0];
-    carom_hit_slate(sim->layout->kind[i], state);
-    carom_label_after(true, sim->layout->kind[i], state);
+    carom_hit_slate(sim->layout->kind[ball], state);
+    carom_label_after(true, sim->layout->kind[ball], state);
     return CAROM_OK;
   case CAROM_EVENT_LEFT_TABLE:
     *state = (carom_ball_state){.label = CAROM_BALL_OFF};
     memcpy(state->r, event->before[0].r, sizeof state->r);
     return CAROM_OK;
   default: /* the end of a phase */
-    carom_path_end(&sim->path[i], &sim->rates[i], state);
+    carom_path_end(&sim->path[ball], &sim->rates[ball], state);
     return CAROM_OK;
   }
 }
 
 /* A cluster that hands on places may move a ball on the cloth beyond a nose that it had not
  * reached: it stays at the nose, whose impact then follows. */
-static void stay_before_noses(const carom_sim *sim, int i, const carom_ball_state *before,
-                              carom_ball_state *s) {
-  const carom_features *f = sim->features;
-  const carom_ball_kind *kind = sim->layout->kind[i];
-  if (carom_flies(s) || (s->r[0] == before->r[0] && s->r[1] == before->r[1]))
+static void stay_before_noses(const carom_sim *sim, int ball, const carom_ball_state *before,
+                              carom_ball_state *state) {
+  const carom_features *features = sim->features;
+  const carom_ball_kind *kind = sim->layout->kind[ball];
+  if (carom_flies(state) || (state->r[0] == before->r[0] && state->r[1] == before->r[1]))
     return;
-  for (int k = 0; k < f->rails; k++) {
-    const double *n = f->line[k], *along = f->along[k];
-    const double reach = carom_reach_on_cloth(kind, sim->table->rail[k].height, f->reference);
-    const double gap = carom_plane_dot(n, s->r) + n[2] - reach;
-    const double was = carom_plane_dot(n, before->r) + n[2] - reach;
-    const double place = carom_plane_dot(along, s->r) + along[2];
+  for (int index = 0; index < features->rails; index++) {
+    const double *line = features->line[index], *along = features->along[index];
+    const double reach =
+        carom_reach_on_cloth(kind, sim->table->rail[index].height, features->reference);
+    const double gap = carom_plane_dot(line, state->r) + line[2] - reach;
+    const double was = carom_plane_dot(line, before->r) + line[2] - reach;
+    const double place = carom_plane_dot(along, state->r) + along[2];
     if (gap < 0.0 && was >= -CAROM_BEHIND && place >= 0.0 && place <= 1.0) {
-      s->r[0] -= gap * n[0];
-      s->r[1] -= gap * n[1];
+      state->r[0] -= gap * line[0];
+      state->r[1] -= gap * line[1];
     }
   }
-  for (int k = 0; k < f->jaws; k++) {
-    const carom_jaw *jaw = &sim->table->jaw[k];
-    const double reach = jaw->radius + carom_reach_on_cloth(kind, jaw->height, f->reference);
-    const double x = s->r[0] - jaw->centre[0], y = s->r[1] - jaw->centre[1];
+  for (int index = 0; index < features->jaws; index++) {
+    const carom_jaw *jaw = &sim->table->jaw[index];
+    const double reach = jaw->radius + carom_reach_on_cloth(kind, jaw->height, features->reference);
+    const double x = state->r[0] - jaw->centre[0], y = state->r[1] - jaw->centre[1];
     const double distance = sqrt(x * x + y * y);
     const double from_x = before->r[0] - jaw->centre[0], from_y = before->r[1] - jaw->centre[1];
     if (distance < reach && sqrt(from_x * from_x + from_y * from_y) >= reach - CAROM_BEHIND) {
-      s->r[0] = jaw->centre[0] + x * (reach / distance);
-      s->r[1] = jaw->centre[1] + y * (reach / distance);
+      state->r[0] = jaw->centre[0] + x * (reach / distance);
+      state->r[1] = jaw->centre[1] + y * (reach / distance);
     }
   }
 }
@@ -124,15 +125,15 @@ static void stay_before_noses(const carom_sim *sim, int i, const carom_ball_stat
 /* Each contact of a cluster is an event. A ball changes at its first one, unless it is among
  * changed[], and has the same state before and after the others. *pending_event becomes the first
  * contact of the struck ball, where it has one. */
-static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
+static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *cluster,
                                   const uint8_t order[], int count, bool changed[],
                                   carom_due *pending_event) {
   carom_status status = CAROM_OK;
   const int struck = sim->struck;
-  for (int k = 0; k < count; k++) {
+  for (int index = 0; index < count; index++) {
     /* one contact as an event of its own; balls stand in the caller's order */
-    const carom_cluster_contact_state *x = &c->contact[order[k]];
-    const carom_cluster_ball *two[2] = {&c->ball[x->i], &c->ball[x->j]};
+    const carom_cluster_contact_state *touching = &cluster->contact[order[index]];
+    const carom_cluster_ball *two[2] = {&cluster->ball[touching->i], &cluster->ball[touching->j]};
     const carom_due contact = {sim->time, CAROM_EVENT_BALL_BALL, two[0]->index, two[1]->index};
     CAROM_PROMISE(contact.a < contact.b);
     /* whether the shot stops is asked for the first contact of the struck ball */
@@ -141,27 +142,27 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
       *pending_event = contact;
 
     carom_event spare, *event = note(sim, &spare, &contact);
-    event->cluster = count + c->struck; /* the strike is one of them */
-    event->impulse = carom_cluster_size_of_impulse(x);
+    event->cluster = count + cluster->struck; /* the strike is one of them */
+    event->impulse = carom_cluster_size_of_impulse(touching);
     for (int side = 0; side < 2; side++) {
-      const int i = two[side]->index;
-      carom_path *path = &sim->path[i];
+      const int ball = two[side]->index;
+      carom_path *path = &sim->path[ball];
       /* a ball changes once: before a further contact it is as after its first */
-      if (changed[i]) {
+      if (changed[ball]) {
         event->before[side] = path->from;
       } else {
-        changed[i] = true;
-        carom_path_at(path, &sim->rates[i], sim->time, &event->before[side]);
+        changed[ball] = true;
+        carom_path_at(path, &sim->rates[ball], sim->time, &event->before[side]);
         path->from = event->before[side];
-        carom_cluster_rest(sim, c, (int)(two[side] - c->ball), &path->from);
-        carom_label_after(c->in_space, sim->layout->kind[i], &path->from);
-        stay_before_noses(sim, i, &event->before[side], &path->from);
+        carom_cluster_rest(sim, cluster, (int)(two[side] - cluster->ball), &path->from);
+        carom_label_after(cluster->in_space, sim->layout->kind[ball], &path->from);
+        stay_before_noses(sim, ball, &event->before[side], &path->from);
         /* a motion that overflows is not taken: the shot ends there */
         if (!carom_is_finite(path->from.v) || !carom_is_finite(path->from.w)) {
           status = CAROM_ERROR_OVERFLOW;
           path->from = event->before[side];
         }
-        carom_path_begin(path, &sim->rates[i], sim->time);
+        carom_path_begin(path, &sim->rates[ball], sim->time);
       }
       event->after[side] = path->from;
     }
@@ -181,15 +182,15 @@ static carom_status unresolved(carom_sim *sim) {
 __attribute__((noinline, cold)) static bool step_cluster(carom_sim *sim, carom_due *pending_event,
                                                          carom_in_turn *turn, int *count,
                                                          carom_status *status) {
-  carom_cluster_state c;
+  carom_cluster_state cluster;
   uint8_t order[CAROM_CLUSTER_CONTACTS];
-  *count = carom_cluster_now(sim, pending_event->a, pending_event->b, turn, &c, order);
+  *count = carom_cluster_now(sim, pending_event->a, pending_event->b, turn, &cluster, order);
   if (*count == CAROM_TAKE_IN_TURN)
     return false;
   if (*count <= 0)
     return true;
   bool changed[CAROM_BALLS_MOST] = {false};
-  *status = note_contacts(sim, &c, order, *count, changed, pending_event);
+  *status = note_contacts(sim, &cluster, order, *count, changed, pending_event);
   return true;
 }
 
@@ -224,12 +225,12 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
                                                  double most, bool slate, push_kind kind,
                                                  carom_due *contact, carom_status *status) {
   carom_sim *sim = &play->sim;
-  carom_cluster_state c;
+  carom_cluster_state cluster;
   carom_cluster_slate slates[CAROM_CLUSTER_BALLS];
   uint8_t order[CAROM_CLUSTER_CONTACTS];
-  c.slate = slates;
-  const int count = carom_cluster_strike(sim, cue, most, slate, &c, order), i = sim->struck;
-  if (kind == PUSH_AGAIN && c.tip.first < CAROM_LEAST_TOUCH)
+  cluster.slate = slates;
+  const int count = carom_cluster_strike(sim, cue, most, slate, &cluster, order), i = sim->struck;
+  if (kind == PUSH_AGAIN && cluster.tip.first < CAROM_LEAST_TOUCH)
     return false;
   if (count < 0) {
     *status = unresolved(sim);
@@ -243,12 +244,12 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   carom_ball_state *state = &sim->path[i].from;
   carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &event->before[0]);
   *state = event->before[0];
-  carom_facts_push(sim, &c, order, count);
-  carom_cluster_rest(sim, &c, c.tip.ball, state);
-  carom_label_after(c.in_space, sim->layout->kind[i], state);
+  carom_facts_push(sim, &cluster, order, count);
+  carom_cluster_rest(sim, &cluster, cluster.tip.ball, state);
+  carom_label_after(cluster.in_space, sim->layout->kind[i], state);
   stay_before_noses(sim, i, &event->before[0], state);
   event->after[0] = *state;
-  event->impulse = c.tip.impulse;
+  event->impulse = cluster.tip.impulse;
   if (count > 0)
     event->cluster = count + 1;
   memset(&event->after[1], 0, sizeof event->after[1]);
@@ -264,11 +265,11 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   *contact = (carom_due){sim->time, CAROM_DUE_NOTHING, -1, -1};
   if (count > 0)
     contact->type = CAROM_EVENT_BALL_BALL;
-  const carom_status of_contacts = note_contacts(sim, &c, order, count, changed, contact);
+  const carom_status of_contacts = note_contacts(sim, &cluster, order, count, changed, contact);
   if (*status == CAROM_OK)
     *status = of_contacts;
   /* a tip that is gone stands still */
-  carom_follow_on(play, c.tip.gone ? (double)0.0 : c.tip.V, carom_cluster_tip_lead(&c));
+  carom_follow_on(play, cluster.tip.gone ? 0.0 : cluster.tip.V, carom_cluster_tip_lead(&cluster));
   return true;
 }
 
@@ -284,45 +285,46 @@ static carom_status step(carom_sim *sim, carom_due *pending_event) {
   if (may_last(sim, pending_event) && step_together(sim, pending_event, &together))
     return together;
   carom_event spare, *event = note(sim, &spare, pending_event);
-  const int i = pending_event->a;
-  int j = -1;
+  const int ball = pending_event->a;
+  int partner = -1;
   if (pending_event->type == CAROM_EVENT_BALL_BALL)
-    j = pending_event->b;
-  CAROM_PROMISE(i >= 0 && i < sim->count && (j < 0 || (i < j && j < sim->count)));
+    partner = pending_event->b;
+  CAROM_PROMISE(ball >= 0 && ball < sim->count &&
+                (partner < 0 || (ball < partner && partner < sim->count)));
 
   /* the states of its balls where it happens */
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &event->before[0]);
+  carom_path_at(&sim->path[ball], &sim->rates[ball], sim->time, &event->before[0]);
   if (pending_event->type == CAROM_EVENT_SLATE)
-    carom_path_land(&sim->path[i], &sim->rates[i], sim->time, &event->before[0]);
+    carom_path_land(&sim->path[ball], &sim->rates[ball], sim->time, &event->before[0]);
   else if (pending_event->type == CAROM_EVENT_RAIL_TOP) /* exactly on it */
-    event->before[0].r[2] = carom_height_on_top(sim, i, pending_event->b);
-  if (j >= 0)
-    carom_path_at(&sim->path[j], &sim->rates[j], sim->time, &event->before[1]);
+    event->before[0].r[2] = carom_height_on_top(sim, ball, pending_event->b);
+  if (partner >= 0)
+    carom_path_at(&sim->path[partner], &sim->rates[partner], sim->time, &event->before[1]);
 
   /* the states after it, on their paths; an error leaves those before it */
   const carom_status status = resolve(sim, pending_event, event);
   if (status < 0) {
-    sim->path[i].from = event->before[0];
-    if (j >= 0)
-      sim->path[j].from = event->before[1];
+    sim->path[ball].from = event->before[0];
+    if (partner >= 0)
+      sim->path[partner].from = event->before[1];
   }
 
   /* what the caller keeps of it */
   if (event != &spare) {
-    event->after[0] = sim->path[i].from;
-    if (j >= 0)
-      event->after[1] = sim->path[j].from;
+    event->after[0] = sim->path[ball].from;
+    if (partner >= 0)
+      event->after[1] = sim->path[partner].from;
     else
       memset(&event->after[1], 0, sizeof event->after[1]);
     event->impulse = impulse_of(sim, event);
   }
 
   /* the paths from here on, and what is met on them */
-  carom_path_begin(&sim->path[i], &sim->rates[i], sim->time);
-  if (j >= 0)
-    carom_path_begin(&sim->path[j], &sim->rates[j], sim->time);
+  carom_path_begin(&sim->path[ball], &sim->rates[ball], sim->time);
+  if (partner >= 0)
+    carom_path_begin(&sim->path[partner], &sim->rates[partner], sim->time);
   if (status >= 0)
-    carom_detect(sim, i, j);
+    carom_detect(sim, ball, partner);
   return status;
 }
 
@@ -330,8 +332,8 @@ static carom_status step(carom_sim *sim, carom_due *pending_event) {
 static bool may_strike(const carom_sim *sim) {
   if (sim->cue == NULL || !(sim->cue->speed > 0.0))
     return false;
-  for (int i = 0; i < sim->count; i++) {
-    const int64_t label = sim->path[i].from.label;
+  for (int ball = 0; ball < sim->count; ball++) {
+    const int64_t label = sim->path[ball].from.label;
     if (label != CAROM_BALL_STATIONARY && !carom_is_out(label))
       return false;
   }
@@ -350,14 +352,14 @@ static carom_strike_kind strike_kind_of(const carom_sim *sim) {
 /* The strike of a ball that meets no other meanwhile, which has the motion `alone` after it. */
 static void note_strike(carom_sim *sim, const carom_ball_state *alone, const carom_raised *raised,
                         bool in_space, bool is_push) {
-  const int i = sim->struck;
-  const carom_due strike_event = {0.0, CAROM_EVENT_STRIKE, i, -1};
+  const int ball = sim->struck;
+  const carom_due strike_event = {0.0, CAROM_EVENT_STRIKE, ball, -1};
   carom_event spare, *event = note(sim, &spare, &strike_event);
-  carom_ball_state *state = &sim->path[i].from;
+  carom_ball_state *state = &sim->path[ball].from;
   carom_facts_touches(sim, raised->touches, sim->cue->speed, raised->second);
   event->before[0] = *state;
   *state = *alone;
-  carom_label_after(in_space, sim->layout->kind[i], state);
+  carom_label_after(in_space, sim->layout->kind[ball], state);
   if (sim->rules->contacts_slide)
     state->label = CAROM_BALL_SLIDING;
   event->after[0] = *state;
@@ -365,7 +367,7 @@ static void note_strike(carom_sim *sim, const carom_ball_state *alone, const car
   event->impulse = impulse_of(sim, event);
   if (is_push)
     event->impulse = raised->impulse;
-  carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
+  carom_path_begin(&sim->path[ball], &sim->rates[ball], 0.0);
 }
 
 /* The strike, if the cue strikes. *contact becomes a contact of its push. */
@@ -374,14 +376,14 @@ static carom_status strike(carom_play *play, carom_due *contact) {
   if (!may_strike(sim))
     return CAROM_OK;
   const carom_cue *cue = sim->cue;
-  const int i = (int)cue->ball;
-  const carom_ball_kind *kind = sim->layout->kind[i];
+  const int ball = (int)cue->ball;
+  const carom_ball_kind *kind = sim->layout->kind[ball];
   carom_motion motion;
   const carom_status status = carom_strike_motion(cue, kind, strike_kind_of(sim), &motion);
   if (status < 0)
     return status;
   carom_facts_frozen(sim);
-  memcpy(play->follow.origin, sim->path[i].from.r, sizeof play->follow.origin);
+  memcpy(play->follow.origin, sim->path[ball].from.r, sizeof play->follow.origin);
   play->follow.along = 0.0;
 
   /* together with the balls that the struck ball meets while the cue pushes */
@@ -394,7 +396,7 @@ static carom_status strike(carom_play *play, carom_due *contact) {
 
   /* alone: a level strike has a closed form, a raised one presses the ball on the slate, unless
    * the strike takes no time */
-  carom_ball_state alone = sim->path[i].from;
+  carom_ball_state alone = sim->path[ball].from;
   carom_raised raised = {.touches = 1};
   raised.lead = cue->speed * carom_linear_lag(carom_tip_time(cue), carom_tip_of(cue));
   raised.V = cue->speed - kind->mass / cue->mass * carom_strike_speed(cue, kind);
@@ -541,8 +543,8 @@ static carom_status go_on(carom_play *play) {
 static carom_status finish(carom_play *play, carom_status status) {
   carom_sim *sim = &play->sim;
   carom_shot *shot = sim->shot;
-  for (int i = 0; shot->final != NULL && i < sim->count; i++)
-    carom_path_at(&sim->path[i], &sim->rates[i], shot->time, &shot->final[i]);
+  for (int ball = 0; shot->final != NULL && ball < sim->count; ball++)
+    carom_path_at(&sim->path[ball], &sim->rates[ball], shot->time, &shot->final[ball]);
 
   /* a shot that a bound has cut off goes on with a greater one */
   const bool goes_on =
@@ -572,8 +574,8 @@ static carom_status start(carom_play *play) {
 }
 
 /* A shot from its strike, or on from shot->state. */
-__attribute__((noinline)) static carom_status shoot(const carom_prepared *p, const carom_cue *cue,
-                                                    carom_shot *shot, bool anew) {
+__attribute__((noinline)) static carom_status
+shoot(const carom_prepared *prepared, const carom_cue *cue, carom_shot *shot, bool anew) {
   carom_play play;
   carom_sim *sim = &play.sim;
   if (!anew)
@@ -582,25 +584,25 @@ __attribute__((noinline)) static carom_status shoot(const carom_prepared *p, con
     memset(&play, 0, sizeof play);
 
   /* what belongs to this call */
-  sim->rules = carom_rules_of(p->opt->world);
-  sim->table = p->table;
-  sim->features = p->features;
-  sim->layout = p;
-  sim->opt = p->opt;
+  sim->rules = carom_rules_of(prepared->opt->world);
+  sim->table = prepared->table;
+  sim->features = prepared->features;
+  sim->layout = prepared;
+  sim->opt = prepared->opt;
   sim->cue = cue;
   sim->shot = shot;
-  shot->slope_x = p->table->slope_x;
-  shot->slope_y = p->table->slope_y;
+  shot->slope_x = prepared->table->slope_x;
+  shot->slope_y = prepared->table->slope_y;
 
   /* what belongs to the shot: as it begins, or as it was kept */
   carom_status status = CAROM_OK;
   if (anew) {
-    sim->count = p->count;
+    sim->count = prepared->count;
     /* a cue of speed 0 is not read, and may name any ball */
     sim->struck = 0;
-    if (cue != NULL && cue->ball >= 0 && cue->ball < p->count)
+    if (cue != NULL && cue->ball >= 0 && cue->ball < prepared->count)
       sim->struck = (int)cue->ball;
-    sim->world = p->opt->world;
+    sim->world = prepared->opt->world;
     sim->has_hit = sim->turned = false;
     sim->time = 0.0;
     sim->round = 0;
@@ -612,7 +614,7 @@ __attribute__((noinline)) static carom_status shoot(const carom_prepared *p, con
     begin(sim);
     status = start(&play);
   } else {
-    status = carom_state_check(&play, shot->state, p->count);
+    status = carom_state_check(&play, shot->state, prepared->count);
     if (status != CAROM_OK)
       return status;
     sim->cue = &play.follow.cue;
@@ -625,11 +627,12 @@ __attribute__((noinline)) static carom_status shoot(const carom_prepared *p, con
 
 /* The same for a caller who does not want the facts that belong to the state. This is a function of
  * its own so that other shots do not need its stack. */
-__attribute__((noinline, cold)) static carom_status
-shoot_with_facts(const carom_prepared *p, const carom_cue *cue, carom_shot *shot, bool anew) {
+__attribute__((noinline, cold)) static carom_status shoot_with_facts(const carom_prepared *prepared,
+                                                                     const carom_cue *cue,
+                                                                     carom_shot *shot, bool anew) {
   carom_facts facts;
   carom_facts_begin(shot->facts = &facts);
-  const carom_status status = shoot(p, cue, shot, anew);
+  const carom_status status = shoot(prepared, cue, shot, anew);
   shot->facts = NULL;
   return status;
 }
@@ -644,20 +647,21 @@ static void clear(carom_shot *shot) {
     carom_facts_begin(shot->facts);
 }
 
-carom_status carom_shoot_prepared(const carom_prepared *p, const carom_cue *cue, carom_shot *shot) {
+carom_status carom_shoot_prepared(const carom_prepared *prepared, const carom_cue *cue,
+                                  carom_shot *shot) {
   clear(shot);
-  const carom_status status = carom_check_strike(p, cue);
+  const carom_status status = carom_check_strike(prepared, cue);
   if (status != CAROM_OK)
     return status;
   if (shot->state != NULL && shot->facts == NULL)
-    return shoot_with_facts(p, cue, shot, true);
-  return shoot(p, cue, shot, true);
+    return shoot_with_facts(prepared, cue, shot, true);
+  return shoot(prepared, cue, shot, true);
 }
 
 carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count,
                          const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
   carom_features features;
-  carom_prepared p;
+  carom_prepared prepared;
   int where;
   if (table == NULL || balls == NULL || shot == NULL)
     return CAROM_ERROR_NULL;
@@ -665,29 +669,31 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
   if (status != CAROM_OK)
     return status;
   clear(shot);
-  status = carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &p, &where);
+  status =
+      carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &prepared, &where);
   if (status != CAROM_OK)
     return status;
-  return carom_shoot_prepared(&p, cue, shot);
+  return carom_shoot_prepared(&prepared, cue, shot);
 }
 
 carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
                                  const carom_shot_options *opt, carom_shot *shot) {
   carom_features features;
-  carom_prepared p;
+  carom_prepared prepared;
   int where;
   if (table == NULL || balls == NULL || shot == NULL || shot->state == NULL)
     return CAROM_ERROR_NULL;
   carom_status status = carom_check_room(shot);
   if (status == CAROM_OK)
-    status = carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &p, &where);
+    status = carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &prepared,
+                           &where);
   if (status != CAROM_OK)
     return status;
   if (shot->count < 0 || !(shot->time >= 0.0 && shot->time < INFINITY))
     return CAROM_ERROR_STATE;
   if (shot->facts == NULL)
-    return shoot_with_facts(&p, NULL, shot, false);
-  return shoot(&p, NULL, shot, false);
+    return shoot_with_facts(&prepared, NULL, shot, false);
+  return shoot(&prepared, NULL, shot, false);
 }
 
 /* ---- Many */
@@ -708,18 +714,18 @@ static void no_layout(const carom_shot_job *job, checked *last) {
   last->layout.state[0] = NULL;
 }
 
-static carom_status shoot_row(const carom_shot_job *job, size_t k, checked *last) {
+static carom_status shoot_row(const carom_shot_job *job, size_t row, checked *last) {
   const carom_cue *cue = NULL;
   if (job->cues != NULL)
-    cue = job->cues + k * job->cue_stride;
-  carom_shot *shot = &job->shots[k];
+    cue = job->cues + row * job->cue_stride;
+  carom_shot *shot = &job->shots[row];
   const carom_status status = carom_check_room(shot);
   if (status != CAROM_OK)
     return status;
   /* a layout that is the last one is not checked again */
   int where;
   const carom_ball_state *states = last->layout.state[0];
-  carom_take_row(&last->layout, job, k);
+  carom_take_row(&last->layout, job, row);
   if (last->layout.state[0] != states)
     last->status = carom_prepare_row(&last->layout, &last->features, &where);
   if (last->status == CAROM_OK)
@@ -733,12 +739,12 @@ static size_t shoot_rows(const void *context, size_t first, size_t end) {
   size_t first_bad = end;
   checked last; /* shared by rows with one layout; its features by those with one radius */
   no_layout(job, &last);
-  for (size_t k = first; k < end; k++) {
-    const carom_status status = shoot_row(job, k, &last);
+  for (size_t index = first; index < end; index++) {
+    const carom_status status = shoot_row(job, index, &last);
     if (job->status != NULL)
-      job->status[k] = (int8_t)status;
+      job->status[index] = (int8_t)status;
     if (status < 0 && first_bad == end)
-      first_bad = k;
+      first_bad = index;
   }
   return first_bad;
 }

@@ -24,22 +24,23 @@ carom_status carom_check_common(const carom_table *table, int64_t count,
                                 const carom_shot_options *opt, int *where);
 /* what a job needs beside them; */
 carom_status carom_check_job(const carom_shot_job *job);
-/* one layout on the table and with the options of p, for which this prepares *features, unless
+/* one layout on the table and with the same options, for which this prepares *features, unless
  * they are for its radii; */
-carom_status carom_prepare_row(carom_prepared *p, carom_features *features, int *where);
+carom_status carom_prepare_row(carom_prepared *prepared, carom_features *features, int *where);
 /* all of it. *where becomes the index of the part or the ball at fault, or -1. */
 carom_status carom_prepare(const carom_table *table, const carom_shot_ball *balls, int64_t count,
                            const carom_shot_options *opt, carom_features *features,
-                           carom_prepared *p, int *where);
+                           carom_prepared *prepared, int *where);
 /* The cue of a prepared layout; NULL: none. */
-carom_status carom_check_strike(const carom_prepared *p, const carom_cue *cue);
+carom_status carom_check_strike(const carom_prepared *prepared, const carom_cue *cue);
 /* Whether all balls are at rest or out of play, but one (-1: none). */
-bool carom_is_at_rest(const carom_prepared *p, int but);
+bool carom_is_at_rest(const carom_prepared *prepared, int but);
 /* Takes balls, which are not checked yet: those of an array, or of shot k of a job. */
-void carom_take_balls(carom_prepared *p, const carom_shot_ball *balls, int64_t count);
-void carom_take_row(carom_prepared *p, const carom_shot_job *job, size_t k);
+void carom_take_balls(carom_prepared *prepared, const carom_shot_ball *balls, int64_t count);
+void carom_take_row(carom_prepared *prepared, const carom_shot_job *job, size_t row);
 /* shoot.c: carom_shoot() with a prepared layout. */
-carom_status carom_shoot_prepared(const carom_prepared *p, const carom_cue *cue, carom_shot *shot);
+carom_status carom_shoot_prepared(const carom_prepared *prepared, const carom_cue *cue,
+                                  carom_shot *shot);
 
 /* How many balls or parts of the table an event's b may be one of; INT64_MAX: it is none. */
 static inline int64_t carom_others_of(const carom_table *table, int count, int type) {
@@ -79,18 +80,18 @@ static inline int64_t carom_events_kept(const carom_shot *shot) {
 
 /* The models of a shot, where 0 is that of its world. A cushion that was measured goes with the
  * balls that have its numbers. */
-static inline carom_ball_model carom_ball_model_of(const carom_shot_options *o) {
-  if (o->ball_model != CAROM_BALL_MODEL_DEFAULT)
-    return o->ball_model;
-  if (o->world == CAROM_WORLD_POOLTOOL)
+static inline carom_ball_model carom_ball_model_of(const carom_shot_options *options) {
+  if (options->ball_model != CAROM_BALL_MODEL_DEFAULT)
+    return options->ball_model;
+  if (options->world == CAROM_WORLD_POOLTOOL)
     return CAROM_BALL_MODEL_INELASTIC;
   return CAROM_BALL_MODEL_EXACT;
 }
-static inline carom_cushion_model carom_cushion_model_of(const carom_shot_options *o,
+static inline carom_cushion_model carom_cushion_model_of(const carom_shot_options *options,
                                                          const carom_ball_kind *kind) {
-  if (o->cushion_model != CAROM_SHOT_CUSHION_DEFAULT)
-    return (carom_cushion_model)((int)o->cushion_model - 1);
-  if (o->world == CAROM_WORLD_POOLTOOL)
+  if (options->cushion_model != CAROM_SHOT_CUSHION_DEFAULT)
+    return (carom_cushion_model)((int)options->cushion_model - 1);
+  if (options->world == CAROM_WORLD_POOLTOOL)
     return CAROM_CUSHION_STRONGE;
   return kind->smooth_q > 0 ? CAROM_CUSHION_SMOOTH : CAROM_CUSHION_HAN;
 }
@@ -101,7 +102,7 @@ static inline double carom_slate_restitution(double value) {
   return value >= 0.0 ? carom_or_usual(value, CAROM_USUAL_RESTITUTION_TABLE) : 0.0;
 }
 /* The speed at which a ball that falls at v_n on the slate leaves it, for a restitution e. */
-double carom_rebound(double v_n, double e);
+double carom_rebound(double v_n, double restitution);
 /* The ball, with v[2] < 0, falls on the slate or the top of a rail, at the height at which it
  * is. Its label does not change. */
 void carom_hit_slate(const carom_ball_kind *kind, carom_ball_state *state);

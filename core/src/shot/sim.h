@@ -93,16 +93,16 @@ static inline bool carom_in_space(const carom_sim *sim) {
   return sim->flying > 0 || sim->unlike;
 }
 
-/* resolve.c: the height of ball i's centre on the top of rail `part`, or of jaw `part` less the
+/* resolve.c: the height of a ball's centre on the top of rail `part`, or of jaw `part` less the
  * rails. */
-double carom_height_on_top(const carom_sim *sim, int i, int part);
-/* flight.c: the first meeting of airborne ball i with the table, from r with v now, its time
+double carom_height_on_top(const carom_sim *sim, int ball, int part);
+/* flight.c: the first meeting of an airborne ball with the table, from r with v now, its time
  * from now on; landing: the time until it would land. */
-carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3],
+carom_meeting carom_meet_in_flight(const carom_sim *sim, int ball, const double r[3],
                                    const double v[3], double landing);
 
-/* detect.c: looks again for all that balls i and j can meet, from now on; j may be -1. */
-void carom_detect(carom_sim *sim, int i, int j);
+/* detect.c: looks again for all that two balls can meet, from now on; `partner` may be -1. */
+void carom_detect(carom_sim *sim, int ball, int partner);
 /* The same for all balls, at the start. */
 void carom_detect_all(carom_sim *sim);
 /* Takes what follows from the kinds of the balls. */
@@ -133,12 +133,12 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *pending_event, carom
  * a ball on the cloth. reference: the radius that the table is meant for. */
 void carom_into_nose(const carom_table *table, const double line[3], double reference,
                      const carom_ball_kind *kind, const carom_due *pending_event,
-                     const carom_ball_state *s, double N[3]);
+                     const carom_ball_state *state, double N[3]);
 /* The unit vector from ball a to ball b, or into the cushion; and how fast the two close along
  * it, m/s. */
 void carom_contact_normal(const carom_sim *sim, const carom_due *pending_event,
-                          const carom_ball_state *a, const carom_ball_state *b, double n[3]);
-double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const double n[3]);
+                          const carom_ball_state *a, const carom_ball_state *b, double normal[3]);
+double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const double normal[3]);
 /* The speed below which contacts are slow, after so many instants that had one. */
 double carom_slow_speed(int64_t instants);
 
@@ -148,27 +148,28 @@ typedef struct carom_nose {
   double mu_cushion, restitution;
 } carom_nose;
 
-/* models.c: v and w after a collision by the model asked for. n: unit vector from ball i to ball
- * j, or into the cushion. Balls `in_space` are not both on the cloth, or have unlike radii: they
+/* models.c: v and w after a collision by the model asked for. normal: unit vector from the first ball to
+ * the second one, or into the cushion. Balls `in_space` are not both on the cloth, or have unlike radii: they
  * collide the more as spheres the higher they are and the more n is tilted; an airborne ball meets
  * a nose with less of the cloth the higher it is. */
 carom_status carom_model_balls(const carom_sim *sim, const carom_due *pending_event,
-                               const double n[3], bool in_space, carom_ball_state *a,
+                               const double normal[3], bool in_space, carom_ball_state *a,
                                carom_ball_state *b);
 /* How free of the cloth a contact of two balls is, phi of cluster/cluster.h. */
 double carom_freedom_of_pair(const carom_sim *sim, const carom_due *pending_event,
-                             const double n[3], const carom_ball_state *a,
+                             const double normal[3], const carom_ball_state *a,
                              const carom_ball_state *b);
 carom_status carom_model_cushion(const carom_sim *sim, const carom_due *pending_event,
-                                 const double n[3], carom_ball_state *state);
+                                 const double normal[3], carom_ball_state *state);
 /* The unit vector from ball a to ball b, in space. A ball on the cloth is at z = R exactly. */
 void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a,
-                           const carom_ball_kind *kind_b, const carom_ball_state *b, double n[3]);
+                           const carom_ball_kind *kind_b, const carom_ball_state *b,
+                           double normal[3]);
 carom_nose carom_nose_of(const carom_sim *sim, const carom_due *pending_event,
                          const carom_ball_state *state);
 /* resolve.c: the phase of a ball after a contact, which may have lifted it or pushed it down if
  * it was in space. */
-void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_state *s);
+void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_state *state);
 /* models.c: the numbers of a ball's friction with others by a law, friction/laws.h. A pair has the
  * mean of each. */
 void carom_law_of_ball(carom_ball_friction law, const carom_ball_kind *kind, double k[3]);
@@ -203,8 +204,8 @@ void carom_answer_of_slate(const carom_ball_kind *kind, const carom_touch *touch
 /* ---- spheres.c: two spheres that collide in space, n the unit vector from ball a to ball b */
 
 /* The speed at which the surface of a slips on that of b, m/s. Positions are not read. */
-double carom_spheres_slip(const carom_impact *in, const double n[3]);
+double carom_spheres_slip(const carom_impact *in, const double normal[3]);
 /* The motion after the impact of balls that close along n. */
-void carom_spheres_collide(const carom_impact *in, const double n[3], carom_result *out);
+void carom_spheres_collide(const carom_impact *in, const double normal[3], carom_result *out);
 
 #endif

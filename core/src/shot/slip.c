@@ -4,9 +4,10 @@
 #include <math.h>
 #include <stdint.h>
 
-static carom_ball moving(const carom_ball_kind *kind, const carom_ball_state *s) {
-  return (carom_ball){
-      .v = {s->v[0], s->v[1], s->v[2]}, .w = {s->w[0], s->w[1], s->w[2]}, .radius = kind->radius};
+static carom_ball moving(const carom_ball_kind *kind, const carom_ball_state *state) {
+  return (carom_ball){.v = {state->v[0], state->v[1], state->v[2]},
+                      .w = {state->w[0], state->w[1], state->w[2]},
+                      .radius = kind->radius};
 }
 
 /* Whether an event is one of this table and of balls 0 to count - 1. */
@@ -19,10 +20,10 @@ static bool is_of_shot(const carom_table *table, int count, const carom_event *e
 
 /* The unit vector from the ball's centre into the nose of a rail or a jaw, or down. */
 static void find_normal(const carom_table *table, const carom_event *event, double usual_radius,
-                        const carom_ball_kind *kind, double n[3]) {
+                        const carom_ball_kind *kind, double normal[3]) {
   if (event->type != CAROM_EVENT_RAIL && event->type != CAROM_EVENT_JAW) {
-    n[0] = n[1] = 0.0;
-    n[2] = -1.0;
+    normal[0] = normal[1] = 0.0;
+    normal[2] = -1.0;
     return;
   }
   const carom_due contact = {.type = event->type, .a = event->a, .b = event->b};
@@ -30,7 +31,7 @@ static void find_normal(const carom_table *table, const carom_event *event, doub
   if (event->type == CAROM_EVENT_RAIL)
     carom_rail_line(&table->rail[event->b], line);
   carom_into_nose(table, line, carom_reference_of(table, usual_radius), kind, &contact,
-                  &event->before[0], n);
+                  &event->before[0], normal);
 }
 
 double carom_event_slip(const carom_table *table, const carom_shot_ball *balls, int count,
@@ -45,14 +46,14 @@ double carom_event_slip(const carom_table *table, const carom_shot_ball *balls, 
     return NAN;
 
   const carom_ball_kind *kind = &balls[event->a].kind;
-  const carom_ball_state *s = &event->before[0];
-  double n[3];
+  const carom_ball_state *state = &event->before[0];
+  double normal[3];
   if (event->type == CAROM_EVENT_BALL_BALL) {
     const carom_ball_kind *partner = &balls[event->b].kind;
-    carom_line_of_centres(kind, s, partner, &event->before[1], n);
-    const carom_impact in = {.a = moving(kind, s), .b = moving(partner, &event->before[1])};
-    return carom_spheres_slip(&in, n);
+    carom_line_of_centres(kind, state, partner, &event->before[1], normal);
+    const carom_impact in = {.a = moving(kind, state), .b = moving(partner, &event->before[1])};
+    return carom_spheres_slip(&in, normal);
   }
-  find_normal(table, event, balls[count - 1].kind.radius, kind, n);
-  return carom_touch_of(n, kind->radius, s).slip;
+  find_normal(table, event, balls[count - 1].kind.radius, kind, normal);
+  return carom_touch_of(normal, kind->radius, state).slip;
 }

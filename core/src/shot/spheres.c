@@ -20,65 +20,69 @@
  * The cloth takes no part: a ball on it that is pressed down lands on it afterwards (slate.c),
  * as the balls part within 0.2 ms.
  */
+#include "motion/sphere.h"
 #include "shot/sim.h"
 
 #include <math.h>
 #include <stdbool.h>
 
 /* Closing speed and slip. */
-static double relative_motion(const carom_impact *in, const double n[3], double u[3]) {
-  double v[3], turn[3], W[3];
-  for (int k = 0; k < 3; k++) {
-    v[k] = in->a.v[k] - in->b.v[k];
-    W[k] = in->a.radius * in->a.w[k] + in->b.radius * in->b.w[k];
+static double relative_motion(const carom_impact *in, const double normal[3], double slip[3]) {
+  double relative[3], turn[3], spin[3];
+  for (int axis = 0; axis < 3; axis++) {
+    relative[axis] = in->a.v[axis] - in->b.v[axis];
+    spin[axis] = in->a.radius * in->a.w[axis] + in->b.radius * in->b.w[axis];
   }
-  const double v_n = carom_space_dot(v, n);
-  carom_cross(W, n, turn);
-  for (int k = 0; k < 3; k++)
-    u[k] = v[k] - v_n * n[k] + turn[k];
+  const double v_n = carom_space_dot(relative, normal);
+  carom_cross(spin, normal, turn);
+  for (int axis = 0; axis < 3; axis++)
+    slip[axis] = relative[axis] - v_n * normal[axis] + turn[axis];
   return v_n;
 }
 
-/* |u|, by the largest component first where a square would overflow or vanish. */
-static double size_of(const double u[3]) {
-  const double square = carom_space_dot(u, u);
-  if (square > 1e-280 && square < 1e300)
+#define LEAST_SQUARE 1e-280 /* squares between these neither vanish nor overflow */
+#define MOST_SQUARE 1e300
+
+/* The size of a vector, by the largest component first where a square would overflow or vanish. */
+static double size_of(const double vector[3]) {
+  const double square = carom_space_dot(vector, vector);
+  if (square > LEAST_SQUARE && square < MOST_SQUARE)
     return sqrt(square);
-  const double most = fmax(fmax(fabs(u[0]), fabs(u[1])), fabs(u[2]));
+  const double most = fmax(fmax(fabs(vector[0]), fabs(vector[1])), fabs(vector[2]));
   if (!(most > 0.0 && most < INFINITY))
     return sqrt(square);
-  const double unit[3] = {u[0] / most, u[1] / most, u[2] / most};
+  const double unit[3] = {vector[0] / most, vector[1] / most, vector[2] / most};
   return most * carom_space_size(unit);
 }
 
-double carom_spheres_slip(const carom_impact *in, const double n[3]) {
-  double u[3];
-  relative_motion(in, n, u);
-  return size_of(u);
+double carom_spheres_slip(const carom_impact *in, const double normal[3]) {
+  double slip[3];
+  relative_motion(in, normal, slip);
+  return size_of(slip);
 }
 
-void carom_spheres_collide(const carom_impact *in, const double n[3], carom_result *out) {
+void carom_spheres_collide(const carom_impact *in, const double normal[3], carom_result *out) {
   const carom_ball *a = &in->a, *b = &in->b;
-  double u[3], turn[3];
-  const double v_n = relative_motion(in, n, u), slip = size_of(u),
+  double across[3], turn[3];
+  const double v_n = relative_motion(in, normal, across), slip = size_of(across),
                B = 1.0 / a->mass + 1.0 / b->mass;
-  const double J = (1.0 + in->restitution) * v_n / B, stops = slip / (3.5 * B),
+  const double J = (1.0 + in->restitution) * v_n / B, stops = slip / (CAROM_SPHERE_SLIP * B),
                most = in->mu_ball * J;
   double J_t = most < stops ? most : stops;
-  /* u becomes the direction t; where it is 0, J_t t stays u / (7/2 B), which has derivatives */
+  /* u, across n, becomes the direction t; where it is 0, J_t t stays u / (7/2 B), which has derivatives */
   if (slip > 0.0) {
-    for (int k = 0; k < 3; k++)
-      u[k] /= slip;
+    for (int axis = 0; axis < 3; axis++)
+      across[axis] /= slip;
   } else if (most > 0.0) {
-    J_t = 1.0 / (3.5 * B);
+    J_t = 1.0 / (CAROM_SPHERE_SLIP * B);
   }
-  carom_cross(n, u, turn);
-  for (int k = 0; k < 3; k++) {
-    const double impulse = J * n[k] + J_t * u[k];
-    out->a.v[k] = a->v[k] - impulse / a->mass;
-    out->b.v[k] = b->v[k] + impulse / b->mass;
-    out->a.w[k] = a->w[k] - 2.5 * J_t / (a->mass * a->radius) * turn[k];
-    out->b.w[k] = b->w[k] - 2.5 * J_t / (b->mass * b->radius) * turn[k];
+  carom_cross(normal, across, turn);
+  for (int axis = 0; axis < 3; axis++) {
+    const double impulse = J * normal[axis] + J_t * across[axis];
+    out->a.v[axis] = a->v[axis] - impulse / a->mass;
+    out->b.v[axis] = b->v[axis] + impulse / b->mass;
+    out->a.w[axis] = a->w[axis] - CAROM_SPHERE_TURN * J_t / (a->mass * a->radius) * turn[axis];
+    out->b.w[axis] = b->w[axis] - CAROM_SPHERE_TURN * J_t / (b->mass * b->radius) * turn[axis];
   }
 }
 
@@ -97,22 +101,22 @@ static carom_status check_ball(const carom_ball *ball) {
 }
 
 /* The unit vector from a to b, of any distance but 0. */
-static carom_status direction(const carom_impact *in, double n[3]) {
+static carom_status direction(const carom_impact *in, double normal[3]) {
   double size = 0.0;
-  for (int k = 0; k < 3; k++) {
-    n[k] = in->b.r[k] - in->a.r[k];
-    size = fmax(size, fabs(n[k]));
+  for (int axis = 0; axis < 3; axis++) {
+    normal[axis] = in->b.r[axis] - in->a.r[axis];
+    size = fmax(size, fabs(normal[axis]));
   }
   if (!(size > 0.0))
     return CAROM_ERROR_COINCIDENT;
   if (!(size < INFINITY))
     return CAROM_ERROR_OVERFLOW;
   /* by the largest first, so that no square overflows or vanishes */
-  for (int k = 0; k < 3; k++)
-    n[k] /= size;
-  size = carom_space_size(n);
-  for (int k = 0; k < 3; k++)
-    n[k] /= size;
+  for (int axis = 0; axis < 3; axis++)
+    normal[axis] /= size;
+  size = carom_space_size(normal);
+  for (int axis = 0; axis < 3; axis++)
+    normal[axis] /= size;
   return CAROM_OK;
 }
 
@@ -123,29 +127,29 @@ static bool in_range(const carom_impact *in, double v_n, double slip) {
 }
 
 static carom_status solve(const carom_impact *in, carom_result *out) {
-  double n[3], u[3];
+  double normal[3], slip[3];
   carom_status status = check_ball(&in->a);
   status = status == CAROM_OK ? check_ball(&in->b) : status;
   if (status == CAROM_OK && !(in->mu_ball >= 0.0 && in->mu_ball <= 1.0))
     status = CAROM_ERROR_MU_BALL;
   if (status == CAROM_OK && !(in->restitution >= 0.0 && in->restitution <= 1.0))
     status = CAROM_ERROR_RESTITUTION;
-  status = status == CAROM_OK ? direction(in, n) : status;
+  status = status == CAROM_OK ? direction(in, normal) : status;
   if (status != CAROM_OK)
     return status;
-  const double v_n = relative_motion(in, n, u);
+  const double v_n = relative_motion(in, normal, slip);
   if (v_n <= 0.0) {
-    for (int k = 0; k < 3; k++) {
-      out->a.v[k] = in->a.v[k];
-      out->a.w[k] = in->a.w[k];
-      out->b.v[k] = in->b.v[k];
-      out->b.w[k] = in->b.w[k];
+    for (int axis = 0; axis < 3; axis++) {
+      out->a.v[axis] = in->a.v[axis];
+      out->a.w[axis] = in->a.w[axis];
+      out->b.v[axis] = in->b.v[axis];
+      out->b.w[axis] = in->b.w[axis];
     }
     return CAROM_SEPARATING;
   }
-  if (!in_range(in, v_n, size_of(u)))
+  if (!in_range(in, v_n, size_of(slip)))
     return CAROM_ERROR_OVERFLOW;
-  carom_spheres_collide(in, n, out);
+  carom_spheres_collide(in, normal, out);
   const bool good = carom_is_finite(out->a.v) && carom_is_finite(out->a.w) &&
                     carom_is_finite(out->b.v) && carom_is_finite(out->b.w);
   return good ? CAROM_OK : CAROM_ERROR_OVERFLOW;

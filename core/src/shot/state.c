@@ -57,12 +57,12 @@ static uint64_t of_options(const carom_shot_options *o) {
 
 /* Of the kinds and states of the balls, wherever they are. */
 static uint64_t of_balls(const carom_sim *sim) {
-  uint64_t h = 0;
-  for (int i = 0; i < sim->count; i++) {
-    h = carom_fingerprint(h, sim->layout->kind[i], sizeof(carom_ball_kind));
-    h = carom_fingerprint(h, sim->layout->state[i], sizeof(carom_ball_state));
+  uint64_t hash = 0;
+  for (int ball = 0; ball < sim->count; ball++) {
+    hash = carom_fingerprint(hash, sim->layout->kind[ball], sizeof(carom_ball_kind));
+    hash = carom_fingerprint(hash, sim->layout->state[ball], sizeof(carom_ball_state));
   }
-  return h;
+  return hash;
 }
 
 void carom_state_begin(carom_sim *sim) {
@@ -76,8 +76,8 @@ static uint64_t of_events(uint64_t hash, const void *events, size_t size, size_t
                           size_t end) {
   if (events == NULL)
     return 0;
-  for (size_t k = first; k < end; k++)
-    hash = carom_fingerprint(hash, (const unsigned char *)events + k * size, size);
+  for (size_t index = first; index < end; index++)
+    hash = carom_fingerprint(hash, (const unsigned char *)events + index * size, size);
   return hash;
 }
 
@@ -102,8 +102,8 @@ static uint64_t seal_of(const carom_shot_state *state) {
 /* Whether nothing stands in the bytes behind the shot. */
 static bool ends_empty(const carom_shot_state *state) {
   uint64_t any = 0;
-  for (size_t k = SIZE / sizeof any; k < sizeof *state / sizeof any; k++)
-    any |= state->opaque[k];
+  for (size_t index = SIZE / sizeof any; index < sizeof *state / sizeof any; index++)
+    any |= state->opaque[index];
   return any == 0;
 }
 _Static_assert(sizeof(carom_play) % 8 == 0 && SIZE % 8 == 0, "its parts end with a word");
@@ -144,7 +144,7 @@ static bool is_bool(const bool *x) {
   return byte <= 1;
 }
 
-/* Whether ball i can be on its path, whose other numbers are computed again: from its state, or, of
+/* Whether a ball can be on its path, whose other numbers are computed again: from its state, or, of
  * the second piece of a pair, from what was known of it before. */
 static bool restore_path(carom_sim *sim, int i) {
   carom_path *path = &sim->path[i];
@@ -173,7 +173,7 @@ static bool in(int64_t number, int64_t least, int64_t most) {
   return number >= least && number <= most;
 }
 
-/* Whether ball i can meet that on the table. */
+/* Whether a ball can meet that on the table. */
 static bool good_meeting(const carom_sim *sim, int i) {
   const carom_meeting *m = &sim->meeting[i];
   if (isnan(m->time) || (m->time < INFINITY && !carom_translates(sim->path[i].from.label)))
@@ -186,7 +186,7 @@ static bool good_meeting(const carom_sim *sim, int i) {
   return m->part >= 0 && m->part < parts && parts < INT64_MAX;
 }
 
-/* Whether the pairs of ball i with those behind it can meet when they are said to. */
+/* Whether the pairs of a ball with those behind it can meet when they are said to. */
 static bool good_pairs(const carom_sim *sim, int i) {
   bool good = true;
   for (int j = i + 1; j < sim->count; j++) {
@@ -205,9 +205,9 @@ static bool good_result(const carom_sim *sim, const result *so_far) {
               in(f->cushions_after, 0, most) && in(f->approach, 0, CAROM_APPROACH_KICK) &&
               (f->down | f->off | f->moved) >> (sim->count - 1) <= 1;
   good &= f->second_time >= 0.0 && carom_is_positive(1.0 + f->second_speed);
-  for (int n = 0; n < 2; n++)
-    good &= in(f->first[n], -1, sim->count - 1) && in(f->cushions_before[n], 0, most) &&
-            f->first_time[n] >= 0.0;
+  for (int axis = 0; axis < 2; axis++)
+    good &= in(f->first[axis], -1, sim->count - 1) && in(f->cushions_before[axis], 0, most) &&
+            f->first_time[axis] >= 0.0;
   for (int i = 0; i < CAROM_BALLS_MOST; i++)
     good &= in(f->pocket[i], -1, sim->table->pockets - 1) && f->pocket_time[i] >= 0.0 &&
             in(f->cushions[i], 0, most) && in(f->order[i], -1, sim->count - 1);

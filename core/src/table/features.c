@@ -14,6 +14,10 @@
 #include <math.h>
 #include <string.h>
 
+static const double single_rounding = 1e-5; /* m: of places up to 100 m in single precision */
+static const double single_part = 1e-6;     /* the same, of a place */
+static const double usual_width = 0.12;     /* m: of the top of a rail */
+
 static inline float lesser(float a, float b) {
   return a < b ? a : b;
 }
@@ -21,19 +25,19 @@ static inline float greater(float a, float b) {
   return a > b ? a : b;
 }
 
-/* The box of feature k: around two points, with a margin. The hull grows to hold it. */
-static inline void enclose(carom_features *f, int k, const double p[2], const double q[2],
-                           double margin, double reach, double hull[4]) {
+/* The box of a feature: around two points, with a margin. The hull grows to hold it. */
+static inline void enclose(carom_features *features, int index, const double p[2],
+                           const double q[2], double margin, double reach, double hull[4]) {
   const double low_x = carom_lesser(p[0], q[0]) - margin,
                high_x = carom_greater(p[0], q[0]) + margin;
   const double low_y = carom_lesser(p[1], q[1]) - margin,
                high_y = carom_greater(p[1], q[1]) + margin;
   /* a trace more, so that rounding to single precision cannot lose anything */
-  const double room = reach + 1e-5;
-  f->low_x[k] = (float)(low_x - room);
-  f->high_x[k] = (float)(high_x + room);
-  f->low_y[k] = (float)(low_y - room);
-  f->high_y[k] = (float)(high_y + room);
+  const double room = reach + single_rounding;
+  features->low_x[index] = (float)(low_x - room);
+  features->high_x[index] = (float)(high_x + room);
+  features->low_y[index] = (float)(low_y - room);
+  features->high_y[index] = (float)(high_y + room);
   hull[0] = carom_lesser(hull[0], low_x);
   hull[1] = carom_greater(hull[1], high_x);
   hull[2] = carom_lesser(hull[2], low_y);
@@ -54,73 +58,76 @@ void carom_rail_line(const carom_rail *rail, double line[3]) {
   line[2] = l_0 * turn;
 }
 
-static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
+static void prepare_rail(const carom_rail *rail, int index, carom_features *features) {
   const double *p = rail->p, *q = rail->q, e_x = q[0] - p[0], e_y = q[1] - p[1],
                size2 = e_x * e_x + e_y * e_y;
-  carom_rail_line(rail, f->line[k]);
-  f->along[k][0] = e_x / size2;
-  f->along[k][1] = e_y / size2;
-  f->along[k][2] = -(e_x * p[0] + e_y * p[1]) / size2;
+  carom_rail_line(rail, features->line[index]);
+  features->along[index][0] = e_x / size2;
+  features->along[index][1] = e_y / size2;
+  features->along[index][2] = -(e_x * p[0] + e_y * p[1]) / size2;
 }
 
 /* Finds the box around the eye, in the hull, that meets no box of a part. */
-static void clear_around_eye(carom_features *f) {
-  const float x = (float)f->eye[0], y = (float)f->eye[1];
-  const float low_x = (float)f->hull[0], high_x = (float)f->hull[1], low_y = (float)f->hull[2],
-              high_y = (float)f->hull[3], width = high_x - low_x, length = high_y - low_y;
+static void clear_around_eye(carom_features *features) {
+  const float x = (float)features->eye[0], y = (float)features->eye[1];
+  const float low_x = (float)features->hull[0], high_x = (float)features->hull[1],
+              low_y = (float)features->hull[2], high_y = (float)features->hull[3],
+              width = high_x - low_x, length = high_y - low_y;
   float room_x = lesser(x - low_x, high_x - x), room_y = lesser(y - low_y, high_y - y);
 
   /* how far a part is to a side and along the table; it limits the one that is the larger share */
-  for (int k = 0; k < f->count; k++) {
-    const float across = greater(x - f->high_x[k], f->low_x[k] - x),
-                along = greater(y - f->high_y[k], f->low_y[k] - y);
+  for (int index = 0; index < features->count; index++) {
+    const float across = greater(x - features->high_x[index], features->low_x[index] - x),
+                along = greater(y - features->high_y[index], features->low_y[index] - y);
     const bool is_across = across * length > along * width;
     room_x = lesser(room_x, is_across ? across : INFINITY);
     room_y = lesser(room_y, is_across ? INFINITY : along);
   }
 
-  /* a trace less, for rounding: 1e-6 of the places of a table, which may be far from 0 */
-  f->clear[0] = (double)room_x - 1e-6 * (fabs(f->hull[0]) + fabs(f->hull[1]));
-  f->clear[1] = (double)room_y - 1e-6 * (fabs(f->hull[2]) + fabs(f->hull[3]));
+  /* a trace less, for rounding of the places of a table, which may be far from 0 */
+  features->clear[0] =
+      (double)room_x - single_part * (fabs(features->hull[0]) + fabs(features->hull[1]));
+  features->clear[1] =
+      (double)room_y - single_part * (fabs(features->hull[2]) + fabs(features->hull[3]));
 }
 
 /* Finds the eye: the middle of the table if it is seen from the place beside the longest rail;
  * else that place, if it is on the table. */
-static void find_eye(const carom_table *table, carom_features *f) {
-  const carom_ball_kind ball = {.radius = f->radius};
+static void find_eye(const carom_table *table, carom_features *features) {
+  const carom_ball_kind ball = {.radius = features->radius};
   double place[2];
   const carom_marks marks = carom_marks_of(table->width, table->length);
-  memcpy(f->eye, marks.centre_spot, sizeof f->eye);
-  clear_around_eye(f);
-  const bool is_found = carom_beside_longest(table, f, f->radius, place);
+  memcpy(features->eye, marks.centre_spot, sizeof features->eye);
+  clear_around_eye(features);
+  const bool is_found = carom_beside_longest(table, features, features->radius, place);
   carom_ground ground;
-  f->has_eye = is_found && carom_is_clear(f, place);
-  if (!f->has_eye) {
-    carom_ground_of(table, f, &ball, &ground);
-    f->has_eye = is_found && carom_is_in_sight(&ground, place);
+  features->has_eye = is_found && carom_is_clear(features, place);
+  if (!features->has_eye) {
+    carom_ground_of(table, features, &ball, &ground);
+    features->has_eye = is_found && carom_is_in_sight(&ground, place);
   }
-  if (f->has_eye)
+  if (features->has_eye)
     return;
 
   if (is_found && !carom_is_cut_off(&ground, place)) {
-    f->has_eye = true;
-    f->eye[0] = place[0];
-    f->eye[1] = place[1];
-    clear_around_eye(f);
+    features->has_eye = true;
+    features->eye[0] = place[0];
+    features->eye[1] = place[1];
+    clear_around_eye(features);
   } else {
-    f->clear[0] = f->clear[1] = -1.0;
+    features->clear[0] = features->clear[1] = -1.0;
   }
 }
 
 void carom_features_of(const carom_table *table, double radius, double reference,
-                       carom_features *f) {
+                       carom_features *features) {
   /* how many parts of each kind, and an empty hull */
-  f->radius = radius;
-  f->reference = reference;
-  f->rails = (int)table->rails;
-  f->jaws = (int)table->jaws;
-  f->pockets = (int)table->pockets;
-  f->count = f->rails + f->jaws + f->pockets;
+  features->radius = radius;
+  features->reference = reference;
+  features->rails = (int)table->rails;
+  features->jaws = (int)table->jaws;
+  features->pockets = (int)table->pockets;
+  features->count = features->rails + features->jaws + features->pockets;
   double hull[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
   double low = INFINITY, high = 0.0; /* of the noses */
 
@@ -131,32 +138,32 @@ void carom_features_of(const carom_table *table, double radius, double reference
 
   /* rails, then jaws, then pockets */
   int index = 0;
-  for (int k = 0; k < f->rails; k++, index++) {
-    prepare_rail(&table->rail[k], k, f);
-    low = carom_lesser(low, table->rail[k].height);
-    high = carom_greater(high, table->rail[k].height);
-    enclose(f, index, table->rail[k].p, table->rail[k].q, 0.0, radius, hull);
+  for (int part = 0; part < features->rails; part++, index++) {
+    prepare_rail(&table->rail[part], part, features);
+    low = carom_lesser(low, table->rail[part].height);
+    high = carom_greater(high, table->rail[part].height);
+    enclose(features, index, table->rail[part].p, table->rail[part].q, 0.0, radius, hull);
   }
-  for (int k = 0; k < f->jaws; k++, index++) {
-    enclose(f, index, table->jaw[k].centre, table->jaw[k].centre, table->jaw[k].radius, radius,
-            hull);
-    low = carom_lesser(low, table->jaw[k].height);
-    high = carom_greater(high, table->jaw[k].height);
+  for (int part = 0; part < features->jaws; part++, index++) {
+    enclose(features, index, table->jaw[part].centre, table->jaw[part].centre,
+            table->jaw[part].radius, radius, hull);
+    low = carom_lesser(low, table->jaw[part].height);
+    high = carom_greater(high, table->jaw[part].height);
   }
-  for (int k = 0; k < f->pockets; k++, index++)
-    enclose(f, index, table->pocket[k].centre, table->pocket[k].centre, table->pocket[k].radius,
-            0.0, hull);
-  CAROM_PROMISE(index == f->count && index <= MOST_FEATURES);
-  memcpy(f->hull, hull, sizeof hull);
+  for (int part = 0; part < features->pockets; part++, index++)
+    enclose(features, index, table->pocket[part].centre, table->pocket[part].centre,
+            table->pocket[part].radius, 0.0, hull);
+  CAROM_PROMISE(index == features->count && index <= MOST_FEATURES);
+  memcpy(features->hull, hull, sizeof hull);
 
   /* defaults of the table */
-  f->nose_low = low;
-  f->width = 0.12;
+  features->nose_low = low;
+  features->width = usual_width;
   if (table->rail_width > 0.0)
-    f->width = table->rail_width;
-  f->pocket_back = high;
+    features->width = table->rail_width;
+  features->pocket_back = high;
   if (table->pocket_back > 0.0)
-    f->pocket_back = table->pocket_back;
+    features->pocket_back = table->pocket_back;
 
-  find_eye(table, f);
+  find_eye(table, features);
 }

@@ -94,9 +94,9 @@ static const struct sized {
 
 /* The row of a game; NULL of one that has numbers of its own. */
 static const struct sized *sized_of(carom_game game) {
-  for (size_t k = 0; k < sizeof sized_games / sizeof *sized_games; k++)
-    if (sized_games[k].game == game)
-      return &sized_games[k];
+  for (size_t index = 0; index < sizeof sized_games / sizeof *sized_games; index++)
+    if (sized_games[index].game == game)
+      return &sized_games[index];
   return NULL;
 }
 
@@ -195,8 +195,8 @@ static bool take_other(carom_game game, carom_shot_cushion cushion, carom_ball_k
       cushion = CAROM_SHOT_CUSHION_MATHAVAN;
     return carom_cushion_start((carom_cushion_model)((uint32_t)cushion - 1), kind);
   }
-  for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
-    const struct model_numbers *row = &others[k];
+  for (size_t index = 0; index < sizeof others / sizeof *others; index++) {
+    const struct model_numbers *row = &others[index];
     if (row->game != game || row->cushion != cushion)
       continue;
     kind->restitution_cushion = row->restitution;

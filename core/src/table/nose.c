@@ -5,6 +5,13 @@
  *
  *   delta = R_ref - sqrt(h (2 R_ref - h))
  *
+ *      L, the wall             .-'''-.
+ *      |                     .'       '.
+ *      | delta              (     o     )    s: from L to the centre, R_ref at the contact
+ *      |--->o nose           '.       .'     d: from the nose to the centre
+ *      |    | h                '-...-'
+ *     _|____|___________________________ cloth
+ *
  * inside L (1.143 mm for pool balls), R_ref being the radius of the balls that the table is
  * meant for. With s the distance of the centre from L, the centre is at d = (s - delta, z - h)
  * from the nose, across it and up; |d| = R at the contact. At z = R that is s = R for R = R_ref,
@@ -25,6 +32,8 @@ double carom_nose_shift(double height, double reference) {
 }
 
 double carom_reach_on_cloth(const carom_ball_kind *kind, double height, double reference) {
-  const double R = kind->radius, h = carom_nose_height(kind, height);
-  return R == reference ? R : carom_nose_shift(h, reference) + sqrt(h * (2.0 * R - h));
+  const double radius = kind->radius, nose_height = carom_nose_height(kind, height);
+  return radius == reference ? radius
+                             : carom_nose_shift(nose_height, reference) +
+                                   sqrt(nose_height * (2.0 * radius - nose_height));
 }

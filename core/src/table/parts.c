@@ -4,32 +4,35 @@
 
 #include <math.h>
 
+static const double least_pocket = 1e-9;  /* m: of a radius */
+static const double off_line_most = 1e-6; /* m: of an end of a rail from its line */
+
 /* 0 where all are finite, else NaN. The parts of a table are checked for each shot that is
  * played alone, so without a branch for each number. */
-static inline double zero_if_finite(const double *x, int n) {
+static inline double zero_if_finite(const double *values, int count) {
   double sum = 0.0;
-  for (int k = 0; k < n; k++)
-    sum += 0.0 * x[k];
+  for (int index = 0; index < count; index++)
+    sum += 0.0 * values[index];
   return sum;
 }
 
-static inline bool good_rail(const carom_rail *r) {
-  const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1];
-  return zero_if_finite(r->p, 2) + zero_if_finite(r->line, 3) == 0.0 &&
-         carom_is_positive(x * x + y * y) && (uint64_t)r->side <= 1 &&
-         carom_in_unit_interval(r->mu_cushion) && carom_in_unit_interval(r->restitution);
+static inline bool good_rail(const carom_rail *rail) {
+  const double x = rail->q[0] - rail->p[0], y = rail->q[1] - rail->p[1];
+  return zero_if_finite(rail->p, 2) + zero_if_finite(rail->line, 3) == 0.0 &&
+         carom_is_positive(x * x + y * y) && (uint64_t)rail->side <= 1 &&
+         carom_in_unit_interval(rail->mu_cushion) && carom_in_unit_interval(rail->restitution);
 }
 static inline bool good_circle(const double centre[2], double radius, double least) {
   return zero_if_finite(centre, 2) == 0.0 && radius >= least && radius < INFINITY;
 }
 
-static inline bool good_jaw(const carom_jaw *j) {
-  return good_circle(j->centre, j->radius, 0.0) && carom_in_unit_interval(j->mu_cushion) &&
-         carom_in_unit_interval(j->restitution);
+static inline bool good_jaw(const carom_jaw *jaw) {
+  return good_circle(jaw->centre, jaw->radius, 0.0) && carom_in_unit_interval(jaw->mu_cushion) &&
+         carom_in_unit_interval(jaw->restitution);
 }
 /* Every nose is above the cloth and below the top of a ball. */
-static bool good_height(double height, double R) {
-  return height > 0.0 && height < 2.0 * R;
+static bool good_height(double height, double radius) {
+  return height > 0.0 && height < 2.0 * radius;
 }
 
 /* Sets the place of an error. */
@@ -38,57 +41,58 @@ static carom_status place_fault(int *where, int index, carom_status status) {
   return status;
 }
 
-static bool has_good_numbers(const carom_table *t) {
-  return isfinite(t->width) && isfinite(t->length) && carom_is_not_negative(t->ball_radius) &&
-         carom_is_not_negative(t->rail_width) && carom_is_not_negative(t->pocket_back);
+static bool has_good_numbers(const carom_table *table) {
+  return isfinite(table->width) && isfinite(table->length) &&
+         carom_is_not_negative(table->ball_radius) && carom_is_not_negative(table->rail_width) &&
+         carom_is_not_negative(table->pocket_back);
 }
-static bool has_good_slope(const carom_table *t) {
-  return fabs(t->slope_x) <= 1.0 && fabs(t->slope_y) <= 1.0;
+static bool has_good_slope(const carom_table *table) {
+  return fabs(table->slope_x) <= 1.0 && fabs(table->slope_y) <= 1.0;
 }
 
-carom_status carom_check_table(const carom_table *t, int *where) {
+carom_status carom_check_table(const carom_table *table, int *where) {
   *where = -1;
-  if (t->rails > CAROM_RAILS_MOST)
+  if (table->rails > CAROM_RAILS_MOST)
     return place_fault(where, CAROM_RAILS_MOST, CAROM_ERROR_RAILS);
-  if (t->jaws > CAROM_JAWS_MOST)
+  if (table->jaws > CAROM_JAWS_MOST)
     return place_fault(where, CAROM_JAWS_MOST, CAROM_ERROR_JAWS);
-  if (t->pockets > CAROM_POCKETS_MOST)
+  if (table->pockets > CAROM_POCKETS_MOST)
     return place_fault(where, CAROM_POCKETS_MOST, CAROM_ERROR_POCKETS);
-  if (t->rails < 0 || t->jaws < 0 || t->pockets < 0 || t->rails + t->jaws < 1)
+  if (table->rails < 0 || table->jaws < 0 || table->pockets < 0 || table->rails + table->jaws < 1)
     return CAROM_ERROR_TABLE;
-  if (!has_good_numbers(t))
+  if (!has_good_numbers(table))
     return CAROM_ERROR_TABLE;
-  if (!has_good_slope(t))
+  if (!has_good_slope(table))
     return CAROM_ERROR_SLOPE;
-  for (int k = 0; k < t->rails; k++)
-    if (!good_rail(&t->rail[k]))
-      return place_fault(where, k, CAROM_ERROR_TABLE);
-  for (int k = 0; k < t->jaws; k++)
-    if (!good_jaw(&t->jaw[k]))
-      return place_fault(where, k, CAROM_ERROR_TABLE);
-  for (int k = 0; k < t->pockets; k++)
-    if (!good_circle(t->pocket[k].centre, t->pocket[k].radius, 1e-9) ||
-        !isfinite(t->pocket[k].depth))
-      return place_fault(where, k, CAROM_ERROR_TABLE);
+  for (int index = 0; index < table->rails; index++)
+    if (!good_rail(&table->rail[index]))
+      return place_fault(where, index, CAROM_ERROR_TABLE);
+  for (int index = 0; index < table->jaws; index++)
+    if (!good_jaw(&table->jaw[index]))
+      return place_fault(where, index, CAROM_ERROR_TABLE);
+  for (int index = 0; index < table->pockets; index++)
+    if (!good_circle(table->pocket[index].centre, table->pocket[index].radius, least_pocket) ||
+        !isfinite(table->pocket[index].depth))
+      return place_fault(where, index, CAROM_ERROR_TABLE);
   return CAROM_OK;
 }
 
-carom_status carom_prepare_table(const carom_table *t, double least, double greatest,
+carom_status carom_prepare_table(const carom_table *table, double least, double greatest,
                                  double reference, carom_features *features, int *where) {
   if (features->radius == greatest && features->least == least && features->reference == reference)
     return CAROM_OK;
   /* a ball that is behind a narrower top could be below it and clear of the nose, and so come
    * over the nose from behind */
-  if (t->rail_width > 0.0 && t->rail_width < greatest)
+  if (table->rail_width > 0.0 && table->rail_width < greatest)
     return place_fault(where, -1, CAROM_ERROR_TABLE);
   const double lowest = carom_lesser(least, reference);
-  for (int k = 0; k < t->rails; k++)
-    if (!good_height(t->rail[k].height, lowest))
-      return place_fault(where, k, CAROM_ERROR_NOSE_HEIGHT);
-  for (int k = 0; k < t->jaws; k++)
-    if (!good_height(t->jaw[k].height, lowest))
-      return place_fault(where, k, CAROM_ERROR_NOSE_HEIGHT);
-  carom_features_of(t, greatest, reference, features);
+  for (int index = 0; index < table->rails; index++)
+    if (!good_height(table->rail[index].height, lowest))
+      return place_fault(where, index, CAROM_ERROR_NOSE_HEIGHT);
+  for (int index = 0; index < table->jaws; index++)
+    if (!good_height(table->jaw[index].height, lowest))
+      return place_fault(where, index, CAROM_ERROR_NOSE_HEIGHT);
+  carom_features_of(table, greatest, reference, features);
   features->least = least;
   return CAROM_OK;
 }
@@ -128,8 +132,8 @@ carom_status carom_check_parts(const carom_table *table, double radius, double u
   return status;
 }
 
-static double off_line(const double line[3], const double r[2]) {
-  return fabs(carom_plane_dot(line, r) + line[2]);
+static double off_line(const double line[3], const double point[2]) {
+  return fabs(carom_plane_dot(line, point) + line[2]);
 }
 
 carom_status carom_table_check(const carom_table *table, double radius, carom_table_fault *fault) {
@@ -145,14 +149,14 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
     return status;
 
   /* lines of rails, as they were given */
-  for (int k = 0; k < table->rails; k++) {
-    const carom_rail *rail = &table->rail[k];
-    const double off =
-        carom_greater(off_line(features.line[k], rail->p), off_line(features.line[k], rail->q));
-    if (!(off <= 1e-6)) {
-      fault->part = (carom_part){CAROM_PART_RAIL, k};
-      for (int c = 0; c < 2; c++)
-        fault->place[c] = 0.5 * (rail->p[c] + rail->q[c]);
+  for (int index = 0; index < table->rails; index++) {
+    const carom_rail *rail = &table->rail[index];
+    const double off = carom_greater(off_line(features.line[index], rail->p),
+                                     off_line(features.line[index], rail->q));
+    if (!(off <= off_line_most)) {
+      fault->part = (carom_part){CAROM_PART_RAIL, index};
+      for (int axis = 0; axis < 2; axis++)
+        fault->place[axis] = 0.5 * (rail->p[axis] + rail->q[axis]);
       return CAROM_ERROR_RAIL_LINE;
     }
   }

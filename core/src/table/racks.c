@@ -77,10 +77,10 @@ int carom_rack_size(carom_rack_kind kind) {
 
 /* splitmix64 */
 static uint64_t random_bits(uint64_t *state) {
-  uint64_t z = *state += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
+  uint64_t bits = *state += 0x9e3779b97f4a7c15u;
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+  return bits ^ (bits >> 31);
 }
 static double random_symmetric(uint64_t *state) { /* -1 to 1 */
   return 2.0 * ((double)(random_bits(state) >> 11) * 0x1p-53) - 1.0;
@@ -95,50 +95,52 @@ typedef struct rack {
   double middle; /* of the table's width */
 } rack;
 
-static void put(rack *k, int ball, double x, double y) {
-  k->balls[ball] = (carom_shot_ball){.kind = k->kind, .state = {.r = {x, y, k->kind.radius}}};
+static void put(rack *layout, int ball, double x, double y) {
+  layout->balls[ball] =
+      (carom_shot_ball){.kind = layout->kind, .state = {.r = {x, y, layout->kind.radius}}};
 }
 
 /* A place of the triangle: row 0 is its front, places count from the left. Up to a quarter of
  * the gap off, in any direction. */
-static void put_in_row(rack *k, int ball, double front, int row, int place) {
-  const double pitch = 2.0 * k->kind.radius + k->gap;
+static void put_in_row(rack *layout, int ball, double front, int row, int place) {
+  const double pitch = 2.0 * layout->kind.radius + layout->gap;
   double x, y;
   do {
-    x = random_symmetric(&k->state);
-    y = random_symmetric(&k->state);
+    x = random_symmetric(&layout->state);
+    y = random_symmetric(&layout->state);
   } while (x * x + y * y > 1.0);
-  put(k, ball, k->middle + (place - 0.5 * row) * pitch + 0.25 * k->gap * x,
-      front + row * pitch * 0.8660254037844386 + 0.25 * k->gap * y);
+  put(layout, ball, layout->middle + (place - 0.5 * row) * pitch + 0.25 * layout->gap * x,
+      front + row * pitch * 0.8660254037844386 + 0.25 * layout->gap * y);
 }
 
 /* The numbers from first to last, in an order drawn from the seed. */
-static void shuffle(rack *k, int *number, int count) {
-  for (int n = count - 1; n > 0; n--) {
-    const int place = (int)(random_bits(&k->state) % (uint64_t)(n + 1)), drawn = number[n];
-    number[n] = number[place];
+static void shuffle(rack *layout, int *number, int count) {
+  for (int index = count - 1; index > 0; index--) {
+    const int place = (int)(random_bits(&layout->state) % (uint64_t)(index + 1)),
+              drawn = number[index];
+    number[index] = number[place];
     number[place] = drawn;
   }
 }
 
 /* Fills the places that are still 0 with the numbers from 1 to `last` that have no place yet. */
-static void fill(rack *k, int *number, int last) {
+static void fill(rack *layout, int *number, int last) {
   int rest[16], count = 0, next = 0;
-  for (int n = 1; n <= last; n++) {
+  for (int index = 1; index <= last; index++) {
     bool placed = false;
     for (int p = 0; p < last; p++)
-      placed |= number[p] == n;
+      placed |= number[p] == index;
     if (!placed)
-      rest[count++] = n;
+      rest[count++] = index;
   }
-  shuffle(k, rest, count);
+  shuffle(layout, rest, count);
   for (int p = 0; p < last; p++)
     if (number[p] == 0)
       number[p] = rest[next++];
 }
 
 /* Sets up the balls of a row that form a pack, whose front lies at y = front. */
-static void pack(rack *k, const rack_row *row, double front) {
+static void pack(rack *layout, const rack_row *row, double front) {
   static const int widths[5] = {1, 2, 3, 2, 1}; /* of a diamond */
   int last = row->rows * (row->rows + 1) / 2;
   if (row->diamond)
@@ -146,19 +148,19 @@ static void pack(rack *k, const rack_row *row, double front) {
   int number[15];
   memcpy(number, row->fixed, sizeof number);
   if (row->unlike) {
-    const uint64_t drawn = random_bits(&k->state);
+    const uint64_t drawn = random_bits(&layout->state);
     const int right = (int)(drawn / 49 % 2); /* whether the solid is at the right corner */
     static const int corners[2] = {10, 14};
     number[corners[right]] = 1 + (int)(drawn % 7);
     number[corners[1 - right]] = 9 + (int)(drawn / 7 % 7);
   }
-  fill(k, number, last);
+  fill(layout, number, last);
   for (int line = 0, p = 0; line < row->rows; line++) {
     int width = line + 1;
     if (row->diamond)
       width = widths[line];
     for (int place = 0; place < width; place++, p++)
-      put_in_row(k, number[p], front, line, place + (line + 1 - width) / 2);
+      put_in_row(layout, number[p], front, line, place + (line + 1 - width) / 2);
   }
 }
 
@@ -223,10 +225,10 @@ carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int b
   return CAROM_OK;
 }
 
-static void put_on_spot(rack *k, carom_rack_kind kind, int ball) {
+static void put_on_spot(rack *layout, carom_rack_kind kind, int ball) {
   double place[2] = {0.0, 0.0};
-  carom_spot_of(kind, k->table, ball, place);
-  put(k, ball, place[0], place[1]);
+  carom_spot_of(kind, layout->table, ball, place);
+  put(layout, ball, place[0], place[1]);
 }
 
 /* The gap before the pink that a rack of reds has at least, m. */
@@ -240,21 +242,21 @@ carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double g
   if (row == NULL)
     return CAROM_ERROR_RACK;
   const carom_marks marks = carom_marks_of(table->width, table->length);
-  rack k = {table, balls, carom_ball_kind_of(row->game), gap, seed, marks.foot_spot[0]};
-  const double R = k.kind.radius;
-  if (room < row->size || !(gap >= 0.0 && gap <= R))
+  rack layout = {table, balls, carom_ball_kind_of(row->game), gap, seed, marks.foot_spot[0]};
+  const double radius = layout.kind.radius;
+  if (room < row->size || !(gap >= 0.0 && gap <= radius))
     return CAROM_ERROR_RACK;
 
   /* the balls that have spots, and the pack */
   const bool snooker = kind == CAROM_RACK_SNOOKER;
   for (int ball = 0; ball < row->size; ball++)
     if (ball == 0 || row->rows == 0 || has_snooker_spot(kind, ball))
-      put_on_spot(&k, kind, ball);
-  double front = marks.foot_spot[1] - row->spot * (2.0 * R + gap) * 0.8660254037844386;
+      put_on_spot(&layout, kind, ball);
+  double front = marks.foot_spot[1] - row->spot * (2.0 * radius + gap) * 0.8660254037844386;
   if (snooker)
-    front += 2.0 * R + fmax(gap, red_gap);
+    front += 2.0 * radius + fmax(gap, red_gap);
   if (row->rows > 0)
-    pack(&k, row, front);
+    pack(&layout, row, front);
   if (kind == CAROM_RACK_BILLIARDS) /* its player has not begun */
     balls[1].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
   return CAROM_OK;

@@ -12,6 +12,13 @@
  * to how often it winds around P. A forest of the nodes, each with the sum from its root, tells
  * this for all chains at once: an edge between two nodes of one tree closes a chain.
  *
+ *      o======rail======o jaw
+ *      |                 |
+ *     ( )      P    ray  ( )      A chain of parts that overlap, closed around P: the ray is
+ *    pocket    o- - - - - |- ->   crossed once more upward than downward.
+ *      |                 |
+ *      o======rail======o
+ *
  * The ring is looked at twice. With rounded rails, which do not depend on the sides, it tells
  * holes as wide as a ball; then, when the sides are known to be right, with rails as detection
  * knows them it tells ends of rails without a jaw. Where no chain is closed, the parts are grown
@@ -31,27 +38,27 @@ typedef struct shape {
   carom_part part;
 } shape;
 
-typedef struct ring {
+typedef struct part_ring {
   int count;
   shape shape[MOST_FEATURES];
   /* of the forest: the parent, itself for a root, and the windings from the parent here */
   int parent[MOST_FEATURES], windings[MOST_FEATURES];
-} ring;
+} part_ring;
 
-static void add_shape(ring *g, const double p[2], const double q[2], double radius, double grown,
-                      carom_part part) {
-  CAROM_PROMISE(g->count < MOST_FEATURES);
-  g->shape[g->count++] = (shape){{p[0], p[1]}, {q[0], q[1]}, radius + grown, radius, part};
+static void add_shape(part_ring *ring, const double p[2], const double q[2], double radius,
+                      double grown, carom_part part) {
+  CAROM_PROMISE(ring->count < MOST_FEATURES);
+  ring->shape[ring->count++] = (shape){{p[0], p[1]}, {q[0], q[1]}, radius + grown, radius, part};
 }
 
 /* The parts, as the centre of a ball sees them that may be `overlap` in a cushion; rails with
  * round ends, or without. */
-static void shapes_of(const carom_ground *ground, double overlap, bool round, ring *g) {
-  const carom_table *t = ground->table;
-  g->count = 0;
-  for (int k = 0; k < t->rails; k++) {
-    const carom_rail *rail = &t->rail[k];
-    const double reach = ground->rail[k] - overlap, *n = ground->features->line[k];
+static void shapes_of(const carom_ground *ground, double overlap, bool round, part_ring *ring) {
+  const carom_table *table = ground->table;
+  ring->count = 0;
+  for (int index = 0; index < table->rails; index++) {
+    const carom_rail *rail = &table->rail[index];
+    const double reach = ground->rail[index] - overlap, *n = ground->features->line[index];
     double off = reach, around = 0.0;
     if (round) {
       off = 0.0;
@@ -59,40 +66,43 @@ static void shapes_of(const carom_ground *ground, double overlap, bool round, ri
     }
     const double p[2] = {rail->p[0] + off * n[0], rail->p[1] + off * n[1]},
                  q[2] = {rail->q[0] + off * n[0], rail->q[1] + off * n[1]};
-    add_shape(g, p, q, 0.0, around, (carom_part){CAROM_PART_RAIL, k});
+    add_shape(ring, p, q, 0.0, around, (carom_part){CAROM_PART_RAIL, index});
   }
-  for (int k = 0; k < t->jaws; k++)
-    add_shape(g, t->jaw[k].centre, t->jaw[k].centre, t->jaw[k].radius, ground->jaw[k] - overlap,
-              (carom_part){CAROM_PART_JAW, k});
-  for (int k = 0; k < t->pockets; k++)
-    add_shape(g, t->pocket[k].centre, t->pocket[k].centre, t->pocket[k].radius, 0.0,
-              (carom_part){CAROM_PART_POCKET, k});
+  for (int index = 0; index < table->jaws; index++)
+    add_shape(ring, table->jaw[index].centre, table->jaw[index].centre, table->jaw[index].radius,
+              ground->jaw[index] - overlap, (carom_part){CAROM_PART_JAW, index});
+  for (int index = 0; index < table->pockets; index++)
+    add_shape(ring, table->pocket[index].centre, table->pocket[index].centre,
+              table->pocket[index].radius, 0.0, (carom_part){CAROM_PART_POCKET, index});
 }
 
-/* The place of a segment that is nearest to r, and how far it is. */
-static double nearest(const shape *s, const double r[2], double place[2]) {
-  const double e[2] = {s->q[0] - s->p[0], s->q[1] - s->p[1]}, size2 = carom_plane_dot(e, e);
+/* The place of a segment that is nearest to a point, and how far it is. */
+static double nearest(const shape *segment, const double point[2], double place[2]) {
+  const double way[2] = {segment->q[0] - segment->p[0], segment->q[1] - segment->p[1]},
+               size2 = carom_plane_dot(way, way);
   double along = 0.0;
   if (size2 > 0.0)
-    along = ((r[0] - s->p[0]) * e[0] + (r[1] - s->p[1]) * e[1]) / size2;
-  const double t = carom_lesser(carom_greater(along, 0.0), 1.0);
+    along = ((point[0] - segment->p[0]) * way[0] + (point[1] - segment->p[1]) * way[1]) / size2;
+  const double share = carom_lesser(carom_greater(along, 0.0), 1.0);
   double d2 = 0.0;
-  for (int k = 0; k < 2; k++) {
-    place[k] = s->p[k] + t * e[k];
-    d2 += (r[k] - place[k]) * (r[k] - place[k]);
+  for (int axis = 0; axis < 2; axis++) {
+    place[axis] = segment->p[axis] + share * way[axis];
+    d2 += (point[axis] - place[axis]) * (point[axis] - place[axis]);
   }
   return sqrt(d2);
 }
 
 /* Where two segments cross; false if they do not. */
 static bool cross_at(const shape *a, const shape *b, double place[2]) {
-  const double u[2] = {a->q[0] - a->p[0], a->q[1] - a->p[1]},
-               v[2] = {b->q[0] - b->p[0], b->q[1] - b->p[1]};
-  const double d[2] = {b->p[0] - a->p[0], b->p[1] - a->p[1]}, area = u[0] * v[1] - u[1] * v[0];
-  const double s = (d[0] * v[1] - d[1] * v[0]) / area, t = (d[0] * u[1] - d[1] * u[0]) / area;
-  for (int k = 0; k < 2; k++)
-    place[k] = a->p[k] + s * u[k];
-  return s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0;
+  const double along_a[2] = {a->q[0] - a->p[0], a->q[1] - a->p[1]},
+               along_b[2] = {b->q[0] - b->p[0], b->q[1] - b->p[1]};
+  const double apart[2] = {b->p[0] - a->p[0], b->p[1] - a->p[1]},
+               area = along_a[0] * along_b[1] - along_a[1] * along_b[0];
+  const double share_a = (apart[0] * along_b[1] - apart[1] * along_b[0]) / area,
+               share_b = (apart[0] * along_a[1] - apart[1] * along_a[0]) / area;
+  for (int axis = 0; axis < 2; axis++)
+    place[axis] = a->p[axis] + share_a * along_a[axis];
+  return share_a >= 0.0 && share_a <= 1.0 && share_b >= 0.0 && share_b <= 1.0;
 }
 
 /* Edge `edge_index` of the five between two parts, its places in them, and its length: where they
@@ -121,9 +131,9 @@ static double edge(const shape *a, const shape *b, int edge_index, double in_a[2
 /* Whether boxes around two parts are farther apart than `grown`. */
 static bool far_apart(const shape *a, const shape *b, double grown) {
   const double room = a->reach + b->reach + grown;
-  for (int k = 0; k < 2; k++)
-    if (carom_lesser(a->p[k], a->q[k]) - carom_greater(b->p[k], b->q[k]) > room ||
-        carom_lesser(b->p[k], b->q[k]) - carom_greater(a->p[k], a->q[k]) > room)
+  for (int axis = 0; axis < 2; axis++)
+    if (carom_lesser(a->p[axis], a->q[axis]) - carom_greater(b->p[axis], b->q[axis]) > room ||
+        carom_lesser(b->p[axis], b->q[axis]) - carom_greater(a->p[axis], a->q[axis]) > room)
       return true;
   return false;
 }
@@ -149,10 +159,10 @@ static int windings_of(const shape *a, const shape *b, const double in_a[2], con
 }
 
 /* The root of a node, and the windings from there. */
-static int root_of(const ring *g, int i, int *windings) {
-  for (*windings = 0; g->parent[i] != i; i = g->parent[i])
-    *windings += g->windings[i];
-  return i;
+static int root_of(const part_ring *ring, int node, int *windings) {
+  for (*windings = 0; ring->parent[node] != node; node = ring->parent[node])
+    *windings += ring->windings[node];
+  return node;
 }
 
 /* A hole: between which parts, by which edge. */
@@ -163,21 +173,21 @@ typedef struct hole {
 /* Whether a chain of parts that are at most `grown` apart winds around P, and around P otherwise
  * than around Q unless Q is NULL. Edges of up to `first` are taken before the others; *closing
  * is the edge that closed a chain. */
-static bool encloses(ring *g, double first, double grown, const double P[2], const double *Q,
-                     hole *closing) {
-  for (int i = 0; i < g->count; i++) {
-    g->parent[i] = i;
-    g->windings[i] = 0;
+static bool encloses(part_ring *ring, double first, double grown, const double P[2],
+                     const double *Q, hole *closing) {
+  for (int i = 0; i < ring->count; i++) {
+    ring->parent[i] = i;
+    ring->windings[i] = 0;
   }
 
   /* edges between neighbours: those that are short first */
   for (int pass = 0; pass < (first < grown ? 2 : 1); pass++)
-    for (int i = 0; i < g->count; i++)
-      for (int j = i + 1; j < g->count; j++)
-        for (int edge_index = 0; edge_index < EDGES &&
-                                 !far_apart(&g->shape[i], &g->shape[j], pass == 0 ? first : grown);
+    for (int i = 0; i < ring->count; i++)
+      for (int j = i + 1; j < ring->count; j++)
+        for (int edge_index = 0; edge_index < EDGES && !far_apart(&ring->shape[i], &ring->shape[j],
+                                                                  pass == 0 ? first : grown);
              edge_index++) {
-          const shape *a = &g->shape[i], *b = &g->shape[j];
+          const shape *a = &ring->shape[i], *b = &ring->shape[j];
           double in_a[2], in_b[2];
           /* an edge that is not too long for this pass */
           const double apart = edge(a, b, edge_index, in_a, in_b) - a->reach - b->reach;
@@ -187,10 +197,10 @@ static bool encloses(ring *g, double first, double grown, const double P[2], con
               windings_of(a, b, in_a, in_b, P) - (Q != NULL ? windings_of(a, b, in_a, in_b, Q) : 0);
           /* it joins two trees, or closes a chain, of which the windings are known then */
           int to_i, to_j;
-          const int root_i = root_of(g, i, &to_i), root_j = root_of(g, j, &to_j);
+          const int root_i = root_of(ring, i, &to_i), root_j = root_of(ring, j, &to_j);
           if (root_i != root_j) {
-            g->parent[root_j] = root_i;
-            g->windings[root_j] = to_i + turns - to_j;
+            ring->parent[root_j] = root_i;
+            ring->windings[root_j] = to_i + turns - to_j;
           } else if (to_i + turns != to_j) {
             *closing = (hole){i, j, edge_index};
             return true;
@@ -199,41 +209,42 @@ static bool encloses(ring *g, double first, double grown, const double P[2], con
   return false;
 }
 
-/* Whether the centre of a ball can be at r. */
-static bool is_free(const ring *g, const double r[2]) {
+/* Whether the centre of a ball can be at a point. */
+static bool is_free(const part_ring *ring, const double point[2]) {
   double place[2];
-  for (int k = 0; k < g->count; k++)
-    if (nearest(&g->shape[k], r, place) < g->shape[k].reach)
+  for (int index = 0; index < ring->count; index++)
+    if (nearest(&ring->shape[index], point, place) < ring->shape[index].reach)
       return false;
   return true;
 }
 
 /* A free place near the middle of the box around a table: in rings of places around it. */
-static bool find_middle(const ring *g, const carom_table *t, double P[2]) {
+static bool find_middle(const part_ring *ring, const carom_table *table, double P[2]) {
   enum { HALF = 4 };
   for (int far = 0; far <= HALF; far++)
-    for (int k = -far; k <= far; k++)
-      for (int l = -far; l <= far; l++) {
-        if (k != far && k != -far && l != far && l != -far)
+    for (int column = -far; column <= far; column++)
+      for (int row = -far; row <= far; row++) {
+        if (column != far && column != -far && row != far && row != -far)
           continue;
-        P[0] = t->width * (0.5 + 0.1 * k);
-        P[1] = t->length * (0.5 + 0.1 * l);
-        if (is_free(g, P))
+        P[0] = table->width * (0.5 + 0.1 * column);
+        P[1] = table->length * (0.5 + 0.1 * row);
+        if (is_free(ring, P))
           return true;
       }
   return false;
 }
 
-bool carom_beside_longest(const carom_table *t, const carom_features *f, double radius,
+bool carom_beside_longest(const carom_table *table, const carom_features *features, double radius,
                           double place[2]) {
   double most = 0.0;
-  for (int k = 0; k < f->rails; k++) {
-    const double *p = t->rail[k].p, *q = t->rail[k].q, e_x = q[0] - p[0], e_y = q[1] - p[1];
+  for (int rail = 0; rail < features->rails; rail++) {
+    const double *p = table->rail[rail].p, *q = table->rail[rail].q, e_x = q[0] - p[0],
+                 e_y = q[1] - p[1];
     if (e_x * e_x + e_y * e_y <= most)
       continue;
     most = e_x * e_x + e_y * e_y;
-    for (int c = 0; c < 2; c++)
-      place[c] = 0.5 * (p[c] + q[c]) + 2.0 * radius * f->line[k][c];
+    for (int axis = 0; axis < 2; axis++)
+      place[axis] = 0.5 * (p[axis] + q[axis]) + 2.0 * radius * features->line[rail][axis];
   }
   return most > 0.0;
 }
@@ -241,14 +252,14 @@ bool carom_beside_longest(const carom_table *t, const carom_features *f, double 
 /* A place for a ball on the table: near its middle; or beside the longest rail, where a ring of
  * parts that are at most `grown` apart is closed around that and not around the middle, as in the
  * shape of a U. False if there is none. */
-static bool find_place(ring *g, const carom_ground *ground, double grown, double P[2]) {
+static bool find_place(part_ring *ring, const carom_ground *ground, double grown, double P[2]) {
   hole unused;
-  const bool found = find_middle(g, ground->table, P);
-  if (found && encloses(g, grown, grown, P, NULL, &unused))
+  const bool found = find_middle(ring, ground->table, P);
+  if (found && encloses(ring, grown, grown, P, NULL, &unused))
     return true;
   double Q[2];
   if (!carom_beside_longest(ground->table, ground->features, ground->kind->radius, Q) ||
-      !is_free(g, Q) || !encloses(g, grown, grown, Q, NULL, &unused))
+      !is_free(ring, Q) || !encloses(ring, grown, grown, Q, NULL, &unused))
     return found;
   P[0] = Q[0];
   P[1] = Q[1];
@@ -257,35 +268,38 @@ static bool find_place(ring *g, const carom_ground *ground, double grown, double
 
 /* Finds the hole in a ring that is not closed, by bisection over how far the parts are grown.
  * False if there is none to be found. */
-static bool find_hole(ring *g, const double P[2], hole *found) {
-  double low = touching, high = 1e-3;
-  while (high < 1e6 && !encloses(g, high, high, P, NULL, found)) {
+static bool find_hole(part_ring *ring, const double P[2], hole *found) {
+  enum { BISECTIONS = 50 };                             /* to the last bit */
+  static const double first_guess = 1e-3, widest = 1e6; /* m: no hole is wider */
+  double low = touching, high = first_guess;
+  while (high < widest && !encloses(ring, high, high, P, NULL, found)) {
     low = high;
     high *= 2.0;
   }
-  for (int k = 0; k < 50 && high < 1e6; k++) {
+  for (int bisection = 0; bisection < BISECTIONS && high < widest; bisection++) {
     const double middle = 0.5 * (low + high);
-    if (encloses(g, middle, middle, P, NULL, found))
+    if (encloses(ring, middle, middle, P, NULL, found))
       high = middle;
     else
       low = middle;
   }
-  return high < 1e6 && encloses(g, low, high, P, NULL, found);
+  return high < widest && encloses(ring, low, high, P, NULL, found);
 }
 
 /* Whether the played side of a rail is turned away from the table: nowhere along it can a ball
  * that has come from P touch that side, and somewhere one is at its back. */
-static bool wrong_side(ring *g, const carom_rail *rail, const double normal[3], double R,
-                       const double P[2]) {
+static bool wrong_side(part_ring *ring, const carom_rail *rail, const double normal[3],
+                       double radius, const double P[2]) {
   static const double places[] = {0.5, 0.25, 0.75, 0.1, 0.9, 0.02, 0.98};
   bool at_back = false;
-  for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
+  for (size_t index = 0; index < sizeof places / sizeof places[0]; index++)
     for (int side = 1; side >= -1; side -= 2) {
       double Q[2];
-      for (int c = 0; c < 2; c++)
-        Q[c] = rail->p[c] + places[k] * (rail->q[c] - rail->p[c]) + side * (R + 1e-6) * normal[c];
+      for (int axis = 0; axis < 2; axis++)
+        Q[axis] = rail->p[axis] + places[index] * (rail->q[axis] - rail->p[axis]) +
+                  side * (radius + touching) * normal[axis];
       hole unused;
-      if (!is_free(g, Q) || encloses(g, touching, touching, P, Q, &unused))
+      if (!is_free(ring, Q) || encloses(ring, touching, touching, P, Q, &unused))
         continue;
       if (side > 0)
         return false;
@@ -295,59 +309,60 @@ static bool wrong_side(ring *g, const carom_rail *rail, const double normal[3], 
 }
 
 /* Whether the ring is closed; where it is not, *fault tells the hole. */
-static bool is_closed(ring *g, const double P[2], carom_table_fault *fault) {
+static bool is_closed(part_ring *ring, const double P[2], carom_table_fault *fault) {
   hole found;
-  if (encloses(g, touching, touching, P, NULL, &found))
+  if (encloses(ring, touching, touching, P, NULL, &found))
     return true;
-  if (find_hole(g, P, &found)) {
-    const shape *a = &g->shape[found.a], *b = &g->shape[found.b];
+  if (find_hole(ring, P, &found)) {
+    const shape *a = &ring->shape[found.a], *b = &ring->shape[found.b];
     double in_a[2], in_b[2];
     fault->gap = edge(a, b, found.edge_index, in_a, in_b) - a->radius - b->radius;
     fault->part = a->part;
     fault->other = b->part;
-    for (int c = 0; c < 2; c++)
-      fault->place[c] = 0.5 * (in_a[c] + in_b[c]);
+    for (int axis = 0; axis < 2; axis++)
+      fault->place[axis] = 0.5 * (in_a[axis] + in_b[axis]);
   }
   return false;
 }
 
 carom_status carom_check_ring(const carom_ground *ground, carom_table_fault *fault) {
   const carom_table *table = ground->table;
-  ring g;
+  part_ring ring;
   double P[2];
 
   /* with rails rounded */
-  shapes_of(ground, 0.0, true, &g);
-  if (!find_place(&g, ground, touching, P) || !is_closed(&g, P, fault))
+  shapes_of(ground, 0.0, true, &ring);
+  if (!find_place(&ring, ground, touching, P) || !is_closed(&ring, P, fault))
     return CAROM_ERROR_TABLE_OPEN;
-  for (int k = 0; k < table->rails; k++)
-    if (wrong_side(&g, &table->rail[k], ground->features->line[k], ground->rail[k], P)) {
-      fault->part = (carom_part){CAROM_PART_RAIL, k};
-      for (int c = 0; c < 2; c++)
-        fault->place[c] = 0.5 * (table->rail[k].p[c] + table->rail[k].q[c]);
+  for (int index = 0; index < table->rails; index++)
+    if (wrong_side(&ring, &table->rail[index], ground->features->line[index], ground->rail[index],
+                   P)) {
+      fault->part = (carom_part){CAROM_PART_RAIL, index};
+      for (int axis = 0; axis < 2; axis++)
+        fault->place[axis] = 0.5 * (table->rail[index].p[axis] + table->rail[index].q[axis]);
       return CAROM_ERROR_RAIL_SIDE;
     }
 
   /* and with rails as they are detected */
-  shapes_of(ground, 0.0, false, &g);
-  return carom_ok_if(is_closed(&g, P, fault), CAROM_ERROR_TABLE_OPEN);
+  shapes_of(ground, 0.0, false, &ring);
+  return carom_ok_if(is_closed(&ring, P, fault), CAROM_ERROR_TABLE_OPEN);
 }
 
 __attribute__((noinline, cold)) bool carom_is_cut_off(const carom_ground *ground,
-                                                      const double r[2]) {
+                                                      const double point[2]) {
   const carom_features *features = ground->features;
   const double closed = touching + 2.0 * CAROM_RING_OVERLAP;
-  ring g;
+  part_ring ring;
   hole unused;
   double P[2] = {features->eye[0], features->eye[1]};
-  shapes_of(ground, CAROM_RING_OVERLAP, true, &g);
-  if (!features->has_eye && !find_place(&g, ground, closed, P))
+  shapes_of(ground, CAROM_RING_OVERLAP, true, &ring);
+  if (!features->has_eye && !find_place(&ring, ground, closed, P))
     return false;
   /* a ring with a hole keeps no place apart; there, holes of up to the width of a ball are taken
    * to be closed */
-  shapes_of(ground, CAROM_RING_OVERLAP, false, &g);
+  shapes_of(ground, CAROM_RING_OVERLAP, false, &ring);
   double grown = 2.0 * ground->kind->radius;
-  if (encloses(&g, closed, closed, P, NULL, &unused))
+  if (encloses(&ring, closed, closed, P, NULL, &unused))
     grown = closed;
-  return encloses(&g, grown, grown, P, r, &unused);
+  return encloses(&ring, grown, grown, P, point, &unused);
 }

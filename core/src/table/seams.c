@@ -44,8 +44,8 @@ int carom_seams_of(const carom_table *table, int index, carom_seam seam[CAROM_SE
   int count = 0;
   if (jaw->radius == 0.0) /* a corner, which has no arc */
     return 0;
-  for (int k = 0; k < table->rails && count < CAROM_SEAMS_MOST; k++) {
-    const carom_rail *rail = &table->rail[k];
+  for (int rail_index = 0; rail_index < table->rails && count < CAROM_SEAMS_MOST; rail_index++) {
+    const carom_rail *rail = &table->rail[rail_index];
     const double *end = rail->p;
     if (!continues(jaw, rail, end)) {
       end = rail->q;
@@ -55,7 +55,7 @@ int carom_seams_of(const carom_table *table, int index, carom_seam seam[CAROM_SE
     /* rails that meet at one place share a seam */
     if (count > 0 && square_of_distance(end, seam[0].end) <= tolerance * tolerance)
       continue;
-    seam[count].rail = k;
+    seam[count].rail = rail_index;
     for (int axis = 0; axis < 2; axis++)
       seam[count].end[axis] = end[axis];
     count++;
@@ -72,28 +72,28 @@ static double own_share(const double place[2], const carom_seam *seam) {
 }
 
 __attribute__((noinline)) void carom_blend_jaw(const carom_table *table, int index,
-                                               const carom_ball_kind *kind, const double r[3],
-                                               double *mu, double *e) {
+                                               const carom_ball_kind *kind, const double centre[3],
+                                               double *mu, double *restitution) {
   const carom_jaw *jaw = &table->jaw[index];
   carom_seam seam[CAROM_SEAMS_MOST];
   const int count = carom_seams_of(table, index, seam);
-  const double q = sqrt(square_of_distance(r, jaw->centre));
-  if (count == 0 || q == 0.0)
+  const double distance = sqrt(square_of_distance(centre, jaw->centre));
+  if (count == 0 || distance == 0.0)
     return;
 
   /* the place that the ball touches, and w there */
   double place[2], w[CAROM_SEAMS_MOST] = {1.0, 1.0};
   for (int axis = 0; axis < 2; axis++)
-    place[axis] = jaw->centre[axis] + jaw->radius / q * (r[axis] - jaw->centre[axis]);
-  for (int k = 0; k < count; k++)
-    w[k] = own_share(place, &seam[k]);
+    place[axis] = jaw->centre[axis] + jaw->radius / distance * (centre[axis] - jaw->centre[axis]);
+  for (int side = 0; side < count; side++)
+    w[side] = own_share(place, &seam[side]);
 
   /* how far each rail takes the numbers of the jaw to its own */
-  const double all = w[0] + w[1] - w[0] * w[1], mu_jaw = *mu, e_jaw = *e;
-  for (int k = 0; k < count; k++) {
-    const carom_rail *rail = &table->rail[seam[k].rail];
-    const double share = (1.0 - w[k]) * w[1 - k] / all;
+  const double all = w[0] + w[1] - w[0] * w[1], mu_jaw = *mu, e_jaw = *restitution;
+  for (int side = 0; side < count; side++) {
+    const carom_rail *rail = &table->rail[seam[side].rail];
+    const double share = (1.0 - w[side]) * w[1 - side] / all;
     *mu += share * (carom_or_usual(rail->mu_cushion, kind->mu_cushion) - mu_jaw);
-    *e += share * (carom_or_usual(rail->restitution, kind->restitution_cushion) - e_jaw);
+    *restitution += share * (carom_or_usual(rail->restitution, kind->restitution_cushion) - e_jaw);
   }
 }

@@ -62,9 +62,9 @@ typedef struct carom_seam {
 /* The seams of a jaw, by the numbers of the table alone, and how many. */
 int carom_seams_of(const carom_table *table, int index, carom_seam seam[CAROM_SEAMS_MOST]);
 /* Changes the friction and the restitution of a jaw, for a ball of a kind, to those at the place
- * that the ball at r touches. */
+ * that the ball touches. */
 void carom_blend_jaw(const carom_table *table, int index, const carom_ball_kind *kind,
-                     const double r[3], double *mu, double *e);
+                     const double centre[3], double *mu, double *restitution);
 
 /* part_names.c: whether a rail is the cut of a pocket, and no cushion: those are short. */
 bool carom_is_cut(const carom_table *table, int rail);
@@ -78,8 +78,9 @@ double carom_nose_shift(double height, double reference);
 double carom_reach_on_cloth(const carom_ball_kind *kind, double height, double reference);
 
 /* Whether a place is in the box around the eye in which a ball meets nothing. */
-static inline bool carom_is_clear(const carom_features *f, const double r[2]) {
-  return fabs(r[0] - f->eye[0]) <= f->clear[0] && fabs(r[1] - f->eye[1]) <= f->clear[1];
+static inline bool carom_is_clear(const carom_features *features, const double centre[2]) {
+  return fabs(centre[0] - features->eye[0]) <= features->clear[0] &&
+         fabs(centre[1] - features->eye[1]) <= features->clear[1];
 }
 
 /* A prepared table as a ball of one kind on the cloth meets it. */
@@ -112,19 +113,19 @@ void carom_ground_of(const carom_table *table, const carom_features *features,
 /* Whether a ball on the cloth stands within the cushions and in no pocket; and the part that one
  * which does not is in, CAROM_PART_NONE outside the ring. */
 bool carom_stands_on_table(const carom_table *table, const carom_features *features,
-                           const carom_ball_kind *kind, const double r[3]);
-carom_part carom_part_there(const carom_ground *ground, const double r[3]);
+                           const carom_ball_kind *kind, const double centre[3]);
+carom_part carom_part_there(const carom_ground *ground, const double centre[3]);
 /* Whether an airborne ball is above the table or its rails, and in no cushion. Below the tops it
  * must be within the cushions. */
 bool carom_is_above_table(const carom_table *table, const carom_features *features,
-                          const carom_ball_kind *kind, const double r[3]);
-/* Whether the way from the eye of the table straight to r is clear of all parts for the centre of
+                          const carom_ball_kind *kind, const double centre[3]);
+/* Whether the way from the eye of the table straight to a place is clear of all parts for the centre of
  * a ball on the cloth. */
-bool carom_is_in_sight(const carom_ground *ground, const double r[2]);
+bool carom_is_in_sight(const carom_ground *ground, const double centre[2]);
 /* Whether a place is outside the ring of cushions and pockets, for the centre of a ball that
  * touches none of them. */
 bool carom_place_is_outside(const carom_table *table, const carom_features *features,
-                            const carom_ball_kind *kind, const double r[2]);
+                            const carom_ball_kind *kind, const double centre[2]);
 
 /* ring.c: that the parts of a table keep balls on it, and its rails are played from the right
  * side. */
@@ -134,7 +135,7 @@ carom_status carom_check_ring(const carom_ground *ground, carom_table_fault *fau
 bool carom_beside_longest(const carom_table *table, const carom_features *features, double radius,
                           double place[2]);
 /* Whether a place is outside, as above, by the parts of the table alone: some microseconds. */
-bool carom_is_cut_off(const carom_ground *ground, const double r[2]);
+bool carom_is_cut_off(const carom_ground *ground, const double centre[2]);
 
 /* The kind of part of which a table has too many, by the error; NONE for other errors. */
 static inline carom_part_kind carom_surplus_of(carom_status error) {

@@ -1,6 +1,14 @@
 /* Tables from measures: cushions with pockets, as rule books give them, and those that are built
  * in.
  *
+ *                   |<-- mouth -->|
+ *     rail  __________           __________  rail
+ *                     '.       .'               jaws, tangent to rail and facing
+ *                      /       \
+ *             facing  /  .---.  \  facing       cut: the angle between rail and facing
+ *                    /  ( hole ) \
+ *                        '---'
+ *
  * Rails end where the pockets' mouths begin; there a jaw, a cylinder, leads from the rail into
  * the pocket's facing. Each jaw is tangent to its rail and its facing at their ends. A mouth lies
  * between the points where its rails would meet its facings; a cut is the angle between both. With
@@ -21,52 +29,52 @@ typedef struct openings {
   double sin_c, cos_c, sin_s, cos_s, corner_back, side_back, q, dc, ds;
 } openings;
 
-static void add_rail(carom_table *t, double height, int side, double p_x, double p_y, double q_x,
-                     double q_y) {
-  carom_rail *r = &t->rail[t->rails++];
-  *r = (carom_rail){.p = {p_x, p_y}, .q = {q_x, q_y}, .height = height, .side = side};
+static void add_rail(carom_table *table, double height, int side, double p_x, double p_y,
+                     double q_x, double q_y) {
+  carom_rail *rail = &table->rail[table->rails++];
+  *rail = (carom_rail){.p = {p_x, p_y}, .q = {q_x, q_y}, .height = height, .side = side};
   /* the line as pooltool has it: by its slope, so that the side does not depend on the order of
    * p and q */
   if (p_x == q_x) {
-    r->line[0] = 1.0;
-    r->line[2] = -p_x;
+    rail->line[0] = 1.0;
+    rail->line[2] = -p_x;
   } else {
     const double slope = (q_y - p_y) / (q_x - p_x);
-    r->line[0] = -slope;
-    r->line[1] = 1.0;
-    r->line[2] = slope * p_x - p_y;
+    rail->line[0] = -slope;
+    rail->line[1] = 1.0;
+    rail->line[2] = slope * p_x - p_y;
   }
 }
 
-static void add_jaw(carom_table *t, double height, double radius, double x, double y) {
-  t->jaw[t->jaws++] = (carom_jaw){.centre = {x, y}, .radius = radius, .height = height};
+static void add_jaw(carom_table *table, double height, double radius, double x, double y) {
+  table->jaw[table->jaws++] = (carom_jaw){.centre = {x, y}, .radius = radius, .height = height};
 }
 
-static void add_pocket(carom_table *t, double radius, double x, double y) {
-  t->pocket[t->pockets++] = (carom_pocket){{x, y}, radius, 0.08};
+static void add_pocket(carom_table *table, double radius, double x, double y) {
+  table->pocket[table->pockets++] = (carom_pocket){{x, y}, radius, 0.08};
 }
 
-static void add_plain_rails(carom_table *t, double h) {
-  add_rail(t, h, 1, 0.0, 0.0, 0.0, t->length);
-  add_rail(t, h, 0, t->width, t->length, t->width, 0.0);
-  add_rail(t, h, 0, 0.0, t->length, t->width, t->length);
-  add_rail(t, h, 1, 0.0, 0.0, t->width, 0.0);
+static void add_plain_rails(carom_table *table, double nose) {
+  add_rail(table, nose, 1, 0.0, 0.0, 0.0, table->length);
+  add_rail(table, nose, 0, table->width, table->length, table->width, 0.0);
+  add_rail(table, nose, 0, 0.0, table->length, table->width, table->length);
+  add_rail(table, nose, 1, 0.0, 0.0, table->width, 0.0);
 }
 
-static openings openings_of(const carom_measures *m) {
-  openings f;
-  double s, c;
-  carom_sincos_degrees(45.0, &s, &c);
-  f.q = m->corner_mouth * c;
-  carom_sincos_degrees(m->corner_cut - 90.0, &f.sin_c, &f.cos_c);
-  carom_sincos_degrees(m->side_cut - 90.0, &f.sin_s, &f.cos_s);
-  carom_sincos_degrees(0.5 * m->corner_cut, &s, &c);
-  f.dc = m->corner_jaw * c / s;
-  carom_sincos_degrees(0.5 * m->side_cut, &s, &c);
-  f.ds = m->side_jaw * c / s;
-  f.corner_back = f.sin_c / f.cos_c;
-  f.side_back = f.sin_s / f.cos_s;
-  return f;
+static openings openings_of(const carom_measures *measures) {
+  openings opening;
+  double sine, cosine;
+  carom_sincos_degrees(45.0, &sine, &cosine);
+  opening.q = measures->corner_mouth * cosine;
+  carom_sincos_degrees(measures->corner_cut - 90.0, &opening.sin_c, &opening.cos_c);
+  carom_sincos_degrees(measures->side_cut - 90.0, &opening.sin_s, &opening.cos_s);
+  carom_sincos_degrees(0.5 * measures->corner_cut, &sine, &cosine);
+  opening.dc = measures->corner_jaw * cosine / sine;
+  carom_sincos_degrees(0.5 * measures->side_cut, &sine, &cosine);
+  opening.ds = measures->side_jaw * cosine / sine;
+  opening.corner_back = opening.sin_c / opening.cos_c;
+  opening.side_back = opening.sin_s / opening.cos_s;
+  return opening;
 }
 
 /* Where the rails of the six sides end, from the head and from the left. */
@@ -74,99 +82,105 @@ typedef struct rail_ends {
   double low, middle_low, middle_high, high, right;
 } rail_ends;
 
-static void add_sides(carom_table *t, double h, const rail_ends *e) {
-  const double w = t->width, l = t->length;
-  add_rail(t, h, 1, 0.0, e->low, 0.0, e->middle_low);
-  add_rail(t, h, 1, 0.0, e->middle_high, 0.0, e->high);
-  add_rail(t, h, 0, w, e->low, w, e->middle_low);
-  add_rail(t, h, 0, w, e->middle_high, w, e->high);
-  add_rail(t, h, 1, e->low, 0.0, e->right, 0.0);
-  add_rail(t, h, 0, e->low, l, e->right, l);
+static void add_sides(carom_table *table, double nose, const rail_ends *ends) {
+  const double width = table->width, length = table->length;
+  add_rail(table, nose, 1, 0.0, ends->low, 0.0, ends->middle_low);
+  add_rail(table, nose, 1, 0.0, ends->middle_high, 0.0, ends->high);
+  add_rail(table, nose, 0, width, ends->low, width, ends->middle_low);
+  add_rail(table, nose, 0, width, ends->middle_high, width, ends->high);
+  add_rail(table, nose, 1, ends->low, 0.0, ends->right, 0.0);
+  add_rail(table, nose, 0, ends->low, length, ends->right, length);
 }
 
-static void add_facings_of_sides(carom_table *t, const carom_measures *m, const openings *f) {
-  const double w = m->width, l = m->length, h = m->nose_height, cw = m->cushion_depth,
-               sw = m->side_mouth, ds = f->ds;
-  const double back_high = (l + sw) / 2.0 - cw * f->side_back,
-               back_low = (l - sw) / 2.0 + cw * f->side_back;
-  const double front_high = (l + sw) / 2.0 - ds * f->sin_s,
-               front_low = (l - sw) / 2.0 + ds * f->sin_s;
-  add_rail(t, h, 0, -cw, back_high, -ds * f->cos_s, front_high);
-  add_rail(t, h, 1, -cw, back_low, -ds * f->cos_s, front_low);
-  add_rail(t, h, 0, w + cw, back_high, w + ds * f->cos_s, front_high);
-  add_rail(t, h, 1, w + cw, back_low, w + ds * f->cos_s, front_low);
+static void add_facings_of_sides(carom_table *table, const carom_measures *measures,
+                                 const openings *opening) {
+  const double width = measures->width, length = measures->length, nose = measures->nose_height,
+               cw = measures->cushion_depth, sw = measures->side_mouth, ds = opening->ds;
+  const double back_high = (length + sw) / 2.0 - cw * opening->side_back,
+               back_low = (length - sw) / 2.0 + cw * opening->side_back;
+  const double front_high = (length + sw) / 2.0 - ds * opening->sin_s,
+               front_low = (length - sw) / 2.0 + ds * opening->sin_s;
+  add_rail(table, nose, 0, -cw, back_high, -ds * opening->cos_s, front_high);
+  add_rail(table, nose, 1, -cw, back_low, -ds * opening->cos_s, front_low);
+  add_rail(table, nose, 0, width + cw, back_high, width + ds * opening->cos_s, front_high);
+  add_rail(table, nose, 1, width + cw, back_low, width + ds * opening->cos_s, front_low);
 }
 
-static void add_facings_of_corners(carom_table *t, const carom_measures *m, const openings *f) {
-  const double w = m->width, l = m->length, h = m->nose_height, cw = m->cushion_depth;
-  const double back = f->q - cw * f->corner_back, front = f->q - f->dc * f->sin_c,
-               in = f->dc * f->cos_c;
-  add_rail(t, h, 1, back, -cw, front, -in);
-  add_rail(t, h, 0, -cw, back, -in, front);
-  add_rail(t, h, 0, back, l + cw, front, l + in);
-  add_rail(t, h, 1, -cw, l - back, -in, l - front);
-  add_rail(t, h, 1, w + cw, l - back, w + in, l - front);
-  add_rail(t, h, 0, w - back, l + cw, w - front, l + in);
-  add_rail(t, h, 0, w + cw, back, w + in, front);
-  add_rail(t, h, 1, w - back, -cw, w - front, -in);
+static void add_facings_of_corners(carom_table *table, const carom_measures *measures,
+                                   const openings *opening) {
+  const double width = measures->width, length = measures->length, nose = measures->nose_height,
+               cw = measures->cushion_depth;
+  const double back = opening->q - cw * opening->corner_back,
+               front = opening->q - opening->dc * opening->sin_c, in = opening->dc * opening->cos_c;
+  add_rail(table, nose, 1, back, -cw, front, -in);
+  add_rail(table, nose, 0, -cw, back, -in, front);
+  add_rail(table, nose, 0, back, length + cw, front, length + in);
+  add_rail(table, nose, 1, -cw, length - back, -in, length - front);
+  add_rail(table, nose, 1, width + cw, length - back, width + in, length - front);
+  add_rail(table, nose, 0, width - back, length + cw, width - front, length + in);
+  add_rail(table, nose, 0, width + cw, back, width + in, front);
+  add_rail(table, nose, 1, width - back, -cw, width - front, -in);
 }
 
-static void add_jaws(carom_table *t, const carom_measures *m, const rail_ends *e) {
-  const double w = m->width, l = m->length, h = m->nose_height, rc = m->corner_jaw,
-               rs = m->side_jaw;
-  add_jaw(t, h, rc, e->low, -rc);
-  add_jaw(t, h, rc, -rc, e->low);
-  add_jaw(t, h, rs, -rs, e->middle_low);
-  add_jaw(t, h, rs, -rs, e->middle_high);
-  add_jaw(t, h, rc, -rc, e->high);
-  add_jaw(t, h, rc, e->low, l + rc);
-  add_jaw(t, h, rc, e->right, l + rc);
-  add_jaw(t, h, rc, w + rc, e->high);
-  add_jaw(t, h, rs, w + rs, e->middle_high);
-  add_jaw(t, h, rs, w + rs, e->middle_low);
-  add_jaw(t, h, rc, w + rc, e->low);
-  add_jaw(t, h, rc, e->right, -rc);
+static void add_jaws(carom_table *table, const carom_measures *measures, const rail_ends *ends) {
+  const double width = measures->width, length = measures->length, nose = measures->nose_height,
+               rc = measures->corner_jaw, rs = measures->side_jaw;
+  add_jaw(table, nose, rc, ends->low, -rc);
+  add_jaw(table, nose, rc, -rc, ends->low);
+  add_jaw(table, nose, rs, -rs, ends->middle_low);
+  add_jaw(table, nose, rs, -rs, ends->middle_high);
+  add_jaw(table, nose, rc, -rc, ends->high);
+  add_jaw(table, nose, rc, ends->low, length + rc);
+  add_jaw(table, nose, rc, ends->right, length + rc);
+  add_jaw(table, nose, rc, width + rc, ends->high);
+  add_jaw(table, nose, rs, width + rs, ends->middle_high);
+  add_jaw(table, nose, rs, width + rs, ends->middle_low);
+  add_jaw(table, nose, rc, width + rc, ends->low);
+  add_jaw(table, nose, rc, ends->right, -rc);
 }
 
-static void add_holes(carom_table *t, const carom_measures *m) {
-  const double w = m->width, l = m->length;
-  double unused, c;
-  carom_sincos_degrees(45.0, &unused, &c);
-  const double off = (m->corner_shelf + m->corner_hole - 0.5 * m->corner_mouth) * c,
-               out = m->side_shelf + m->side_hole;
-  add_pocket(t, m->corner_hole, -off, -off);
-  add_pocket(t, m->side_hole, -out, l / 2.0);
-  add_pocket(t, m->corner_hole, -off, l + off);
-  add_pocket(t, m->corner_hole, w + off, -off);
-  add_pocket(t, m->side_hole, w + out, l / 2.0);
-  add_pocket(t, m->corner_hole, w + off, l + off);
+static void add_holes(carom_table *table, const carom_measures *measures) {
+  const double width = measures->width, length = measures->length;
+  double unused, cosine;
+  carom_sincos_degrees(45.0, &unused, &cosine);
+  const double off =
+                   (measures->corner_shelf + measures->corner_hole - 0.5 * measures->corner_mouth) *
+                   cosine,
+               out = measures->side_shelf + measures->side_hole;
+  add_pocket(table, measures->corner_hole, -off, -off);
+  add_pocket(table, measures->side_hole, -out, length / 2.0);
+  add_pocket(table, measures->corner_hole, -off, length + off);
+  add_pocket(table, measures->corner_hole, width + off, -off);
+  add_pocket(table, measures->side_hole, width + out, length / 2.0);
+  add_pocket(table, measures->corner_hole, width + off, length + off);
 }
 
 /* The parts of a table with pockets, in the order of pooltool. */
-static void add_pockets(carom_table *t, const carom_measures *m, const openings *f) {
-  const double w = m->width, l = m->length, sw = m->side_mouth;
-  const rail_ends ends = {.low = f->q + f->dc,
-                          .middle_low = (l - sw) / 2.0 - f->ds,
-                          .middle_high = (l + sw) / 2.0 + f->ds,
-                          .high = l - f->q - f->dc,
-                          .right = w - f->q - f->dc};
-  add_sides(t, m->nose_height, &ends);
-  add_facings_of_sides(t, m, f);
-  add_facings_of_corners(t, m, f);
-  add_jaws(t, m, &ends);
-  add_holes(t, m);
+static void add_pockets(carom_table *table, const carom_measures *measures,
+                        const openings *opening) {
+  const double width = measures->width, length = measures->length, sw = measures->side_mouth;
+  const rail_ends ends = {.low = opening->q + opening->dc,
+                          .middle_low = (length - sw) / 2.0 - opening->ds,
+                          .middle_high = (length + sw) / 2.0 + opening->ds,
+                          .high = length - opening->q - opening->dc,
+                          .right = width - opening->q - opening->dc};
+  add_sides(table, measures->nose_height, &ends);
+  add_facings_of_sides(table, measures, opening);
+  add_facings_of_corners(table, measures, opening);
+  add_jaws(table, measures, &ends);
+  add_holes(table, measures);
 }
 
 /* Facings, which follow the cushions of the six sides, and jaws have numbers of their own. */
-static void give_facings(carom_table *t, const carom_measures *m) {
+static void give_facings(carom_table *table, const carom_measures *measures) {
   static const int sides = 6;
-  for (int k = sides; k < t->rails; k++) {
-    t->rail[k].restitution = m->facing_restitution;
-    t->rail[k].mu_cushion = m->facing_friction;
+  for (int index = sides; index < table->rails; index++) {
+    table->rail[index].restitution = measures->facing_restitution;
+    table->rail[index].mu_cushion = measures->facing_friction;
   }
-  for (int k = 0; k < t->jaws; k++) {
-    t->jaw[k].restitution = m->facing_restitution;
-    t->jaw[k].mu_cushion = m->facing_friction;
+  for (int index = 0; index < table->jaws; index++) {
+    table->jaw[index].restitution = measures->facing_restitution;
+    table->jaw[index].mu_cushion = measures->facing_friction;
   }
 }
 
@@ -228,32 +242,32 @@ carom_status carom_table_measures(carom_table_kind kind, carom_measures *measure
 }
 
 /* The parts, without a check. */
-static void make(const carom_measures *m, const openings *f, carom_table *table) {
+static void make(const carom_measures *measures, const openings *opening, carom_table *table) {
   memset(table, 0, sizeof *table);
-  table->width = m->width;
-  table->length = m->length;
-  table->slope_x = m->slope_x;
-  table->slope_y = m->slope_y;
-  if (m->corner_mouth == 0.0) {
-    add_plain_rails(table, m->nose_height);
+  table->width = measures->width;
+  table->length = measures->length;
+  table->slope_x = measures->slope_x;
+  table->slope_y = measures->slope_y;
+  if (measures->corner_mouth == 0.0) {
+    add_plain_rails(table, measures->nose_height);
     return;
   }
-  add_pockets(table, m, f);
-  give_facings(table, m);
+  add_pockets(table, measures, opening);
+  give_facings(table, measures);
 }
 
 carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
   if (table == NULL)
     return CAROM_ERROR_NULL;
-  carom_measures m;
-  const carom_status status = carom_table_measures(kind, &m);
+  carom_measures measures;
+  const carom_status status = carom_table_measures(kind, &measures);
   if (status != CAROM_OK)
     return status;
-  const openings f = openings_of(&m);
+  const openings opening = openings_of(&measures);
   if (kind == CAROM_TABLE_POOLTOOL)
     *table = carom_table_pooltool;
   else
-    make(&m, &f, table);
+    make(&measures, &opening, table);
   return CAROM_OK;
 }
 
@@ -272,27 +286,31 @@ static carom_status blame(carom_table_fault *fault, int32_t measure, int32_t sec
 }
 
 /* Whether the parts of pockets have room: each condition bounds a measure from above. */
-static carom_status check_room(const carom_measures *m, const openings *f,
+static carom_status check_room(const carom_measures *measures, const openings *opening,
                                carom_table_fault *fault) {
-  const double cw = m->cushion_depth, root = m->corner_mouth / f->q;
+  const double cw = measures->cushion_depth, root = measures->corner_mouth / opening->q;
   const struct {
     int32_t measure, second;
     double value, bound;
   } rules[] = {
       /* something is left of the short and the long rails */
-      {AT(corner_mouth), AT(width), m->corner_mouth, (0.5 * m->width - f->dc) * root},
-      {AT(side_mouth), AT(length), m->side_mouth, m->length - 2.0 * (f->q + f->dc + f->ds)},
+      {AT(corner_mouth), AT(width), measures->corner_mouth,
+       (0.5 * measures->width - opening->dc) * root},
+      {AT(side_mouth), AT(length), measures->side_mouth,
+       measures->length - 2.0 * (opening->q + opening->dc + opening->ds)},
       /* jaws end within their facings */
-      {AT(corner_jaw), AT(cushion_depth), m->corner_jaw, cw * m->corner_jaw / (f->dc * f->cos_c)},
-      {AT(side_jaw), AT(cushion_depth), m->side_jaw, cw * m->side_jaw / (f->ds * f->cos_s)},
+      {AT(corner_jaw), AT(cushion_depth), measures->corner_jaw,
+       cw * measures->corner_jaw / (opening->dc * opening->cos_c)},
+      {AT(side_jaw), AT(cushion_depth), measures->side_jaw,
+       cw * measures->side_jaw / (opening->ds * opening->cos_s)},
       /* the facings of a pocket do not meet */
       {AT(cushion_depth), AT(corner_cut), cw,
-       f->corner_back > 1.0 ? f->q / (f->corner_back - 1.0) : INFINITY},
+       opening->corner_back > 1.0 ? opening->q / (opening->corner_back - 1.0) : INFINITY},
       {AT(cushion_depth), AT(side_cut), cw,
-       f->side_back > 0.0 ? 0.5 * m->side_mouth / f->side_back : INFINITY}};
-  for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
-    if (rules[k].value >= rules[k].bound)
-      return blame(fault, rules[k].measure, rules[k].second, rules[k].bound);
+       opening->side_back > 0.0 ? 0.5 * measures->side_mouth / opening->side_back : INFINITY}};
+  for (size_t index = 0; index < sizeof rules / sizeof *rules; index++)
+    if (rules[index].value >= rules[index].bound)
+      return blame(fault, rules[index].measure, rules[index].second, rules[index].bound);
   return CAROM_OK;
 }
 
@@ -307,20 +325,21 @@ carom_status carom_table_measured(const carom_measures *measures, double ball_ra
   memset(table, 0, sizeof *table);
 
   /* each by itself, those of pockets where there are some */
-  const carom_number *n;
+  const carom_number *number;
   const bool pockets = measures->corner_mouth != 0.0 || measures->side_mouth != 0.0;
-  for (int k = 0; (n = carom_number_of(CAROM_PART_MEASURES, k)) != NULL; k++) {
-    double x;
-    memcpy(&x, (const char *)measures + n->offset, sizeof x);
-    if ((pockets || k <= AT(nose_height) || k >= AT(slope_x)) && !(x >= n->low && x <= n->high))
+  for (int k = 0; (number = carom_number_of(CAROM_PART_MEASURES, k)) != NULL; k++) {
+    double value;
+    memcpy(&value, (const char *)measures + number->offset, sizeof value);
+    if ((pockets || k <= AT(nose_height) || k >= AT(slope_x)) &&
+        !(value >= number->low && value <= number->high))
       return blame(fault, k, -1, 0.0);
   }
-  const openings f = openings_of(measures);
+  const openings opening = openings_of(measures);
   carom_status status = CAROM_OK;
   if (pockets)
-    status = check_room(measures, &f, fault);
+    status = check_room(measures, &opening, fault);
   if (status != CAROM_OK)
     return status;
-  make(measures, &f, table);
+  make(measures, &opening, table);
   return carom_table_check(table, ball_radius, fault);
 }

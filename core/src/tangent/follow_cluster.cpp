@@ -94,7 +94,7 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
     if (c->on_slate)
       text::carom_cluster_put_on_slate(&state);
     for (int k = 0; c->on_slate && k < state.balls; k++)
-      slates[k].e = state.ball[k].flies ? number(0) : slate_e[state.ball[k].index];
+      slates[k].restitution = state.ball[k].flies ? number(0) : slate_e[state.ball[k].index];
   } else {
     contacts = text::carom_cluster_members(&state, c->first, c->second);
   }
@@ -113,7 +113,7 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
     const bool starts =
         (x.i == c->first && x.j == c->second) || (x.i == c->second && x.j == c->first);
     *kink |= is_level(x, starts ? 1e-4 : 1e-9) ||
-             (!state.in_space && x.p->radius.d[0] != x.q->radius.d[0]);
+             (!state.in_space && x.ball_i->radius.d[0] != x.ball_j->radius.d[0]);
   }
 
   /* their motion after it */

@@ -742,7 +742,7 @@ static double closes_at_the_end(carom_cluster_state *c, uint64_t seed, double sl
   double most = 0.0;
   for (int k = 0; k < c->contacts; k++) {
     const carom_cluster_contact_state *x = &c->contact[k];
-    const double v_x = x->p->v[0] - x->q->v[0], v_y = x->p->v[1] - x->q->v[1];
+    const double v_x = x->ball_i->v[0] - x->ball_j->v[0], v_y = x->ball_i->v[1] - x->ball_j->v[1];
     if (x->touched)
       most = fmax(most, v_x * x->n[0] + v_y * x->n[1]);
   }
