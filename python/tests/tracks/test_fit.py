@@ -34,8 +34,8 @@ from carom.tracks import (
     fit,
 )
 
-# Before a release more matches are fitted.
-MATCHES = int(os.environ.get("CAROM_MATCHES", "0"))
+# Matches that are fitted before a release, each in some 15 s.
+MATCHES = int(os.environ.get("CAROM_MATCHES", "24"))
 HAN = {
     "mu_slide": 0.21,
     "mu_roll": 0.005,
@@ -276,16 +276,21 @@ def test_known_constants_give_the_strikes_back(sample):
 @pytest.mark.parametrize(
     ("how", "spoil"),
     [
-        ({}, {"lead_in": 0.05}),
         ({}, {"lead_in": 3.0, "clock": 3600.0}),
-        ({}, {"clock": 37.0}),
         ({"rate": 25.0}, {"lead_in": 0.5}),
-        ({"rate": 240.0, "thin": 0.0}, {"lead_in": 0.2}),
-        ({"noise": 0.2e-3}, {"lead_in": 1.0}),
-        ({"noise": 1e-3}, {"lead_in": 0.5}),
-        ({"noise": 3e-3, "thin": 0.0}, {"lead_in": 0.5}),
-        ({"noise": 2e-3}, {}),
-        ({"thin": 0.0}, {"lost": 0.08, "lead_in": 0.3}),
+        *(
+            pytest.param(*case, marks=pytest.mark.release)
+            for case in (
+                ({}, {"lead_in": 0.05}),
+                ({}, {"clock": 37.0}),
+                ({"rate": 240.0, "thin": 0.0}, {"lead_in": 0.2}),
+                ({"noise": 0.2e-3}, {"lead_in": 1.0}),
+                ({"noise": 1e-3}, {"lead_in": 0.5}),
+                ({"noise": 3e-3, "thin": 0.0}, {"lead_in": 0.5}),
+                ({"noise": 2e-3}, {}),
+                ({"thin": 0.0}, {"lost": 0.08, "lead_in": 0.3}),
+            )
+        ),
     ],
 )
 def test_recordings_as_people_make_them_are_fitted_to_their_noise(how, spoil):
@@ -317,15 +322,23 @@ def test_recordings_as_people_make_them_are_fitted_to_their_noise(how, spoil):
 @pytest.mark.parametrize(
     ("spoil", "status"),
     [
-        ({"false": 0.01, "lead_in": 0.5}, "mended: .* % false detections, left out"),
-        ({"swaps": 1}, "mended: balls . and . swapped from .* s on"),
+        pytest.param(
+            {"false": 0.01, "lead_in": 0.5},
+            "mended: .* % false detections, left out",
+            marks=pytest.mark.release,
+        ),
+        pytest.param(
+            {"swaps": 1},
+            "mended: balls . and . swapped from .* s on",
+            marks=pytest.mark.release,
+        ),
         (
             {"false": 0.01, "swaps": 1, "lost": 0.08, "clock": 600.0},
             "mended: balls . and . swapped from .* s on; .* % false detections, left out",
         ),
     ],
 )
-@pytest.mark.parametrize("thin", [0.0, 0.016])
+@pytest.mark.parametrize("thin", [pytest.param(0.0, marks=pytest.mark.release), 0.016])
 def test_false_rows_and_swapped_names_are_mended_and_told(spoil, status, thin):
     sample = seen_by_han(12, thin=thin)
     with warnings.catch_warnings():
@@ -359,9 +372,8 @@ def told_and_mended(**how):
     return (struck(sample, recordings, calibrate=calibrate) for calibrate in (False, True))
 
 
-@pytest.mark.parametrize(
-    ("angle", "scale"), [(-0.5, 0.99), (0.5, 1.0), (0.0, 1.01)][: None if MATCHES else 1]
-)
+@pytest.mark.release  # a table that is turned and bent is calibrated below, in any case
+@pytest.mark.parametrize(("angle", "scale"), [(-0.5, 0.99), (0.5, 1.0), (0.0, 1.01)])
 def test_a_crooked_or_scaled_table_is_told_and_calibrated(angle, scale):
     notes, mended = told_and_mended(angle=angle, scale=scale)
     number = re.match(
@@ -378,6 +390,7 @@ def test_a_crooked_or_scaled_table_is_told_and_calibrated(angle, scale):
     )
 
 
+@pytest.mark.release  # that noise turns no table is tested without a fit below
 def test_a_straight_table_stays_as_it_is():
     sample = seen_by_han(20)
     straight = struck(sample, calibrate=True)
@@ -385,7 +398,8 @@ def test_a_straight_table_stays_as_it_is():
 
 
 @pytest.mark.parametrize(
-    "bend", [(-0.003, 0.003, -0.002), (0.004, 0.0, 0.0)][: None if MATCHES else 1]
+    "bend",
+    [(-0.003, 0.003, -0.002), pytest.param((0.004, 0.0, 0.0), marks=pytest.mark.release)],
 )
 def test_a_bent_picture_is_told_and_calibrated(bend):
     """By a lens or a camera that looks askew, as it bends the edges; corners are up to 2 cm off."""
@@ -402,7 +416,7 @@ def test_a_bent_picture_is_told_and_calibrated(bend):
     )
 
 
-@pytest.mark.parametrize("seed", range(2 if MATCHES else 1))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.release)])
 def test_noise_does_not_turn_the_table(seed):
     """Noise of 3 mm at 240 pictures a second turns a coordinate round in every third row."""
     sample = seen_by_han(20, noise=3e-3, rate=240.0, thin=0.0, seed=seed)
@@ -415,6 +429,7 @@ def test_noise_does_not_turn_the_table(seed):
     )
 
 
+@pytest.mark.release  # 24 shots; ten_banks has ten, by the command too
 def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
     """Frames as a camera has them, of shots on the built-in table: constants are found, with no
     word on them or on the strikes.
@@ -620,10 +635,14 @@ def test_derivatives_of_shots_give_the_normal_equations(sample, plays):
     assert np.median(off) < 6e-3 and np.sum(np.array(off) < 0.02) >= 10, off
 
 
-def test_strikes_are_off_by_what_their_covariance_says():
+@pytest.mark.parametrize(
+    ("seeds", "shots", "most"),
+    [((2,), 12, 0.92), pytest.param((2, 6), 24, 0.85, marks=pytest.mark.release)],
+)
+def test_strikes_are_off_by_what_their_covariance_says(seeds, shots, most):
     off, within = [], []
-    for seed in (2, 6):
-        sample = seen_by_han(24, seed=seed)
+    for seed in seeds:
+        sample = seen_by_han(shots, seed=seed)
         found = struck(sample, threads=-1)
         for k in np.flatnonzero(found.rmse < 1e-3):
             covariance = found.strike_covariance(int(k))
@@ -650,7 +669,8 @@ def test_strikes_are_off_by_what_their_covariance_says():
         (within < 0.95).mean(),
     )
     # of normal errors 68 % and 95 %
-    assert len(off) > 30 and 0.55 < (off < 1).mean() < 0.85 and (off < 2).mean() > 0.85, (
+    assert len(off) > 0.6 * shots * len(seeds)
+    assert 0.55 < (off < 1).mean() < most and (off < 2).mean() > 0.85, (
         (off < 1).mean(),
         (off < 2).mean(),
     )
@@ -675,10 +695,13 @@ TRUTH = {
 }
 
 
-def test_unknown_constants_are_found_within_their_spread():
+@pytest.mark.parametrize(
+    ("seeds", "shots"), [((4,), 5), pytest.param((4, 6), 24, marks=pytest.mark.release)]
+)
+def test_unknown_constants_are_found_within_their_spread(seeds, shots):
     off = []
-    for seed in (4, 6) if MATCHES else (4,):
-        sample = synthetic(24, constants=TRUTH, seed=seed)
+    for seed in seeds:
+        sample = synthetic(shots, constants=TRUTH, seed=seed)
         notes = []
         found = fitted(
             sample.recordings,
@@ -704,7 +727,8 @@ def test_unknown_constants_are_found_within_their_spread():
             and np.abs(correlation - np.eye(11)).max() > 0.1
         )
         # the spreads are no excuse, and shots are off by hardly more than the noise
-        assert all(found.spread[name] < 0.15 * value for name, value in TRUTH.items()), found.spread
+        most = 0.15 * np.sqrt(24 / shots)
+        assert all(found.spread[name] < most * value for name, value in TRUTH.items()), found.spread
         assert found.median_rmse < 2e-3
     # 19 in 20 within two standard deviations, less the chance of one match: of seeds 1 to 12 one
     # had 8 of 11 and four had 10; by the rounding of another NumPy or processor a fit may end
@@ -723,6 +747,7 @@ def billiard(seed):
     return synthetic(24, constants=law, noise=0.5e-3, seed=seed)
 
 
+@pytest.mark.release  # two matches of 24 shots
 @pytest.mark.parametrize("seed", [5, 7])
 def test_a_friction_without_slip_is_found(seed):
     """From a law with slip these matches stopped at three times the noise."""
@@ -733,13 +758,10 @@ def test_a_friction_without_slip_is_found(seed):
     assert found.constants["law_a"] == pytest.approx(0.08, abs=0.002)
 
 
+@pytest.mark.release
 def test_matches_far_from_the_usual_are_fitted_within_their_spread():
     """Matches whose constants are up to 1.8 deviations from the usual, by cameras of all kinds."""
     matches, off, sound = MATCHES, [], 0
-    if matches == 0:
-        pytest.skip(
-            "CAROM_MATCHES says how many matches are fitted, each in some 15 s: 24 before a release"
-        )
     for seed in range(matches):
         model = ("han", "smooth")[seed // 8 % 2]
         random, usual = np.random.default_rng(1000 + seed), _constants.usual(model)
@@ -888,7 +910,7 @@ def test_one_number_of_friction_between_balls_is_a_law_without_slip():
     assert both["law_a"] == 0.05 and both["law_b"] > 0
 
 
-@pytest.mark.parametrize("rate", [30, 120])
+@pytest.mark.parametrize("rate", [30, pytest.param(120, marks=pytest.mark.release)])
 def test_ten_banks_on_film_give_the_cushion_of_a_pool_table(tmp_path, rate):
     table = {
         "restitution_cushion": 0.84,
@@ -1156,6 +1178,7 @@ def test_the_command_splits_goes_on_and_writes_a_page(sample, tmp_path, capsys, 
     assert not list(tmp_path.glob("*.state*"))
 
 
+@pytest.mark.release  # 16 shots by a page that is made by hand
 def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatch):
     monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "examples"))
     reality = importlib.import_module("reality")

@@ -34,7 +34,9 @@ def from_true(plays, strikes, tries, spread, random):
     return near, (sums[:, 0] / sums[:, 2]).reshape(-1, tries)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(
+    "seed", [0, *(pytest.param(seed, marks=pytest.mark.release) for seed in (1, 2))]
+)
 def test_strikes_of_long_shots_are_those_that_were_played(seed):
     """Noise of the places of rest grows along a shot, so the true strike is not quite the best."""
     sample, recordings, strikes = long_shots(12, seed)
@@ -50,7 +52,7 @@ def test_strikes_of_long_shots_are_those_that_were_played(seed):
     )
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.release)])
 def test_by_a_wrong_law_no_strike_near_the_true_one_is_better(seed):
     """Where the best strike of the first second is not that of the whole shot."""
     sample, recordings, strikes = long_shots(12, seed)
