@@ -27,7 +27,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* src/CMakeLists.txt precompiles the larger ones of these headers, once for each set. */
+/* With gcc, src/CMakeLists.txt precompiles the larger ones of these headers, once for each set. */
 #if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
 #include <immintrin.h>
 #define LANES_X86 1
