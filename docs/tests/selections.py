@@ -33,7 +33,12 @@ files = subprocess.run(
 ).stdout.split("\0")[:-1]
 faults, count = [], 0
 for name in files:
-    if name in ("CHANGELOG.md", "docs/tests/release") or Path(name).suffix in (".svg", ".png", ".ipynb", ".xz"):
+    if name in ("CHANGELOG.md", "docs/tests/release") or Path(name).suffix in (
+        ".svg",
+        ".png",
+        ".ipynb",
+        ".xz",
+    ):
         continue
     try:
         text = (SOURCE / name).read_text(encoding="utf-8")

@@ -1,5 +1,5 @@
-/* The numbers of chances.c, fitted to games that were played: `carom-lab learn` plays them and prints
- * the rows. */
+/* The numbers of chances.c, fitted to games that were played: `carom-lab learn` plays them and
+ * prints the rows. */
 #ifndef CAROM_PLAN_LEARNED_H
 #define CAROM_PLAN_LEARNED_H
 

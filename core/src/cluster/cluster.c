@@ -634,9 +634,9 @@ static void take_back(cluster_state *cluster, double energy) {
           centre[axis] + share * (cluster->ball[index].v[axis] - centre[axis]);
 }
 
-/* The same of a strike: by an impulse -J of the tip, which takes J |b| - J^2 k/2 where b is the speed
- * `parting` of the tip, below 0, and k the `response`, by how much J changes it. A tip that slides gives J along
- * n. */
+/* The same of a strike: by an impulse -J of the tip, which takes J |b| - J^2 k/2 where b is the
+ * speed `parting` of the tip, below 0, and k the `response`, by how much J changes it. A tip that
+ * slides gives J along n. */
 static void take_back_from_tip(bool flat, cluster_state *cluster, double energy) {
   carom_cluster_tip *tip = &cluster->tip;
   ball_state *ball = &cluster->ball[tip->ball];

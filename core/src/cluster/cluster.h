@@ -221,8 +221,8 @@ int carom_cluster_members(carom_cluster_state *cluster, int first, int second);
  * contacts there are, -1 where there are too many; 0: it is alone. */
 int carom_cluster_members_of_tip(carom_cluster_state *cluster, double most);
 
-/* push.c: the tip of a cue at ball[struck], which touches a ball that is alone for a duration. cue[] has the
- * numbers of carom_cue from speed to tip_restitution, in their order. */
+/* push.c: the tip of a cue at ball[struck], which touches a ball that is alone for a duration.
+ * cue[] has the numbers of carom_cue from speed to tip_restitution, in their order. */
 void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double cue[8],
                           double duration);
 

@@ -39,8 +39,8 @@ static inline void carom_tip_from(const carom_cue *cue, double radius, const dou
                    ahead * axes[0][axis] - centre[axis];
 }
 
-/* The direction of that way along these axes, of which the last two are the (a, b) of a touch. Returns the square
- * of the distance. */
+/* The direction of that way along these axes, of which the last two are the (a, b) of a touch.
+ * Returns the square of the distance. */
 static inline double carom_tip_on(double axes[3][3], const double to_tip[3], double offset[3]) {
   const double square = carom_space_dot(to_tip, to_tip), over = 1.0 / sqrt(square);
   for (int axis = 0; axis < 3; axis++)

@@ -56,8 +56,8 @@ static inline double carom_linear_stiffness(double time, double restitution) {
 }
 
 /* The centroid in time of the impulse of a contact with linear branches that lasts so long alone.
- * The force is a quarter of a sine, whose centroid is 2/pi of it, and then e times as long as that a
- * quarter of a cosine, whose centroid is 1 - 2/pi of it. */
+ * The force is a quarter of a sine, whose centroid is 2/pi of it, and then e times as long as that
+ * a quarter of a cosine, whose centroid is 1 - 2/pi of it. */
 static inline double carom_linear_lag(double time, double restitution) {
   return time / (1.0 + restitution) * (CAROM_CENTROID_OF_SINE * (1.0 - restitution) + restitution);
 }
@@ -83,8 +83,9 @@ static inline double carom_set_left(double restitution, double overlap, double o
   return overlap > 0.0 && lost > 0.0 ? overlap / lost : 0.0;
 }
 
-/* d_max after a step, in the middle of which the contact had that overlap. Where the closing speed changed its
- * sign within the step, d_max is the vertex of the parabola with these speeds at its ends. */
+/* d_max after a step, in the middle of which the contact had that overlap. Where the closing speed
+ * changed its sign within the step, d_max is the vertex of the parabola with these speeds at its
+ * ends. */
 static inline double carom_hertz_vertex(double overlap, double overlap_max, double step,
                                         double closing_before, double closing_after) {
   if (!(closing_before > 0.0 && closing_after <= 0.0 && overlap >= overlap_max))

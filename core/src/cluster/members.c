@@ -29,8 +29,8 @@ static const double least_reach = 1e-3;      /* of delta: where even this has to
 /* Smaller numbers count as 0: their fifth roots are below those of any contact. */
 #define CAROM_LEAST_POWER 1e-300
 
-/* square^(1/5) for square >= 0, by the same operations everywhere: a fifth of the exponent, then Newton's
- * method. */
+/* square^(1/5) for square >= 0, by the same operations everywhere: a fifth of the exponent, then
+ * Newton's method. */
 static double fifth_root(double square) {
   if (!(square > CAROM_LEAST_POWER))
     return 0.0;

@@ -119,8 +119,8 @@ static void begin(const carom_cluster_state *cluster, changes *sum) {
     add(cluster, &cluster->touch[index], -1.0, 0.0, sum);
 }
 
-/* The instant t_k of a touch of two balls: where the way that is left of D_k, at the velocities after
- * the touches before, ends. */
+/* The instant t_k of a touch of two balls: where the way that is left of D_k, at the velocities
+ * after the touches before, ends. */
 static double instant_of(const carom_cluster_state *cluster, const carom_cluster_touch *touch,
                          const changes *sum) {
   const carom_cluster_contact_state *contact = &cluster->contact[touch->contact];

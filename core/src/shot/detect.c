@@ -165,8 +165,8 @@ static inline int list_near(const carom_features *features, const double box[4],
   return count;
 }
 
-/* When a ball meets a feature of the table, up to the horizon. `unlike`, a constant: whether noses and jaws are reached at
- * distances of their own, nose.c. */
+/* When a ball meets a feature of the table, up to the horizon. `unlike`, a constant: whether noses
+ * and jaws are reached at distances of their own, nose.c. */
 static inline __attribute__((always_inline)) carom_meeting
 meet_feature(const carom_sim *sim, int ball, int feature, const line_of_motion *track,
              double horizon, const bool unlike) {

@@ -135,9 +135,9 @@ static double zero_from_left(const jaw_gap *gap, double raise, double start, dou
   return carom_first_zero(gap_at, least_half_curvature, gap, raise, start, end, 0.0);
 }
 
-/* The first contact from `start` to `end`, with q >= c between. Balls that touch at the start and do
- * not close are in contact where the gap has fallen by CAROM_SLACK from that at the start, or, if it has been greater
- * than that on the way, where it is 0: as PRESSED in gap.c.
+/* The first contact from `start` to `end`, with q >= c between. Balls that touch at the start and
+ * do not close are in contact where the gap has fallen by CAROM_SLACK from that at the start, or,
+ * if it has been greater than that on the way, where it is 0: as PRESSED in gap.c.
  */
 static double touch_circle(const flight *track, const nose_circle *circle, double start,
                            double end) {
@@ -212,8 +212,9 @@ static bool is_between_ends(const double along[3], const flight *track, double t
   return place >= 0.0 && place <= 1.0;
 }
 
-/* The part of the time up to the horizon in which the ball is between the ends of a rail: place is linear in t. False
- * where there is none. On a slope the part in which its chord is, or it could be by its bulge. */
+/* The part of the time up to the horizon in which the ball is between the ends of a rail: place is
+ * linear in t. False where there is none. On a slope the part in which its chord is, or it could be
+ * by its bulge. */
 static bool while_beside(const double along[3], const flight *track, double horizon,
                          double window[2]) {
   const double bent = horizon * carom_plane_dot(along, track->a);
@@ -341,8 +342,8 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
   /* it is or comes to be higher than a rail */
   const bool above = track->r[2] + rise >= low + track->radius - on_top;
 
-  /* of the parts beside the track only, as noses are inside their walls by less than a radius; their
-   * tops from above */
+  /* of the parts beside the track only, as noses are inside their walls by less than a radius;
+   * their tops from above */
   float box[4];
   box_of(track, *horizon, features->reference, box);
 

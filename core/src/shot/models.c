@@ -187,8 +187,8 @@ static void balls_in_space(const carom_sim *sim, const carom_due *pending_event,
   take_motion(&out.b, b);
 }
 
-/* Turns the plane of the normal n and the level direction across it into that of the cloth: n to `level`, and
- * k, which is up across n, to z. Or back. */
+/* Turns the plane of the normal n and the level direction across it into that of the cloth: n to
+ * `level`, and k, which is up across n, to z. Or back. */
 static void turn_plane(const double source[2][3], const double target[2][3], double vector[3]) {
   double along[2];
   for (int axis = 0; axis < 2; axis++)

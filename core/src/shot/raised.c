@@ -266,9 +266,9 @@ static double part_of_step(const ending *found, double step) {
 
 /* ---- A phase */
 
-/* C and U of an eigenvalue at a time t up to STEP of the faster mode, to 1e-15, by sums and products
- * alone. With q = -lambda t^2, C is the sum of q^n/(2n)!, and U/t that of q^n/(2n + 1)!, each by its even and its odd
- * powers, which are computed at one time. */
+/* C and U of an eigenvalue at a time t up to STEP of the faster mode, to 1e-15, by sums and
+ * products alone. With q = -lambda t^2, C is the sum of q^n/(2n)!, and U/t that of q^n/(2n + 1)!,
+ * each by its even and its odd powers, which are computed at one time. */
 static void swing_of(double lambda, double time, double *C, double *U) {
   const double q = -lambda * time * time, q2 = q * q;
   const double c_even = 1.0 + q2 * (1.0 / 24.0 + q2 * (1.0 / 40320.0 + q2 * (1.0 / 479001600.0)));

@@ -135,7 +135,8 @@ static double nearest_zero(double a, double b, double c) {
   return zero[0];
 }
 
-/* Two balls, set apart; the normal becomes the direction from a to b. False where pooltool has no answer. */
+/* Two balls, set apart; the normal becomes the direction from a to b. False where pooltool has no
+ * answer. */
 static bool kiss_balls(double radius, double normal[2], carom_ball_state *a, carom_ball_state *b) {
   const double reach = 2.0 * radius + spacer;
   const double x = b->r[0] - a->r[0], y = b->r[1] - a->r[1], v_x = b->v[0] - a->v[0],

@@ -148,10 +148,10 @@ typedef struct carom_nose {
   double mu_cushion, restitution;
 } carom_nose;
 
-/* models.c: v and w after a collision by the model asked for. normal: unit vector from the first ball to
- * the second one, or into the cushion. Balls `in_space` are not both on the cloth, or have unlike radii: they
- * collide the more as spheres the higher they are and the more n is tilted; an airborne ball meets
- * a nose with less of the cloth the higher it is. */
+/* models.c: v and w after a collision by the model asked for. normal: unit vector from the first
+ * ball to the second one, or into the cushion. Balls `in_space` are not both on the cloth, or have
+ * unlike radii: they collide the more as spheres the higher they are and the more n is tilted; an
+ * airborne ball meets a nose with less of the cloth the higher it is. */
 carom_status carom_model_balls(const carom_sim *sim, const carom_due *pending_event,
                                const double normal[3], bool in_space, carom_ball_state *a,
                                carom_ball_state *b);

@@ -69,7 +69,8 @@ void carom_spheres_collide(const carom_impact *in, const double normal[3], carom
   const double J = (1.0 + in->restitution) * v_n / B, stops = slip / (CAROM_SPHERE_SLIP * B),
                most = in->mu_ball * J;
   double J_t = most < stops ? most : stops;
-  /* u, across n, becomes the direction t; where it is 0, J_t t stays u / (7/2 B), which has derivatives */
+  /* u, across n, becomes the direction t; where it is 0, J_t t stays u / (7/2 B), which has
+   * derivatives */
   if (slip > 0.0) {
     for (int axis = 0; axis < 3; axis++)
       across[axis] /= slip;

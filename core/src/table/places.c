@@ -40,9 +40,9 @@ static bool in_jaw(const carom_jaw *jaw, const double centre[2], double reach) {
   return in_circle(jaw->centre, jaw->radius + reach - CAROM_MOST_OVERLAP, centre);
 }
 
-/* Whether the way from the eye to a place leads across a rail, as the centre of a ball does that touches
- * it at the distance `reach`. It crosses that line where the place along the rail is the mean of
- * those of both ends, weighted by the distance of the other. */
+/* Whether the way from the eye to a place leads across a rail, as the centre of a ball does that
+ * touches it at the distance `reach`. It crosses that line where the place along the rail is the
+ * mean of those of both ends, weighted by the distance of the other. */
 static bool crosses_rail(const carom_features *features, int rail, const double centre[2],
                          double reach) {
   const double gap_at_eye = distance_to(features, rail, features->eye) - reach,

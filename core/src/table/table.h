@@ -119,8 +119,8 @@ carom_part carom_part_there(const carom_ground *ground, const double centre[3]);
  * must be within the cushions. */
 bool carom_is_above_table(const carom_table *table, const carom_features *features,
                           const carom_ball_kind *kind, const double centre[3]);
-/* Whether the way from the eye of the table straight to a place is clear of all parts for the centre of
- * a ball on the cloth. */
+/* Whether the way from the eye of the table straight to a place is clear of all parts for the
+ * centre of a ball on the cloth. */
 bool carom_is_in_sight(const carom_ground *ground, const double centre[2]);
 /* Whether a place is outside the ring of cushions and pockets, for the centre of a ball that
  * touches none of them. */

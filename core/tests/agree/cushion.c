@@ -1,7 +1,7 @@
 /* The cushion against what is known of it: a reference solution in long double, pooltool's
  * recorded impacts, Euler's steps, and the perpendicular rebounds that the 2010 paper fitted. */
-#include "random_impacts.h"
 #include "kept.h"
+#include "random_impacts.h"
 #include "support.h"
 
 enum { MOST_ROWS = 600, NUMBERS = 21 };

@@ -8,8 +8,8 @@
  * $CAROM_TEST_DRAWS says how many of each.
  */
 #include "cases.h"
-#include "random_impacts.h"
 #include "kept.h"
+#include "random_impacts.h"
 #include "support.h"
 
 #include "ball_ball/frame.h"

@@ -2,8 +2,8 @@
  * takes its share too. The stack is painted before, with a page that may not be touched below
  * it; what lost its paint was used. */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
-#include "random_impacts.h"
 #include "functions.h"
+#include "random_impacts.h"
 
 #include <pthread.h>
 #include <sys/mman.h>

@@ -4,9 +4,9 @@
  * none gains energy. The ratio to Han is that of the same round, so what disturbs the machine for
  * longer than a round meets both; its spread is over the rounds. The clock is the processor's. */
 #include "bench_job.h"
-#include "random_impacts.h"
 #include "machine.h"
 #include "program/program.h"
+#include "random_impacts.h"
 #include "sheet.h"
 
 enum { IMPACTS = 512, HAN = 0 };

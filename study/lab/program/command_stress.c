@@ -5,9 +5,9 @@
  * solved by single calls. The precise solver behind the calls, whose own error is about 1e-9 at
  * most, is what they are compared with. The reference of core/reference decides where it and a call
  * differ by more than REFERENCE_FROM, and for 1 row in 1000 of each group. */
-#include "random_impacts.h"
 #include "kernel.h"
 #include "program/program.h"
+#include "random_impacts.h"
 #include "reference.h"
 #include "rows/number.h"
 #include "rows/precision.h"
