@@ -20,9 +20,16 @@ uint64_t test_seed(void) {
   return seed;
 }
 
-int draws_of_each(int usual) {
-  const char *given = getenv("CAROM_TEST_DRAWS");
-  return given != NULL && atoi(given) > 0 ? atoi(given) : usual;
+int draws_of_test(int usual, int before_release) {
+  const char *const chosen = getenv("CAROM_TEST_DRAWS");
+  if (chosen != NULL && atoi(chosen) > 0)
+    return atoi(chosen);
+  return FEWER(getenv("CAROM_RELEASE") != NULL ? before_release : usual);
+}
+
+int draws_within(int usual, int before_release) {
+  const int draws = draws_of_test(usual, before_release);
+  return draws < before_release ? draws : before_release;
 }
 
 /* splitmix64 */

@@ -37,13 +37,16 @@ uint64_t test_seed(void);
 #define SANITIZED 0
 #endif
 
-/* How many draws a long test makes: `count`, and a quarter of them where a sanitizer is in.
- * Builds without one make all. */
+/* `count`, and a quarter of it where a sanitizer is in, which makes all slower: for sizes that must be
+ * constant. */
 #define FEWER(count) (SANITIZED ? ((count) + 3) / 4 : (count))
 
-/* $CAROM_TEST_DRAWS, or as many as usual: how many draws of each kind a test makes that `./test
- * --release` makes long. */
-int draws_of_each(int usual);
+/* How many draws a random test makes: `usual` ones; before a release, where $CAROM_RELEASE is set,
+ * `before_release`; or $CAROM_TEST_DRAWS. A quarter of the first two where a sanitizer is in. */
+int draws_of_test(int usual, int before_release);
+
+/* The same of a test that has room for so many as are made before a release: never more. */
+int draws_within(int usual, int before_release);
 
 /* Random numbers; each test starts its own from test_seed(). */
 typedef struct random_source {

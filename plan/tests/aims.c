@@ -81,7 +81,7 @@ static void try_bounds(const carom_pot *pot, const carom_cue *aimed, uint64_t se
 TEST(aims) {
   random_source r = {test_seed()};
   int found[WAYS][CAROM_POT_REJECTED + 1] = {0};
-  const int most = draws_of_each(FEWER(24));
+  const int most = draws_of_test(12, 24);
   int tries = 0, inside = 0;
   for (uint64_t seed = 1; seed < 200000; seed++) {
     carom_pot pot;

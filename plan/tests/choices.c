@@ -40,17 +40,20 @@ TEST(golden_choices) {
 
 /* The chances that plans tell are those of the same strokes with other errors: in the mean of 120
  * layouts, and 40 with ball in hand, the chance to win is within 0.01, and those to keep the turn
- * and of a foul within 0.015. The shots that choose tell more, so each choice has been played by at
- * least 30 that have not. */
+ * and of a foul within 0.015; of fewer layouts by the root of their number. The shots that choose
+ * tell more, so each choice has been played by at least 30 that have not. */
 TEST(told_is_what_comes) {
-  enum { LAYOUTS = 160, PLACED = 40 };
+  enum { LAYOUTS = 160 };
+  const int layouts = draws_of_test(LAYOUTS / 4, LAYOUTS);
+  const int placed = layouts / 4;
+  const double wider = sqrt((double)LAYOUTS / layouts);
   double more[2][3] = {{0.0}};
-  for (uint64_t k = 0; k < LAYOUTS; k++) {
-    make_layout(k + 1, 7);
+  for (int k = 0; k < layouts; k++) {
+    make_layout((uint64_t)k + 1, 7);
     player = carom_player_of(3.0);
     options.shots = k % 2 == 0 ? 300 : 1000;
     carom_plan_stroke best;
-    const bool hand = k < PLACED;
+    const bool hand = k < placed;
     plan(hand, &best, 1);
     ck_assert_int_ge(best.seen, (options.shots > 300 ? options.shots / 10 : 30) + 10);
     place_ball(0, best.place[0], best.place[1]);
@@ -58,14 +61,14 @@ TEST(told_is_what_comes) {
     const carom_plan_stroke repeated = repeat(&best.cue);
     ck_assert(repeated.ball == best.ball && repeated.pocket == best.pocket);
     ck_assert(repeated.kind == CAROM_PLAN_GIVEN && repeated.seen == options.shots);
-    const double n = hand ? PLACED : LAYOUTS - PLACED;
+    const double n = hand ? placed : layouts - placed;
     more[hand][0] += (best.value - repeated.value) / n;
     more[hand][1] += (best.keep - repeated.keep) / n;
     more[hand][2] += (best.foul - repeated.foul) / n;
   }
   for (int hand = 0; hand < 2; hand++)
-    ck_assert_msg(fabs(more[hand][0]) < 0.01 && fabs(more[hand][1]) < 0.015 &&
-                      fabs(more[hand][2]) < 0.015,
+    ck_assert_msg(fabs(more[hand][0]) < 0.01 * wider && fabs(more[hand][1]) < 0.015 * wider &&
+                      fabs(more[hand][2]) < 0.015 * wider,
                   "in hand %d: told %+.4f more, keep %+.4f, foul %+.4f", hand, more[hand][0],
                   more[hand][1], more[hand][2]);
 }
@@ -85,8 +88,10 @@ static carom_turn judge_and_see(carom_rules_state *state, uint32_t in_play, int 
  * are down take no part in the shots of plans, is what the shot of all balls tells. */
 TEST(the_first_ball_that_falls) {
   enum { CUES = 40 };
+  enum { LAYOUTS = 60 };
+  const int layouts = draws_of_test(LAYOUTS / 3, LAYOUTS);
   int named = 0, second = 0, others = 0;
-  for (int layout = 0; layout < 60; layout++) {
+  for (int layout = 0; layout < layouts; layout++) {
     make_layout((uint64_t)layout, 10);
     rules = carom_plan_rules_of(layout % 2 == 0 ? CAROM_RULES_NINEBALL : CAROM_RULES_EIGHTBALL);
     player = carom_player_of(0.0);
@@ -137,7 +142,8 @@ TEST(the_first_ball_that_falls) {
   }
   printf("%d pots named, %d before one of a lower number, %d of balls that were not on\n", named,
          second, others);
-  ck_assert(named > 40 && second > 3 && others > 3);
+  ck_assert(named > layouts * 2 / 3 && others > 0);
+  ck_assert(layouts < LAYOUTS || (second > 3 && others > 3));
 }
 
 /* Nine-ball, with the one in line with the nine before a pocket: the choice names the nine, and is
@@ -388,11 +394,12 @@ static double worth_of_push(const carom_cue *stroke, const carom_player *opponen
  * they are worth more than push-outs in other directions, and about as much as plans tell, in one
  * call or in slices. */
 TEST(push_outs_by_their_leaves) {
-  enum { LAYOUTS = 6, OTHERS = 3 };
+  enum { OTHERS = 3 };
+  const int layouts = draws_of_test(3, 6);
   random_source r = {5};
   double chosen = 0.0, other = 0.0, told = 0.0;
   int listed = 0;
-  for (uint64_t seed = 1; listed < LAYOUTS; seed++) {
+  for (uint64_t seed = 1; listed < layouts; seed++) {
     make_layout(seed, 1);
     for (int k = 1; k < 10; k += 2)
       while (place_ball(k, random_between(&r, 0.05, 1.2), random_between(&r, 0.05, 2.4)) != 0)
@@ -433,10 +440,10 @@ TEST(push_outs_by_their_leaves) {
     }
     listed++;
   }
-  printf("push-outs told %.3f, came %.3f, others %.3f\n", told / LAYOUTS, chosen / LAYOUTS,
-         other / LAYOUTS);
+  printf("push-outs told %.3f, came %.3f, others %.3f\n", told / layouts, chosen / layouts,
+         other / layouts);
   ck_assert_double_gt(chosen, other);
-  ck_assert_double_le(fabs(told - chosen) / LAYOUTS, 0.06);
+  ck_assert_double_le(fabs(told - chosen) / layouts, 0.06);
 }
 
 /* A plan that is stopped at once has a choice still; one without a legal shot says so. */

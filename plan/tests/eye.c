@@ -130,15 +130,15 @@ TEST(told_chances_are_of_drawn_places) {
   for (size_t k = 0; k < COUNT_OF(eyes); k++) {
     const double told = tried(&stroke, eyes[k], 600).keep, eye = fmax(eyes[k], 0.0);
     double came = 0.0;
-    enum { LAYOUTS = 100 };
-    for (int n = 0; n < LAYOUTS; n++) {
+    const int layouts = draws_of_test(50, 100);
+    for (int n = 0; n < layouts; n++) {
       put_combination(0.02);
       for (int ball = 0; ball < 10; ball++)
         for (int x = 0; x < 2 && (ball == 0 || ball > 7); x++)
           balls[ball].state.r[x] += eye * sqrt(-2.0 * log(random_between(&r, 1e-9, 1.0))) *
                                     cos(6.283185307 * random_between(&r, 0.0, 1.0));
       options.seed = (uint64_t)n;
-      came += tried(&stroke, -1.0, 50).keep / LAYOUTS;
+      came += tried(&stroke, -1.0, 50).keep / layouts;
     }
     put_combination(0.02);
     options.seed = 0;

@@ -138,7 +138,7 @@ static carom_status act(random_source *r, carom_rules_kind kind) {
  * nothing changed, every file that is read again. CAROM_TEST_DRAWS: how many acts. */
 TEST(random_matches) {
   const uint64_t seed = test_seed();
-  const long most = draws_of_each(4000);
+  const long most = draws_of_test(2000, 4000);
   long acts = 0, over = 0, refusals[CAROM_REFUSED_LINE + 1] = {0};
   printf("random matches: seed %llu\n", (unsigned long long)seed);
   static carom_match saved;

@@ -66,7 +66,7 @@ TEST(windows_are_those_of_sweeps) {
   random_source r = {test_seed()};
   for (size_t k = 0; k < COUNT_OF(tables); k++) {
     double moments[2];
-    compare(&r, tables[k].kind, tables[k].game, 40 * draws_of_each(FEWER(1)), moments);
+    compare(&r, tables[k].kind, tables[k].game, 40 * draws_of_test(1, 1), moments);
     ck_assert(fabs(moments[0]) < tables[k].mean && moments[1] < tables[k].spread);
   }
 }

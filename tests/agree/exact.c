@@ -62,7 +62,7 @@ static void expect_details(const carom_impact *in, const carom_result *out, cons
  * precision and in far greater numbers (agree/stress). */
 TEST(details_in_every_regime) {
   int count = 0, unresolved = 0, stuck[3] = {0};
-  const int draws = draws_of_each(FEWER(8));
+  const int draws = draws_of_test(8, 8);
   for (int regime = 0; regime < regimes_count(); regime++)
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
       lab_random rng = {test_seed() + 1000003u * (uint64_t)(2 * regime + slip)};

@@ -272,6 +272,7 @@ TEST(square_at_a_cushion) {
  * change of a hundredth has other phases, a flag says so. */
 TEST(phases_of_a_strike) {
   enum { SHOTS = 300, BY = 7 };
+  const int shots = draws_within(SHOTS / 3, SHOTS);
   direction by[BY];
   read_directions(
       "cue.speed 1 cue.theta 20 cue.a 0.1 cue.b 0.1 cue.mass 0.5 cue.tip_restitution 0.5 "
@@ -280,7 +281,7 @@ TEST(phases_of_a_strike) {
   static double errors[SHOTS * BY];
   random_source random = {test_seed()};
   int flagged = 0, n = 0, off = 0;
-  for (int k = 0; k < SHOTS; k++) {
+  for (int k = 0; k < shots; k++) {
     layout l = of_two(1.0, 2.0, random_between(&random, 1.0, 6.0), 10.0,
                       random_between(&random, -0.3, 0.3), random_between(&random, -0.3, 0.3));
     l.count = 1;
@@ -298,9 +299,9 @@ TEST(phases_of_a_strike) {
       off += errors[n++] > 1e-5;
     }
   }
-  printf("%d of %d strikes flagged, %d of %d derivatives off\n", flagged, SHOTS, off, n);
+  printf("%d of %d strikes flagged, %d of %d derivatives off\n", flagged, shots, off, n);
   fflush(stdout);
-  ck_assert(flagged > 0 && flagged < SHOTS / 3 && n > 4 * SHOTS && off <= n / 100);
+  ck_assert(flagged > 0 && flagged < shots / 3 && n > 4 * shots && off <= n / 100);
   ck_assert_double_lt(tell(errors, n, 0.9, "raised strikes"), 1e-7);
 }
 
@@ -477,7 +478,8 @@ TEST(passages_of_jaws) {
   random_source random = {test_seed()};
   static double errors[2 * DIRECTIONS * 100];
   int count = 0, met = 0;
-  for (int n = 0; n < FEWER(200); n++) {
+  const int jaws = draws_within(70, 200);
+  for (int n = 0; n < jaws; n++) {
     carom_measures m;
     carom_table table;
     carom_table_measures(CAROM_TABLE_POOL_9FT, &m);
@@ -501,14 +503,14 @@ TEST(passages_of_jaws) {
     }
   }
   printf("%d jaws\n", met);
-  ck_assert_int_gt(count, FEWER(200) * DIRECTIONS / 2);
+  ck_assert_int_gt(count, jaws * DIRECTIONS / 2);
   tell(errors, count, 0.99, "passages of jaws");
   ck_assert_double_lt(errors[count - 1], 1e-7);
 }
 
 /* ---- Clusters ---- */
 
-enum { CLUSTERS = FEWER(8), WAYS = 15, FROZEN_WAYS = 13 };
+enum { CLUSTERS = 8, WAYS = 15, FROZEN_WAYS = 13 };
 
 /* Of the cue: speed, phi, a, b; x of the cue ball; of all balls: mass, mu_slide, restitution,
  * law_a, modulus; of one among equals: the mass of ball 1, restitution and modulus of ball 2; and
@@ -574,8 +576,9 @@ static void follow_clusters(random_source *random, int kind) {
   direction ways[WAYS];
   read_directions(ways_of_clusters, ways);
   const int m = touching ? FROZEN_WAYS : WAYS;
+  const int clusters = draws_within(CLUSTERS / 2, CLUSTERS);
   int n = 0, kinks = 0;
-  for (int c = 0; c < CLUSTERS; c++) {
+  for (int c = 0; c < clusters; c++) {
     layout l = by_models(cluster_of(random, kind),
                          (carom_shot_options){.cushion_model = CAROM_SHOT_CUSHION_HAN});
     shot = play(table_of(&l), l.ball, l.count, &l.cue, &l.options, CAROM_OK);
@@ -612,7 +615,7 @@ static void follow_clusters(random_source *random, int kind) {
   }
   printf("%s%s, ", kind < 2 ? "three balls" : "a rack", touching ? "" : " with gaps");
   const double median = tell(errors, n, 0.5, "clusters");
-  ck_assert(n > 5 * CLUSTERS && kinks <= 1);
+  ck_assert(n > 5 * clusters && kinks <= 1);
   ck_assert_double_lt(median, 1e-8);
 }
 
@@ -653,6 +656,7 @@ static int changed_within(const layout *l, const direction *by, double most) {
 /* Derivatives through further touches of the tip, beside differences; and their reach. */
 TEST(second_touches) {
   enum { SHOTS = 200, BY = 9 };
+  const int shots = draws_within(SHOTS / 3, SHOTS);
   static const direction by[BY] = {
       {OF_CUE, 0, 0, 1},     {OF_CUE, 0, 1, 57},    {OF_CUE, 0, 3, 0.1},
       {OF_CUE, 0, 4, 0.1},   {OF_CUE, 0, 5, 0.5},   {OF_CUE, 0, 7, 0.5},
@@ -660,7 +664,7 @@ TEST(second_touches) {
   static double errors[SHOTS * BY];
   random_source random = {test_seed()};
   int n = 0, late = 0, flagged = 0, changed = 0, tried = 0;
-  for (int k = 0; k < SHOTS; k++) {
+  for (int k = 0; k < shots; k++) {
     const layout l = draw_double_hit(&random);
     const int64_t flags = differentiate(&l, by, BY);
     bool again = false;
@@ -681,8 +685,8 @@ TEST(second_touches) {
     }
   }
   printf("%d of %d shots with a further touch, %d flagged; %d of %d changed within reach/30\n",
-         late, SHOTS, flagged, changed, tried);
-  ck_assert(late > SHOTS / 2 && flagged < late / 20 && n > 5 * late && 20 * changed < tried);
+         late, shots, flagged, changed, tried);
+  ck_assert(late > shots / 2 && flagged < late / 20 && n > 5 * late && 20 * changed < tried);
   const double most = tell(errors, n, 0.99, "second touches");
   ck_assert_double_lt(most, 1e-3);
 }
@@ -715,12 +719,13 @@ TEST(last_touches) {
  * no touch of a pile, and derivatives within 0.3 % of differences. */
 TEST(piles_by_pairs) {
   enum { SHOTS = 30, BY = 4 };
+  const int shots = draws_within(SHOTS / 3, SHOTS);
   random_source random = {test_seed()};
   direction ways[WAYS];
   read_directions(ways_of_clusters, ways);
   int changed = 0, off = 0;
-  for (int n = 0; n < 2 * SHOTS; n++) {
-    const bool pile = n < SHOTS;
+  for (int n = 0; n < 2 * shots; n++) {
+    const bool pile = n < shots;
     layout l = by_models(pile ? cluster_of(&random, 2) : draw(&random, 4),
                          (carom_shot_options){.simultaneous = CAROM_SIMULTANEOUS_PAIRS,
                                               .time_most = pile ? 0.6 : 0.0});
@@ -739,7 +744,7 @@ TEST(piles_by_pairs) {
   }
   printf("by pairs: %d of %d changes by a thirtieth of the reach meet others; %d of %d derivatives "
          "of breaks are off\n",
-         changed, 2 * SHOTS * BY, off, SHOTS * BY);
+         changed, 2 * shots * BY, off, shots * BY);
   ck_assert_int_le(changed, 8);
   ck_assert_int_le(off, 4);
 }
@@ -750,11 +755,12 @@ TEST(piles_by_pairs) {
  * a flag: of the cue's numbers, and of the places of both balls. */
 TEST(reach_at_frozen_balls) {
   enum { SHOTS = 400, OF_REACH = 30, BY = 8, OF_CUES = 4 };
+  const int shots = draws_within(SHOTS / 3, SHOTS);
   direction by[BY];
   read_directions("cue.speed 2 cue.phi 57 cue.a 1 cue.b 1 0.r[0] 1 0.r[1] 1 1.r[0] 1 1.r[1] 1", by);
   random_source random = {test_seed()};
   int changes[2] = {0}, others[2] = {0}, flagged = 0;
-  for (int n = 0; n < SHOTS; n++) {
+  for (int n = 0; n < shots; n++) {
     layout l = draw(&random, 9);
     const double aside = random_between(&random, -0.7, 0.7),
                  angle = l.cue.phi / 57.29577951308232 + aside;
@@ -787,7 +793,7 @@ TEST(reach_at_frozen_balls) {
          others[0], changes[0], others[1], changes[1], flagged);
   ck_assert_int_gt(flagged, 0);
   for (int k = 0; k < 2; k++) {
-    ck_assert_int_gt(changes[k], SHOTS);
+    ck_assert_int_gt(changes[k], shots);
     ck_assert_int_le(100 * others[k], changes[k]);
   }
 }

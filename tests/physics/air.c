@@ -32,7 +32,8 @@ TEST(random_hops) {
   random_source random = {test_seed()};
   double worst_rise = -1.0;
   int most = 0;
-  for (int n = 0; n < 100000; n++) {
+  const int hops = draws_of_test(30000, 100000);
+  for (int n = 0; n < hops; n++) {
     const double down = pow(10.0, random_between(&random, -4.0, 0.9));
     carom_shot_ball ball =
         spinning(flying(20.0, 20.0, R, random_between(&random, -5.0, 5.0), 0.0, -down),

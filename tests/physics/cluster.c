@@ -435,7 +435,7 @@ TEST(breaks) {
   } kinds[] = {{"eight-ball, 9 ft", CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 16, 0.0, 11.5},
                {"eight-ball, 7 ft", CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_7FT, 16, 0.15, 12.0},
                {"nine-ball, 9 ft", CAROM_RACK_NINEBALL, CAROM_TABLE_POOL_9FT, 10, 0.45, 7.0}};
-  const int each = draws_of_each(42);
+  const int each = draws_of_test(12, 42);
   for (size_t kind = 0; kind < COUNT_OF(kinds); kind++) {
     const int balls = kinds[kind].balls;
     carom_table table;

@@ -130,7 +130,9 @@ static void place_errors(const ref_strike *ref, const carom_cue *cue, double err
 
 TEST(pushes_are_those_of_the_reference) {
   random_source r = {test_seed()};
-  const int each = draws_of_each(100);
+  enum { EACH = 100 };
+  const int each = draws_of_test(EACH / 2, EACH);
+  const double wider = each < EACH ? 4.0 : 1.0; /* few say little of the rare ones */
   double *error = calloc((size_t)each, sizeof *error), *place = calloc((size_t)each, sizeof *place),
          *lead = calloc((size_t)each, sizeof *lead);
   for (int raised = 0; raised < 2; raised++) {
@@ -171,11 +173,11 @@ TEST(pushes_are_those_of_the_reference) {
            part_of(lead, each, 0.5), part_of(lead, each, 0.9), lead[each - 1]);
     ck_assert_int_le(others, 2 + each / 50);
     ck_assert(part_of(error, each, 0.5) < 2e-4);
-    ck_assert(part_of(error, each, 0.9) < 5e-4);
-    ck_assert(part_of(error, each, 0.98) < 2e-3);
+    ck_assert(part_of(error, each, 0.9) < wider * 5e-4);
+    ck_assert(part_of(error, each, 0.98) < wider * 2e-3);
     ck_assert(part_of(place, each, 0.5) < 2e-4);
-    ck_assert(part_of(place, each, 0.9) < 2e-4);
-    ck_assert(part_of(lead, each, 0.9) < 5e-3);
+    ck_assert(part_of(place, each, 0.9) < wider * 2e-4);
+    ck_assert(part_of(lead, each, 0.9) < wider * 5e-3);
   }
   free(lead);
   free(place);
@@ -220,7 +222,7 @@ TEST(long_touch_pushes_together) {
 TEST(momentum_and_energy) {
   random_source r = {test_seed()};
   int pushes = 0;
-  for (int n = 0; n < draws_of_each(300); n++) {
+  for (int n = 0; n < draws_of_test(100, 300); n++) {
     carom_cue cue;
     const int count = draw(&r, false, &cue);
     for (int k = 0; k < count; k++)
@@ -242,7 +244,7 @@ TEST(momentum_and_energy) {
       ck_assert_int_eq(facts.frozen >> k & 1, far < 2.0 * R + CAROM_RULES_TOUCH);
     }
   }
-  ck_assert_int_gt(pushes, draws_of_each(300) / 3);
+  ck_assert_int_gt(pushes, draws_of_test(100, 300) / 3);
 }
 
 /* A ball that the cue ball does not meet changes no bit, and alone and level it is
@@ -250,7 +252,7 @@ TEST(momentum_and_energy) {
 TEST(alone) {
   random_source r = {test_seed()};
   int apart = 0;
-  for (int n = 0; n < draws_of_each(300); n++) {
+  for (int n = 0; n < draws_of_test(100, 300); n++) {
     carom_cue cue;
     const bool raised = n % 2 != 0;
     carom_motion out;
@@ -442,7 +444,7 @@ TEST(second_touches_at_angles) {
   random_source r = {test_seed()};
   int seconds = 0, bare = 0;
   double most[2] = {0.0}, widest = 0.0; /* of most: on cloth, on smooth cloth */
-  for (int n = 0; n < draws_of_each(400); n++) {
+  for (int n = 0; n < draws_of_test(150, 400); n++) {
     begin(2);
     beside(1, 0, random_between(&r, 5e-4, 0.03), 90.0 + random_between(&r, -25.0, 25.0));
     carom_cue cue = cue_at(random_between(&r, 0.5, 8.0), 90.0);
@@ -514,7 +516,7 @@ TEST(second_touches_at_angles) {
          seconds, bare, most[0], most[1], widest);
   ck_assert(most[0] < 0.5 && most[1] < 1e-9);
   ck_assert(widest > 0.3 && widest < 0.55 * (1.0 + 1e-9));
-  ck_assert_int_gt(bare, draws_of_each(400) / 8);
+  ck_assert_int_gt(bare, draws_of_test(150, 400) / 8);
 }
 
 /* ---- Symmetries */
@@ -522,7 +524,7 @@ TEST(second_touches_at_angles) {
 /* The mirror image of a strike is the strike of the mirror image. */
 TEST(mirror_images) {
   random_source r = {test_seed()};
-  for (int n = 0; n < draws_of_each(200); n++) {
+  for (int n = 0; n < draws_of_test(80, 200); n++) {
     carom_cue cue;
     carom_ball_state there[REF_BALLS];
     const int count = draw(&r, n % 2 != 0, &cue);
@@ -601,7 +603,7 @@ static int strike_alone(const carom_cue *cue, double e, carom_ball_state *end) {
  * has none. */
 TEST(raised_alone) {
   random_source r = {test_seed()};
-  const int count = draws_of_each(150);
+  const int count = draws_of_test(60, 150);
   double *error = calloc((size_t)count, sizeof *error);
   int again = 0, other = 0;
   for (int n = 0; n < count; n++) {
@@ -774,7 +776,7 @@ TEST(unresolved_ends_the_shot) {
 TEST(numbering_does_not_count) {
   const carom_table table = empty_table(table_size);
   random_source r = {test_seed()};
-  for (int n = 0; n < draws_of_each(60); n++) {
+  for (int n = 0; n < draws_of_test(20, 60); n++) {
     carom_shot_ball pack[16], other[16];
     carom_ball_state end[2][16];
     const int count = 10 + n % 7;
@@ -808,7 +810,7 @@ TEST(numbering_does_not_count) {
 TEST(elastic_pushes) {
   random_source r = {test_seed()};
   double most = -1.0;
-  for (int n = 0; n < draws_of_each(300); n++) {
+  for (int n = 0; n < draws_of_test(100, 300); n++) {
     carom_cue cue;
     const int count = draw(&r, n % 3 == 0, &cue);
     cue.tip_restitution = 1.0;
@@ -858,7 +860,7 @@ TEST(back_from_a_cushion) {
 /* A cue without a follow-through touches once, level and raised. */
 TEST(no_follow_through) {
   random_source r = {test_seed()};
-  for (int n = 0; n < draws_of_each(300); n++) {
+  for (int n = 0; n < draws_of_test(100, 300); n++) {
     carom_cue cue;
     const int count = draw(&r, n % 2 != 0, &cue);
     cue.follow = 0.0;
@@ -867,7 +869,7 @@ TEST(no_follow_through) {
   }
 
   /* a ball straight ahead that is met once the tip has parted, while its set recovers */
-  for (int n = 0; n < draws_of_each(300); n++) {
+  for (int n = 0; n < draws_of_test(100, 300); n++) {
     begin(2);
     beside(1, 0, random_between(&r, 0.0, 0.006), 90.0);
     carom_cue cue = cue_at(2.0, 90.0);

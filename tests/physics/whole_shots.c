@@ -14,7 +14,7 @@ TEST(invariants) {
   static random_shot s;
   static const carom_shot_cushion models[] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_STRONGE,
                                               CAROM_SHOT_CUSHION_MATHAVAN};
-  const int each = draws_of_each(30), flat = random_shot_kinds();
+  const int each = draws_of_test(15, 30), flat = random_shot_kinds();
   random_source random = {test_seed()};
   int64_t landings = 0, many = 0, shots = 0;
   double start = 0.0, again = 0.0;
@@ -255,7 +255,7 @@ static bool first_cluster(const carom_shot *shot, double *time, double *speed) {
 TEST(small_changes) {
   static random_shot s, m;
   static const double later = 0.02, large = 1e-2, per_1000[2] = {2.0, 5.0};
-  const int each = draws_of_each(150);
+  const int each = draws_of_test(50, 150);
   int shots = 0, over[2] = {0};
   for (int kind = 0; kind < random_shot_kinds(); kind++)
     for (int n = 0; n < each; n++) {

@@ -11,8 +11,8 @@
 enum {
   STEP = 12, /* iterations of one step, MOST_ITERATIONS of contact_law/step.h */
   IMPACT = CAROM_IMPACT_ITERATIONS + STEP,
-  FAST = 1000, /* evaluations that collocation may have spent before */
-  DRAWS = 1500,
+  FAST = 1000,  /* evaluations that collocation may have spent before */
+  DRAWS = 1500, /* before a release */
   POINTS = 9
 };
 
@@ -170,8 +170,9 @@ TEST(found_ones) {
 
 TEST(coincidences) {
   carom_isa_limit(CAROM_ISA_PLAIN);
+  const uint64_t draws = (uint64_t)draws_of_test(DRAWS / 3, DRAWS);
   for (int kind = 0; kind < coincidence_kinds(); kind++)
-    for (uint64_t k = 0; k < DRAWS; k++) {
+    for (uint64_t k = 0; k < draws; k++) {
       const drawn c = coincidence_draw(kind, test_seed(), k);
       char what[60];
       snprintf(what, sizeof what, "%s, draw %d", coincidence_name(kind), (int)k);
@@ -185,7 +186,8 @@ TEST(coincidences) {
 
 TEST(everything_that_is_accepted) {
   carom_isa_limit(CAROM_ISA_PLAIN);
-  for (uint64_t k = 0; k < 4 * DRAWS; k++) {
+  const uint64_t draws = 4 * (uint64_t)draws_of_test(DRAWS / 3, DRAWS);
+  for (uint64_t k = 0; k < draws; k++) {
     char what[40];
     snprintf(what, sizeof what, "draw %d", (int)k);
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)

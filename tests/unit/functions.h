@@ -63,6 +63,7 @@ static OWN int variant, threads;
 
 enum {
   BALLS = 10,
+  FEW = 4, /* balls of searches, which are then short */
   MEMORY = 1 << 22,
   BATCH = 256,
   SHOTS = 8,
@@ -355,16 +356,17 @@ static OWN carom_drill drill;
 static OWN carom_series series;
 static OWN carom_odds odds;
 static OWN carom_why why;
+/* Of few balls, because where no pot is found a search tries 18,000 directions. */
 static const carom_ways_job *ways_job(void) {
   static OWN carom_ways_job searched;
   searched = (carom_ways_job){.table = &table,
                               .balls = balls,
-                              .count = count,
+                              .count = count < FEW ? count : FEW,
                               .cues = &cue,
                               .strokes = 1,
                               .player = &player,
                               .shot = &options,
-                              .scan = 90,
+                              .scan = 1800,
                               .ball = -1,
                               .pocket = -1,
                               .rails = 2,
@@ -414,7 +416,7 @@ static void set_up_games(void) {
   pot.via[1] = (carom_part){CAROM_PART_RAIL, 2};
   plan = (carom_plan_job){.table = &table,
                           .balls = balls,
-                          .count = count,
+                          .count = variant > 0 && count > FEW ? FEW : count,
                           .cue = &cue,
                           .player = &player,
                           .rules = &rules,

@@ -180,19 +180,22 @@ TEST(damaged_events) {
   const carom_tangent_seeds by_speed = {.directions = 1, .cue = seed};
   memcpy(good, events, sizeof good);
   const double time = 0.5 * (good[3].time + good[4].time);
+  /* of these values so many in each place, others from place to place; before a release all */
+  const int values = draws_within(4, bads);
   int refused = 0, unresolved = 0;
   tangents[0] = (carom_tangent){.final = heap->ends[0]};
   for (size_t word = 0; word < 4 * sizeof *good / sizeof(double); word++)
-    for (int k = 0; k < bads; k++) {
+    for (int k = 0; k < values; k++) {
+      const double value = bad[(word * (size_t)values + (size_t)k) % (size_t)bads];
       memcpy(events, good, sizeof good);
-      memcpy((char *)events + word * sizeof(double), &bad[k], sizeof(double));
+      memcpy((char *)events + word * sizeof(double), &value, sizeof(double));
       unresolved += carom_shot_at(two, 2, &shot, time, states) == CAROM_ERROR_UNRESOLVED;
       refused += carom_shot_orientation(two, 2, &shot, time, turned) < 0;
       carom_shot_drawn(&table, two, 2, &shot, &time, 1, states);
       carom_shot_tangent(&table, two, 2, &stroke, NULL, &shot, &by_speed, tangents);
     }
   printf("%d states and %d turns are refused\n", unresolved, refused);
-  ck_assert(unresolved > 50 && refused > unresolved);
+  ck_assert(unresolved > 50 * values / bads && refused > unresolved);
   /* a number of contacts that cannot be */
   memcpy(events, good, sizeof good);
   events[0].cluster = -1;
@@ -201,9 +204,10 @@ TEST(damaged_events) {
   /* constants of a ball */
   memcpy(events, good, sizeof good);
   for (size_t word = 0; word < sizeof(carom_ball_kind) / sizeof(double); word++)
-    for (int k = 0; k < bads; k++) {
+    for (int k = 0; k < values; k++) {
+      const double value = bad[(word * (size_t)values + (size_t)k) % (size_t)bads];
       carom_shot_ball other[2] = {two[0], two[1]};
-      memcpy((char *)&other[0].kind + word * sizeof(double), &bad[k], sizeof(double));
+      memcpy((char *)&other[0].kind + word * sizeof(double), &value, sizeof(double));
       carom_shot_at(other, 2, &shot, 2.0, states);
       carom_shot_orientation(other, 2, &shot, 2.0, turned);
     }
