@@ -37,8 +37,8 @@ uint64_t test_seed(void);
 #define SANITIZED 0
 #endif
 
-/* `count`, and a quarter of it where a sanitizer is in, which makes all slower: for sizes that must be
- * constant. */
+/* `count`, and a quarter of it where a sanitizer is in, which makes all slower: for sizes that
+ * must be constant. */
 #define FEWER(count) (SANITIZED ? ((count) + 3) / 4 : (count))
 
 /* How many draws a random test makes: `usual` ones; before a release, where $CAROM_RELEASE is set,

@@ -1,4 +1,4 @@
-/* Lines of recordings that say how a game stands. unit/record.c tests the other lines. */
+/* Lines of recordings that say how a game stands. tests/unit/record.c tests the other lines. */
 #include "carom_record.h"
 #include "support.h"
 

@@ -800,7 +800,8 @@ TEST(reach_at_frozen_balls) {
 
 /* ---- Rows ----
  *
- * Each row of edges.txt begins with an empty table and the models `closed`. A comma or a semicolon is a space. Statements:
+ * Each row of edges.txt begins with an empty table and the models `closed`. A comma or a semicolon
+ * is a space. Statements:
  *
  *   parted                  rails that end before the corners and in the middle
  *   ball X Y                a further ball at rest on the cloth

@@ -11,9 +11,9 @@ static double shift(void) {
 
 /* ---- Noses */
 
-/* A nose that is met from above: 0.2 m from it, level at 3 m/s and 40 mm above the cloth. The rail of
- * the far side is at y = 40. A separate program computed the numbers; they are right to their last
- * digit. */
+/* A nose that is met from above: 0.2 m from it, level at 3 m/s and 40 mm above the cloth. The rail
+ * of the far side is at y = 40. A separate program computed the numbers; they are right to their
+ * last digit. */
 TEST(nose_from_above) {
   const carom_table table = empty_table(40.0);
   const carom_shot_ball ball = flying(20.0, 40.0 - shift() - 0.2, R + 0.04, 0.0, 3.0, 0.0);
@@ -30,8 +30,8 @@ TEST(nose_from_above) {
   NEAR(after->w[0], -27.604842, 1e-5);
 }
 
-/* The nose 30 degrees below the centre, without friction: every model but the mirror returns e of the
- * speed into the nose, and nothing else changes. */
+/* The nose 30 degrees below the centre, without friction: every model but the mirror returns e of
+ * the speed into the nose, and nothing else changes. */
 TEST(nose_below_the_centre) {
   const carom_table table = empty_table(40.0);
   const double cosine = sqrt(0.75);
@@ -372,8 +372,8 @@ TEST(over_a_pocket) {
   ck_assert_double_gt(events[0].before[0].r[0], 2.0 + pocket_radius);
 }
 
-/* A ball that leaves the circle 1 mm lower than the nose meets the back of the pocket, and falls. It
- * passes over a back that is lower still. A high back stops a higher ball. */
+/* A ball that leaves the circle 1 mm lower than the nose meets the back of the pocket, and falls.
+ * It passes over a back that is lower still. A high back stops a higher ball. */
 TEST(back_of_a_pocket) {
   carom_table table = table_with_a_pocket();
   const double time = (0.1 + pocket_radius) / 2.0; /* from x = 1.9 m at 2 m/s */

@@ -73,8 +73,8 @@ TEST(frozen_kiss) {
   }
 }
 
-/* The throw of a frozen combination whose first ball a rolling one hits 30 degrees off its line: "the
- * softer you hit, the more throw" (cuesportsaustralia.com.au). */
+/* The throw of a frozen combination whose first ball a rolling one hits 30 degrees off its line:
+ * "the softer you hit, the more throw" (cuesportsaustralia.com.au). */
 TEST(frozen_throw) {
   static const struct {
     double speed;
@@ -133,8 +133,8 @@ TEST(due_contact_is_first) {
 }
 
 /* A third ball takes part that is touched while the contact lasts: up to a gap of 1.42 times the
- * compression, 0.84 mm at 10 m/s, where it is, and of what it closes in that time. In a row along x,
- * along y, and between. */
+ * compression, 0.84 mm at 10 m/s, where it is, and of what it closes in that time. In a row along
+ * x, along y, and between. */
 TEST(third_ball_near_by) {
   static const struct {
     double gap;

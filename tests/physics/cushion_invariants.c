@@ -146,9 +146,9 @@ TEST(smooth_has_the_limit_of_han) {
   }
 }
 
-/* A million draws before a release, by all constants that are accepted, most of them at an end of their range:
- * energy does not rise, and the impulse is one that acts at the nose, so the angular momentum
- * about it stays. */
+/* A million draws before a release, by all constants that are accepted, most of them at an end of
+ * their range: energy does not rise, and the impulse is one that acts at the nose, so the angular
+ * momentum about it stays. */
 TEST(smooth_keeps_the_laws) {
   random_source r = {test_seed()};
   const uint64_t draws = (uint64_t)draws_of_test(100 * DRAWN, 500 * DRAWN);

@@ -1,6 +1,6 @@
-/* Motions of one ball in a vertical plane in closed form: struck, in flight, landing. Tests of balls
- * that fly compare shots with them. The ball is ball_at(); the cue is pooltool's, and its tip touches
- * for no time, so that the blow and the landing on the slate are two events. */
+/* Motions of one ball in a vertical plane in closed form: struck, in flight, landing. Tests of
+ * balls that fly compare shots with them. The ball is ball_at(); the cue is pooltool's, and its
+ * tip touches for no time, so that the blow and the landing on the slate are two events. */
 #ifndef CAROM_TESTS_FLIGHT_H
 #define CAROM_TESTS_FLIGHT_H
 
@@ -39,7 +39,7 @@ static inline flight landed(flight in) {
   return (flight){in.along - change, up, in.spin + 2.5 * change};
 }
 
-/* What a cue at `speed` makes of a ball: raised by `theta` degrees, b R above the middle, elastic. */
+/* What a cue of elastic tip makes of a ball: raised by `theta` degrees, b R above the middle. */
 static inline flight struck(double speed, double theta, double b) {
   const double raised = theta * 3.14159265358979323846 / 180.0;
   const double blow = 2.0 * speed / (1.0 + mass_of_ball / mass_of_cue + 2.5 * b * b);

@@ -149,8 +149,8 @@ TEST(order_of_balls) {
   }
 }
 
-/* A ball that begins in a pocket is refused, where pooltool waits until it leaves. One that begins at
- * its edge and moves into it falls. */
+/* A ball that begins in a pocket is refused, where pooltool waits until it leaves. One that begins
+ * at its edge and moves into it falls. */
 TEST(begins_in_a_pocket) {
   carom_table t;
   carom_table_make(CAROM_TABLE_POOL_9FT, &t);

@@ -831,8 +831,8 @@ TEST(elastic_pushes) {
 
 /* ---- Followed to its end */
 
-/* A cue ball that is struck straight into a cushion near it comes back onto the tip: a second touch,
- * with its speed and time. A cue that stops touches once. */
+/* A cue ball that is struck straight into a cushion near it comes back onto the tip: a second
+ * touch, with its speed and time. A cue that stops touches once. */
 TEST(back_from_a_cushion) {
   static const double gaps[] = {0.002, 0.005, 0.01, 0.02};
   const carom_shot_options options = {.time_most = 0.2};

@@ -1,5 +1,5 @@
-/* Bad input of contacts, besides the rows of refusals.txt: fields that are no numbers, options out of
- * their range, noise in the radii, balls that separate, and what stands for a default. */
+/* Bad input of contacts, besides the rows of refusals.txt: fields that are no numbers, options out
+ * of their range, noise in the radii, balls that separate, and what stands for a default. */
 #include "functions.h"
 
 /* The status of a field that is no number, by its name without the ball and the axis. */

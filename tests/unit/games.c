@@ -368,8 +368,8 @@ TEST(polygons_take_any_origin) {
   }
 }
 
-/* A polygon that is refused names the corner at fault, and a second one where there is. The other way
- * round it has the same status, and its corners have other numbers. */
+/* A polygon that is refused names the corner at fault, and a second one where there is. The other
+ * way round it has the same status, and its corners have other numbers. */
 TEST(faults_of_polygons) {
   enum { CORNERS = 4, NONE = -1 };
   static const struct {
@@ -564,8 +564,8 @@ typedef struct turn {
   double axis[3]; /* of size 1 */
 } turn;
 
-/* Compares how a ball has turned in a shot that begins in this state with a closed form, until a time
- * and in steps, s. */
+/* Compares how a ball has turned in a shot that begins in this state with a closed form, until a
+ * time and in steps, s. */
 static void expect_turns(const carom_ball_state *start, double end, double step,
                          turn (*closed_form)(double time, const carom_ball_state *now)) {
   carom_table t;
