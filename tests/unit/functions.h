@@ -63,7 +63,6 @@ static OWN int variant, threads;
 
 enum {
   BALLS = 10,
-  FEW = 4, /* balls of searches, which are then short */
   MEMORY = 1 << 22,
   BATCH = 256,
   SHOTS = 8,
@@ -356,12 +355,18 @@ static OWN carom_drill drill;
 static OWN carom_series series;
 static OWN carom_odds odds;
 static OWN carom_why why;
-/* Of few balls, because where no pot is found a search tries 18,000 directions. */
+/* How many balls searches have: all at no variant and before a release, else few. In a pack few
+ * strokes pot, and where none does a search of ways tries 18,000 directions. */
+static int balls_of_searches(void) {
+  enum { FEW = 4 };
+  const bool is_whole = variant == 0 || draws_of_test(0, 1) > 0;
+  return is_whole || count < FEW ? count : FEW;
+}
 static const carom_ways_job *ways_job(void) {
   static OWN carom_ways_job searched;
   searched = (carom_ways_job){.table = &table,
                               .balls = balls,
-                              .count = count < FEW ? count : FEW,
+                              .count = balls_of_searches(),
                               .cues = &cue,
                               .strokes = 1,
                               .player = &player,
@@ -416,7 +421,7 @@ static void set_up_games(void) {
   pot.via[1] = (carom_part){CAROM_PART_RAIL, 2};
   plan = (carom_plan_job){.table = &table,
                           .balls = balls,
-                          .count = variant > 0 && count > FEW ? FEW : count,
+                          .count = balls_of_searches(),
                           .cue = &cue,
                           .player = &player,
                           .rules = &rules,
