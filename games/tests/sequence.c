@@ -147,20 +147,22 @@ static bool runs_by_match(uint64_t number) {
 
 /* The chance of the whole is what matches make of the layout; parts of the plays add up. */
 TEST(chance_of_the_whole) {
-  enum { PLAYS = 150 };
+  const int plays = draws_of_test(45, 150), first = plays * 2 / 3;
+  const double deviation = sqrt(0.5 * plays); /* of a difference of two counts */
   carom_sequence_counts whole = {0}, parts = {0};
   find_sequence(4, 7);
   options.shots = 100;
-  expect_ok(carom_sequence_play(&job, 0, 0, PLAYS, &whole));
-  expect_ok(carom_sequence_play(&job, 0, 0, 100, &parts));
-  expect_ok(carom_sequence_play(&job, 0, 100, PLAYS - 100, &parts));
-  ck_assert(whole.plays == PLAYS && memcmp(&whole, &parts, sizeof whole) == 0);
+  expect_ok(carom_sequence_play(&job, 0, 0, plays, &whole));
+  expect_ok(carom_sequence_play(&job, 0, 0, first, &parts));
+  expect_ok(carom_sequence_play(&job, 0, first, plays - first, &parts));
+  ck_assert(whole.plays == plays && memcmp(&whole, &parts, sizeof whole) == 0);
   int runs = 0;
   options.chance_opponent = 1.0;
-  for (uint64_t k = 0; k < PLAYS; k++)
+  for (uint64_t k = 0; k < (uint64_t)plays; k++)
     runs += runs_by_match(k);
-  printf("run-outs: %d told, %d by matches, of %d\n", (int)whole.runs, runs, PLAYS);
-  ck_assert(whole.runs > 50 && llabs(whole.runs - runs) < 26); /* three standard deviations */
+  printf("run-outs: %d told, %d by matches, of %d\n", (int)whole.runs, runs, plays);
+  ck_assert_int_gt(whole.runs, plays / 3);
+  ck_assert_double_le((double)llabs(whole.runs - runs), 3.0 * deviation);
   edge_free(&memory);
 }
 

@@ -160,7 +160,7 @@ static void compare(int number, int ball, int least, int *windows, int *listed) 
 
 TEST(every_window_is_a_way) {
   random_source r = {test_seed()};
-  const int layouts = 2 * draws_of_test(2, 3);
+  const int layouts = 2 * draws_of_test(1, 3);
   int windows = 0, listed = 0;
   for (int layout = 0; layout < layouts; layout++) {
     const bool at_rail = layout % 2;
@@ -253,7 +253,7 @@ static bool is_met_soon(const carom_cue *aimed) {
 TEST(pots_at_rails) {
   random_source r = {test_seed()};
   int pots = 0, falls = 0;
-  for (int layout = 0; layout < draws_of_test(30, 60); layout++) {
+  for (int layout = 0; layout < draws_of_test(20, 60); layout++) {
     make_balls(&r, layout, true);
     find(1, 8);
     for (int n = 0; n < ways; n++) {

@@ -20,7 +20,7 @@
 #include "support.h"
 
 enum {
-  LAYOUTS = 60,
+  LAYOUTS = 30,
   LAYOUTS_OF_RELEASE = 300,
   LONG = 10000,
   SWEEPS = 3,

@@ -127,7 +127,7 @@ static void compare_table(const carom_table *t, carom_game game, const char *nam
   largest_jump = largest_of_steps = 0.0;
   for (int model = CAROM_SHOT_CUSHION_DEFAULT; model <= 1 + (int)CAROM_CUSHION_SMOOTH; model++)
     for (int k = 0; k < count; k++)
-      for (int n = 0; n < FEWER(4); n++) {
+      for (int n = 0; n < draws_of_test(1, 4); n++) {
         const carom_shot_options options = {.cushion_model = (carom_shot_cushion)model};
         const carom_shot_ball ball = {.kind = carom_ball_kind_of(game)};
         const approach a = draw(random);

@@ -14,7 +14,7 @@ TEST(invariants) {
   static random_shot s;
   static const carom_shot_cushion models[] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_STRONGE,
                                               CAROM_SHOT_CUSHION_MATHAVAN};
-  const int each = draws_of_test(15, 30), flat = random_shot_kinds();
+  const int each = draws_of_test(10, 30), flat = random_shot_kinds();
   random_source random = {test_seed()};
   int64_t landings = 0, many = 0, shots = 0;
   double start = 0.0, again = 0.0;
@@ -334,7 +334,8 @@ TEST(pressed_line) {
   carom_shot_ball b[CAROM_BALLS_MOST];
   for (int k = 0; k < CAROM_BALLS_MOST; k++)
     b[k] = ball_at(1.0 + 2.0 * k * ball_at(0.0, 0.0).kind.radius, 4.0);
-  for (b[0].state.w[1] = 50.0; b[0].state.w[1] <= 300.0; b[0].state.w[1] += 50.0) {
+  const double step = 300.0 / draws_within(2, 6);
+  for (b[0].state.w[1] = step; b[0].state.w[1] <= 300.0; b[0].state.w[1] += step) {
     ends_well(&t, b, 27, 8000);
     ends_well(&t, b, CAROM_BALLS_MOST, 8000);
   }
