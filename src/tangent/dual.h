@@ -49,10 +49,9 @@ struct row {
   }
 };
 /* Unrolled here, because src/CMakeLists.txt asks gcc for less than -O3, which would unroll it. */
-#define CAROM_LANES(expression)                            \
-  row r;                                                   \
-  _Pragma("GCC unroll 16") for (int i = 0; i < LANES; i++) \
-    r.q[i] = expression;                                   \
+#define CAROM_LANES(expression)                                                 \
+  row r;                                                                        \
+  _Pragma("GCC unroll 16") for (int i = 0; i < LANES; i++) r.q[i] = expression; \
   return r
 /* Rules are inlined; their callers are not, so that its numbers leave the stack with it. */
 #define CAROM_RULE static inline __attribute__((always_inline))
