@@ -286,7 +286,7 @@ def main():
     blocks = [
         (isa, condition, list(passes))
         for isa in ISAS
-        for condition, passes in groupby(passes_of(isa), lambda one: condition_of(isa, one[1]))
+        for condition, passes in groupby(passes_of(isa), lambda one: condition_of(isa, *one[1:3]))
     ]
     for isa, condition, passes in blocks:
         out.append(f"\n#if {condition}\n")
@@ -400,15 +400,17 @@ def has_pass(isa, name, definitions):
         return definitions != ""
     if isa == "sse2":
         return definitions not in ("", "ONE")
+    if isa == "avx512":
+        return definitions != "ONE"
     return True
 
 
-def condition_of(isa, name):
+def condition_of(isa, name, definitions):
     """When a pass for an instruction set is compiled, for #if."""
     if isa == "plain":
         return "1"
     left_out = f"defined(CAROM_WITHOUT_{isa.upper()})"
-    if name == "advance.c":  # AVX-512 uses that of AVX2
+    if isa == "avx2" and (name == "advance.c" or definitions == "ONE"):  # AVX-512 uses it too
         left_out = f"({left_out} && defined(CAROM_WITHOUT_AVX512))"
     return f"defined(__{ISAS[isa]}__) && !{left_out}"
 

@@ -125,7 +125,7 @@ typedef struct carom_kernels {
   carom_collocate_f64 carom_collocate_##suffix##_f64;                                \
   carom_collocate_f32 carom_collocate_##suffix##_f32;                                \
   carom_one_call carom_call_##suffix##_f64, carom_call_##suffix##_f32, carom_call_##suffix##_mixed;
-CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
+CAROM_FAMILY_ISAS(CAROM_KERNEL_PROTOTYPES)
 #undef CAROM_KERNEL_PROTOTYPES
 
 /* In a source of kernels: the build's precision; the numbers of a column; the name of a kernel of

@@ -8,8 +8,8 @@
 #include "carom.h"
 
 /* What CAROM_ISAS of CMakeLists.txt leaves out is defined as CAROM_WITHOUT_NAME, in the sources
- * that list the sets: kernels.c, impact.c and isa.c. Other sources see all sets of the processor's
- * family, of which they only declare functions. */
+ * that list the sets: kernels.c, impact.c and isa.c. Functions are declared for all sets of the
+ * processor's family. */
 #ifdef CAROM_WITHOUT_SSE2
 #define CAROM_IF_SSE2(X)
 #else
@@ -31,12 +31,16 @@
 #define CAROM_IF_NEON(X) X(NEON, neon)
 #endif
 
-/* X(NAME, suffix) for the sets that sources are compiled for; see CMakeLists.txt. */
+/* X(NAME, suffix) for the sets of the family, and for those that sources are compiled for; see
+ * CMakeLists.txt. */
 #if defined(__x86_64__)
+#define CAROM_FAMILY_ISAS(X) X(PLAIN, plain) X(SSE2, sse2) X(AVX2, avx2) X(AVX512, avx512)
 #define CAROM_BUILT_ISAS(X) X(PLAIN, plain) CAROM_IF_SSE2(X) CAROM_IF_AVX2(X) CAROM_IF_AVX512(X)
 #elif defined(__aarch64__)
+#define CAROM_FAMILY_ISAS(X) X(PLAIN, plain) X(NEON, neon)
 #define CAROM_BUILT_ISAS(X) X(PLAIN, plain) CAROM_IF_NEON(X)
 #else
+#define CAROM_FAMILY_ISAS(X) X(PLAIN, plain)
 #define CAROM_BUILT_ISAS(X) X(PLAIN, plain)
 #endif
 
