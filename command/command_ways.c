@@ -200,7 +200,8 @@ static bool plot(const ways_search *s, const char *path) {
   for (int k = 0; k < count; k++) {
     line[k] = *s->line;
     line[k].cue = s->way[k].cue;
-    line[k].json = way_line(s, &s->way[k]);
+    char text[WAY_TEXT];
+    line[k].title = copy_text(way_text(s, &s->way[k], text)); /* for the legend */
     shot[k] = (carom_shot){.final = final[k]};
     shot_line_play(&line[k], &s->options, &shot[k]);
     drawn[k] = (played){.line = &line[k], .shot = &shot[k]};
@@ -209,7 +210,7 @@ static bool plot(const ways_search *s, const char *path) {
   const bool good = svg_draw(path, draw, &drawing);
   for (int k = 0; k < count; k++) {
     free(shot[k].events);
-    json_decref(line[k].json);
+    free(line[k].title);
   }
   free(words);
   return good;

@@ -178,7 +178,7 @@ def members_of_match(source):
     from match import TypeScript
     from write import CSharp, Rust
 
-    api = describe(source / "include")
+    api = describe(source / "core/include")
     npm, rust = TypeScript(api), Rust(api).match_lines()
     lines = {
         "web/npm/src/match.ts": npm.getter_lines() + npm.act_lines(),

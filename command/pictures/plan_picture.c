@@ -144,7 +144,7 @@ bool sequence_draw(const char *path, shot_line *layouts, const carom_sequence_st
     shots[k] = (carom_shot){.final = final[k]};
     shot_line_play(&layouts[k], NULL, &shots[k]);
     plan_describe(&layouts[k], &strokes[k].choice, text);
-    layouts[k].json = json_pack("{s: s}", "id", text);
+    layouts[k].title = copy_text(text); /* for the legend; the line that was copied keeps its own */
     sequence.shots[k] = (played){.line = &layouts[k],
                                  .shot = &shots[k],
                                  .zone = strokes[k].zone,
@@ -152,7 +152,8 @@ bool sequence_draw(const char *path, shot_line *layouts, const carom_sequence_st
   }
   const bool good = svg_draw(path, draw_sequence, &sequence);
   for (int k = 0; k < n; k++) {
-    json_decref(layouts[k].json);
+    free(layouts[k].title);
+    layouts[k].title = NULL;
     free(shots[k].events);
   }
   return good;

@@ -32,7 +32,7 @@
  * of J that turns grows like 1 / (1 - h), so h becomes h / (1 + 0.4 h), and is at most one half. */
 #define CUBE_ON_SLOPE 0.9
 #define TURN_IN_PART 0.4
-#define MOST_PART 0.5
+#define LONGEST_PART 0.5
 /* The least slope by which the length of pieces is chosen, over gravity. A smaller slope has the
  * pieces of this one, so that derivatives by the slope are as good. */
 #define LEAST_SLOPE 1e-3
@@ -231,7 +231,7 @@ begin_on_slope(carom_path *path, const carom_ball_rates *rates, double u_x, doub
   } else {
     const double part = rough_cube_root(CUBE_ON_SLOPE * JERK_PER_ERROR * most * slowing * slowing /
                                         (speed * speed * (turns + drags)));
-    duration = carom_lesser(part / (1.0 + TURN_IN_PART * part), MOST_PART) * speed / slowing;
+    duration = carom_lesser(part / (1.0 + TURN_IN_PART * part), LONGEST_PART) * speed / slowing;
     run_on(&law, duration, u, way);
   }
 
