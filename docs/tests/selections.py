@@ -47,7 +47,7 @@ for name in files:
     for number, line in enumerate(text.split("\n"), 1):
         if not re.search(r"\bctest\b|\./test\b|\brun_preset\b", line):
             continue
-        for option, quote, pattern in re.findall(r" -([RLE]) (['\"]?)([^'\"`\s,)]+)\2", line):
+        for option, _, pattern in re.findall(r" -([RLE]) (['\"]?)([^'\"`\s,)]+)\2", line):
             pattern = pattern.replace("\\|", "|").rstrip(".")
             if NOT_A_NAME.search(pattern.rstrip("$")):
                 continue

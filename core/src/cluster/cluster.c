@@ -41,9 +41,9 @@
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
 #include "friction/laws.h"
-#include "motion/sphere.h"
 #include "platform/promise.h"
 #include "platform/ranges.h"
+#include "platform/sphere.h"
 
 #include <math.h>
 

@@ -19,7 +19,7 @@
 #include "cluster/cue.h"
 #include "cluster/tip.h"
 #include "cluster/vectors.h"
-#include "motion/sphere.h"
+#include "platform/sphere.h"
 
 #include <math.h>
 #include <string.h>

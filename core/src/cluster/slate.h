@@ -11,7 +11,7 @@
 
 #include "carom_shot.h"
 #include "cluster/tip.h"
-#include "motion/sphere.h"
+#include "platform/sphere.h"
 
 /* Half a step of the overlaps of all, and their impulses; whether one acts. */
 static inline bool slate_acts(carom_cluster_state *cluster, double step) {

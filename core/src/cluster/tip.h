@@ -57,8 +57,8 @@
 #include "carom_shot.h"
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
-#include "motion/sphere.h"
 #include "platform/ranges.h"
+#include "platform/sphere.h"
 
 /* Steps of the duration of tip or slate, for each of a contact of balls: 200 by default, which are
  * 5 us of a leather tip, with errors of 2e-4, and 9e-4 at most. Fewer are not taken. */

@@ -109,7 +109,7 @@ static double rough_log(double x) {
     double value;
     int64_t bits;
   } number = {.value = x};
-  return LN_2 * (0x1p-52 * (double)number.bits - EXPONENT_BIAS);
+  return LN_2 * (0x1p-52 * (double)number.bits - (double)EXPONENT_BIAS);
 }
 
 /* asinh(x) to 2e-5: a rough logarithm, and a step of Halley's method. */

@@ -1,8 +1,8 @@
 /* Contacts that last, core/src/cluster/, for the balls of a shot, and carom_cluster(). */
 #include "shot/clusters.h"
 #include "cluster/vectors.h"
-#include "motion/sphere.h"
 #include "platform/promise.h"
+#include "platform/sphere.h"
 #include "shot/rules.h"
 
 #include <math.h>

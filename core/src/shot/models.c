@@ -2,8 +2,8 @@
 #include "cushion/models.h"
 #include "cluster/cluster.h"
 #include "friction/laws.h"
-#include "motion/sphere.h"
 #include "platform/ranges.h"
+#include "platform/sphere.h"
 #include "schema/numbers.h"
 #include "shot/rules.h"
 

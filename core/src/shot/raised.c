@@ -44,8 +44,8 @@
  * Found by trial (core/tests/physics/strike.c, raised_alone): STEP may be 0.3 to 0.6; at 1.2 the
  * cubic misses ends of phases. Usual strikes have 5 to 8 phases. */
 #include "cluster/hertz.h"
-#include "motion/sphere.h"
 #include "platform/ranges.h"
+#include "platform/sphere.h"
 #include "shot/clusters.h"
 
 #include <math.h>

@@ -66,8 +66,8 @@
  * A fall then ends after 130 events in the mean, and after 301 of 2,912 falls at most
  * (core/tests/physics/air.c). */
 #include "cluster/cluster.h"
-#include "motion/sphere.h"
 #include "platform/promise.h"
+#include "platform/sphere.h"
 #include "shot/sim.h"
 
 #include <math.h>

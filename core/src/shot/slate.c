@@ -33,8 +33,8 @@
  * equally. s is a convention; half of it, 10 mm/s, gives one hop more of 5 um
  * (core/tests/physics/air.c counts them). */
 #include "cushion/contact.h"
-#include "motion/sphere.h"
 #include "platform/ranges.h"
+#include "platform/sphere.h"
 #include "shot/sim.h"
 
 #include <math.h>

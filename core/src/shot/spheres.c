@@ -20,7 +20,7 @@
  * The cloth takes no part: a ball on it that is pressed down lands on it afterwards (slate.c),
  * as the balls part within 0.2 ms.
  */
-#include "motion/sphere.h"
+#include "platform/sphere.h"
 #include "shot/sim.h"
 
 #include <math.h>

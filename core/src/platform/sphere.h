@@ -8,8 +8,8 @@
  *             .           .        grows by P/m of v and by 5/2 P/m of the turn.
  *                ._____.
  */
-#ifndef CAROM_SRC_MOTION_SPHERE_H
-#define CAROM_SRC_MOTION_SPHERE_H
+#ifndef CAROM_SRC_PLATFORM_SPHERE_H
+#define CAROM_SRC_PLATFORM_SPHERE_H
 
 #define CAROM_SPHERE_TURN 2.5   /* 5/2: of W, for each P/m */
 #define CAROM_SPHERE_SLIP 3.5   /* 1 + 5/2: of the surface's velocity, for each P/m */
