@@ -53,10 +53,11 @@ static bool play(carom_rules_kind kind, int number, carom_plan_job *job, deeds *
                                 [CAROM_RULES_THREECUSHION] = 2,
                                 [CAROM_RULES_STRAIGHTRAIL] = 10,
                                 [CAROM_RULES_FOURBALL] = 3};
+  const carom_rules_kind targets_count = (carom_rules_kind)(sizeof targets / sizeof targets[0]);
   carom_table_make((carom_table_kind)carom_rules_about_of(kind)->table, &table);
   const carom_match_setup setup = {.rules = kind,
                                    .table = &table,
-                                   .target = targets[kind],
+                                   .target = kind < targets_count ? targets[kind] : 0,
                                    .side = number % 2,
                                    .seed = 100 + (uint64_t)number};
   carom_plan_options options = *job->options;

@@ -216,8 +216,12 @@ carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int b
   memcpy(place, spot, sizeof marks.foot_spot);
 
   /* games whose balls have spots of their own; the cue balls of two begin beside the middle */
-  if (row->rows == 0)
+  if (row->rows == 0) {
+    const int kinds = sizeof middle_spots / sizeof middle_spots[0];
+    if ((int)kind >= kinds || middle_spots[kind][ball] == 0.0)
+      return CAROM_ERROR_RACK; /* a new rack has no spots yet */
     place[1] = middle_spots[kind][ball] * table->length;
+  }
   if (row->rows == 0 && kind != CAROM_RACK_COWBOY && ball == 0)
     place[0] += 0.1825 / 1.42 * table->width;
   if (has_snooker_spot(kind, ball))

@@ -53,7 +53,9 @@ test("the tarball has its licences, and the WebAssembly once", () => {
   // Its modules are most of it, compressed, as text.
   const modules = packed.files.filter(({ path }) => /generated\/(plain|simd)\.js$/.test(path));
   expect(modules.length).toBe(2);
-  expect(packed.size).toBeLessThan(0.9 * modules.reduce((sum, { size }) => sum + size, 0));
+  // Without the build plain, the other files of the package weigh more than this allows.
+  if (thereIsPlain)
+    expect(packed.size).toBeLessThan(0.9 * modules.reduce((sum, { size }) => sum + size, 0));
 });
 
 // web/npm/examples/: each program checks its own answer. The picture of a break is that of the

@@ -302,7 +302,7 @@ class GameVectorEnv(VectorEnv[Doubles, Doubles, NDArray[Any]]):
                 raise ValueError(f"layout: one or {self.num_envs} are needed, not {len(layouts)}")
             layouts = [layouts[game] for game in chosen]
         for game in chosen:
-            if (game_seed := seeds[game]) is not None:
+            if (game_seed := seeds[int(game)]) is not None:
                 key = int(seeding.np_random(game_seed)[0].integers(2**63))
                 self._games.draws.begin(np.array([game]), key)
         self._games.begin(chosen, layouts, settings.get("strokes"))
