@@ -84,11 +84,8 @@ function(carom_fuzz_test target name executions)
   carom_tests_of(${name} fuzz_${target})
 endfunction()
 
-# carom_before_release(NAMES...): these tests are left to `./test --release`. Names of tests that this build lacks are ignored.
+# carom_before_release(NAMES...): these tests of the calling folder are left to `./test --release`. A name of no test is an
+# error of CMake.
 function(carom_before_release)
-  foreach(name ${ARGN})
-    if(TEST ${name})
-      set_property(TEST ${name} APPEND PROPERTY LABELS before_release)
-    endif()
-  endforeach()
+  set_property(TEST ${ARGN} APPEND PROPERTY LABELS before_release)
 endfunction()
