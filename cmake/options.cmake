@@ -28,7 +28,9 @@ target_compile_definitions(carom_options INTERFACE ${checked} $<$<NOT:$<BOOL:${C
 # address sanitizer tells where memory is read or written.
 if(CAROM_SANITIZE)
   set(CAROM_SANITIZED -fsanitize=${CAROM_SANITIZE} -fno-sanitize=null,object-size,pointer-overflow -fno-omit-frame-pointer
-                      -fno-sanitize-recover=all -g1 -O1)
+                      -fno-sanitize-recover=all -g1 -O1
+                      # which needs the runtime library of C++, that nothing of carom links
+                      $<$<C_COMPILER_ID:Clang>:-fno-sanitize=function>)
   target_compile_options(carom_options INTERFACE ${CAROM_SANITIZED})
   target_link_options(carom_options INTERFACE -fsanitize=${CAROM_SANITIZE})
 endif()

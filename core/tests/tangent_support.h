@@ -26,8 +26,9 @@ typedef struct layout {
 
 /* A number of a layout: of the cue, of the state of a ball, or a constant of a ball, -1 for all
  * of them, or of the table; its row among the seeds, and a typical size. */
+typedef enum direction_of { OF_OPTIONS = -1, OF_CUE, OF_STATE, OF_KIND, OF_NOSES } direction_of;
 typedef struct direction {
-  enum { OF_CUE, OF_STATE, OF_KIND, OF_NOSES } of;
+  direction_of of;
   int ball, row;
   double unit;
 } direction;

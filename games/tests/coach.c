@@ -174,7 +174,7 @@ static carom_break_job break_job(carom_rack_kind rack, int count) {
                            .count = count,
                            .cue = &cue,
                            .player = &player,
-                           .rack = rack,
+                           .rack = (int32_t)rack,
                            .gap = 1e-4,
                            .seed = 1,
                            .memory_size = carom_break_memory()};

@@ -58,10 +58,10 @@ static inline path read_path(layout *l) {
   const struct {
     const char *owners;
     carom_part_kind part;
-    int of;
+    direction_of of;
     void *address;
   } parts[] = {{"c", CAROM_PART_CUE, OF_CUE, &l->cue},
-               {"o", CAROM_PART_OPTIONS, -1, &l->options},
+               {"o", CAROM_PART_OPTIONS, OF_OPTIONS, &l->options},
                {"a0123456789", CAROM_PART_BALL, OF_KIND, &first->kind},
                {"a0123456789", CAROM_PART_STATE, OF_STATE, &first->state}};
   for (size_t p = 0; p < COUNT_OF(parts); p++) {

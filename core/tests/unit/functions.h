@@ -391,7 +391,7 @@ static const carom_break_job *break_job(void) {
                              .cue = &cue,
                              .player = &player,
                              .shot = &options,
-                             .rack = rack_kind,
+                             .rack = (int32_t)rack_kind,
                              .gap = 1e-4,
                              .memory = heap->memory,
                              .memory_size = MEMORY};
