@@ -19,10 +19,17 @@ from study.report.sheets import Sheet, number
 RUNGS = SCALAR.split(",")  # the paper's scalar kernels
 IN_DOUBLE = [rung for rung in RUNGS if rung not in ("base", "float")]
 PAPER_CONFIGS = ("default", "archnative", "novec", "o3")
+# For a run that is judged in the configuration zen2: what stands for the paper's configurations
+# where the target of the compiler is the paper's processor.
+OF_ZEN2 = {"default": "zen2", "archnative": "archzen2"}
+COUNTED = "zen2"  # the configuration whose operations are counted
 # Of time ratios in one run, and of times, between runs (docs/study/measuring.md).
 REPEATS_OF_RATIOS, REPEATS_OF_TIMES = 0.005, 0.028
 # The standard error of a median, in median absolute deviations over sqrt(n).
 OF_MEDIAN = 1.4826 * 1.2533
+# Cycles without a place for an instruction of floating-point arithmetic (AMD, as in the paper) or
+# for any instruction (Intel), and cycles that wait to retire (AMD).
+STALLS = {"dispatch": ("stalls_fp_scheduler", "stalls_resources"), "retire": ("stalls_retire",)}
 PEAK = 6.0  # operations per cycle of Zen 2, by the paper
 PAPER_STEPS = 1000.0
 LEAST_STEPS = 100.0  # fewer steps miss the accuracy of 1 % that the paper demands
@@ -66,7 +73,7 @@ class Run:
     """The files of a run, judged in one configuration of one compiler.
 
     That is the configuration that bench compares with, clang-default, unless another is named:
-    then speedups are those of its kernels over its own base.
+    then speedups are those of its kernels over its own base, and counts are of its compiler.
     """
 
     def __init__(self, folder, reference=None):
@@ -112,22 +119,29 @@ class Run:
     def compiler(self):
         return self.reference().split("-")[0]
 
+    def config(self, name):
+        """A configuration by the compiler and for the target that are judged."""
+        compiler, judged_in = self.reference().split("-", 1)
+        if judged_in == "zen2":
+            name = OF_ZEN2.get(name, name)
+        return f"{compiler}-{name}"
+
     def build(self, kernel):
         """The kernel's name and its build, such as clang-default."""
         name, _, config = kernel.partition("@")
         if not config:
             config = self.reference()
         elif "-" not in config:
-            config = f"{self.compiler()}-{config}"
+            config = self.config(config)
         return name, config
 
     def builds(self):
         """Rows of the scalar kernels in the paper's configurations by the compiler, fastest first."""
-        configs = [f"{self.compiler()}-{config}" for config in PAPER_CONFIGS]
+        configs = [self.config(name) for name in PAPER_CONFIGS]
         rows = [
             row
             for row in self.sheet("configs").rows
-            if row["kernel"] in RUNGS and row["config"] in [*configs, self.reference()]
+            if row["kernel"] in RUNGS and row["config"] in configs
         ]
         if not rows:
             raise Missing(f"configs.csv has no rows of {self.compiler()}")
@@ -163,6 +177,16 @@ class Run:
         return with_relative(number(row["ns_median"]) / float(row["steps"]), relative)
 
     # ---- Counts
+
+    def counts(self, sheet, kernel):
+        """The row of a kernel in bounds.csv or operations.csv."""
+        return self.row(sheet, kernel=kernel, config=f"{self.compiler()}-{COUNTED}")
+
+    def count(self, sheet, kernel, column):
+        value = number(self.counts(sheet, kernel).get(column))
+        if math.isnan(value):
+            raise Missing(f"{sheet}.csv has no {column} of {kernel}")
+        return value
 
     def compare_modules(self, config):
         """What was timed must be what was counted."""
@@ -236,10 +260,8 @@ def share_slower_with(run, compiler):
         raise Missing(f"it compares another compiler with {compiler}")
     ratios = []
     for row in run.builds():
-        config = row["config"].split("-", 1)[1]
-        if config in PAPER_CONFIGS:
-            kernel = row["kernel"]
-            ratios.append(faster(run, f"{kernel}@{row['config']}", f"{kernel}@{compiler}-{config}"))
+        kernel, config = row["kernel"], row["config"].split("-", 1)[1]
+        ratios.append(faster(run, f"{kernel}@{row['config']}", f"{kernel}@{compiler}-{config}"))
     slower_ones = sum(value.least > 1.0 for value in ratios) / len(ratios)
     faster_ones = sum(value.most < 1.0 for value in ratios) / len(ratios)
     undecided = 1.0 - slower_ones - faster_ones
@@ -319,7 +341,7 @@ def bits_of_estimate(run):
 
 
 def counted(run, kernel, column):
-    return Value(run.number("bounds", column, kernel=kernel))
+    return Value(run.count("bounds", kernel, column))
 
 
 def counted_ratio(run, kernel, second, column):
@@ -342,7 +364,7 @@ def memory_ratio(run, kernel, second):
 
 def a_step(run, kernel, column):
     """Counts over N, of the rungs that the bounds leave out too, with fewer steps."""
-    return Value(run.number("operations", column, kernel=kernel) / run.steps_of_operations())
+    return Value(run.count("operations", kernel, column) / run.steps_of_operations())
 
 
 def operations_ratio(run, kernel, second, column):
@@ -366,7 +388,7 @@ def counted_by_processor(run, kernel):
     processor = run.sheet("cycles").notes.get("processor", "unknown")
     if not processor.startswith("AMD"):
         raise Missing(f"the counter of {processor} counts other operations than AMD's")
-    config = run.row("bounds", kernel=kernel)["config"]
+    config = run.counts("bounds", kernel)["config"]
     row = run.row("cycles", kernel=kernel, config=config, steps="1000")
     flops = number(row.get("flops"))
     if math.isnan(flops):
@@ -377,7 +399,7 @@ def counted_by_processor(run, kernel):
 
 def cycles(run, kernel):
     """Of a collision of 1000 steps, in the module whose operations are counted."""
-    config = run.row("bounds", kernel=kernel)["config"]
+    config = run.counts("bounds", kernel)["config"]
     row = run.row("cycles", kernel=kernel, config=config, steps="1000")
     run.compare_modules(config)
     return run.cycles_of_row(row, REPEATS_OF_TIMES)
@@ -400,21 +422,26 @@ def performance_at_bound(run, kernel):
     return Value(counted(run, kernel, "flops_amd") / counted(run, kernel, "chain_cycles_zen2"))
 
 
+def performance(run, counts, row):
+    """Operations per cycle of a row of cycles.csv, with the counts of that kernel."""
+    more_steps = float(row["steps"]) - PAPER_STEPS
+    operations = number(counts["flops_amd"]) + more_steps * number(counts["per_step_flops_amd"])
+    return ratio(Value(operations), run.cycles_of_row(row, REPEATS_OF_RATIOS))
+
+
 def performance_over_steps(run):
     """The largest operations per cycle over the least, over N, for the kernel where it is most."""
+    config = f"{run.compiler()}-{COUNTED}"
+    run.compare_modules(config)
+    timed = [
+        row
+        for row in run.sheet("cycles").rows
+        if row["config"] == config and float(row["steps"]) >= LEAST_STEPS
+    ]
     found = []
-    for counts in run.sheet("bounds").rows:
-        run.compare_modules(counts["config"])
-        values = []
-        for row in run.sheet("cycles").rows:
-            of_kernel = (row["kernel"], row["config"]) == (counts["kernel"], counts["config"])
-            if of_kernel and float(row["steps"]) >= LEAST_STEPS:
-                more_steps = float(row["steps"]) - PAPER_STEPS
-                operations = number(counts["flops_amd"]) + more_steps * number(
-                    counts["per_step_flops_amd"]
-                )
-                cycle_count = run.cycles_of_row(row, REPEATS_OF_RATIOS)
-                values.append(ratio(Value(operations), cycle_count))
+    for kernel in dict.fromkeys(row["kernel"] for row in timed if row["kernel"] in FIVE.split(",")):
+        counts = run.counts("bounds", kernel)
+        values = [performance(run, counts, row) for row in timed if row["kernel"] == kernel]
         if len(values) > 1:
             found.append(ratio(max(values), min(values)))
     if not found:
@@ -464,14 +491,20 @@ def is_zen2(run):
     return Value(family == FAMILY_OF_ZEN2 and model >= FIRST_MODEL_OF_ZEN2)
 
 
-def stalls_ratio(run, kernel, second, column):
-    """The cycles in which one kernel waits over those of the other, by a counter of AMD's."""
-    waits = []
-    for name, config in (run.build(kernel), run.build(second)):
-        waits.append(number(run.row("configs", kernel=name, config=config).get(column)))
-    if any(math.isnan(wait) for wait in waits):
-        raise Missing(run.sheet("configs").notes.get("counters", "it needs hardware counters"))
-    return with_relative(waits[0] / waits[1], REPEATS_OF_TIMES)
+def stalls(run, kernel, kind):
+    """The cycles of a collision in which the kernel waits, by the processor's counters."""
+    name, config = run.build(kernel)
+    row = run.row("configs", kernel=name, config=config)
+    for column in STALLS[kind]:
+        cycle_count = number(row.get(column))
+        if not math.isnan(cycle_count):
+            return Value(cycle_count)
+    raise Missing(run.sheet("configs").notes.get("counters", "it needs hardware counters"))
+
+
+def stalls_ratio(run, kernel, second, kind):
+    waits = stalls(run, kernel, kind) / stalls(run, second, kind)
+    return with_relative(waits, REPEATS_OF_TIMES)
 
 
 # ---- pooltool

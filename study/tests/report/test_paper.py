@@ -111,12 +111,16 @@ def test_machines_differ(tmp_path):
 
 
 def test_judged_in_another_configuration(tmp_path):
-    """Speedups are over the base of the configuration that is judged."""
+    """Speedups are over the base of the configuration that is judged, and counts of its compiler."""
     folder = machine(tmp_path / "one")
     rows = judged(folder, "gcc-default")
     assert rows["speedup-float"]["verdict"] == paper.HOLDS
     assert float(rows["speedup-float"]["here"]) == pytest.approx(1.87)
     assert "another compiler" in rows["gcc"]["cause"]
+    assert "config gcc-zen2" in rows["operations-base"]["cause"]
+    rows = judged(folder, "clang-zen2")
+    assert rows["speedup-float"]["verdict"] == rows["operations-base"]["verdict"] == paper.HOLDS
+    assert "config clang-archzen2" in rows["best-build"]["cause"]
 
 
 def test_shares_need_one_module(tmp_path):
