@@ -25,6 +25,8 @@ OF_ZEN2 = {"default": "zen2", "archnative": "archzen2"}
 COUNTED = "zen2"  # the configuration whose operations are counted
 # Of time ratios in one run, and of times, between runs (docs/study/measuring.md).
 REPEATS_OF_RATIOS, REPEATS_OF_TIMES = 0.005, 0.028
+# Twice the 1 % by which measured latencies, such as 1.99 cycles of an addition, miss whole numbers.
+OF_LATENCIES = 0.02
 # The standard error of a median, in median absolute deviations over sqrt(n).
 OF_MEDIAN = 1.4826 * 1.2533
 # Cycles without a place for an instruction of floating-point arithmetic (AMD, as in the paper) or
@@ -314,6 +316,14 @@ def most_cases_over(run, column):
     return Value(max(number(row[column]) for row in rows))
 
 
+def largest_error(run, *kernels):
+    """Of these kernels in all builds, in per cent of the pair's fastest speed."""
+    rows = [row for row in run.sheet("verify").rows if row["kernel"] in kernels]
+    if not rows:
+        raise Missing(f"verify.csv has no rows of {', '.join(kernels)}")
+    return Value(100.0 * max(number(row["max"]) for row in rows))
+
+
 def cases_more_at(run, steps):
     """Cases of `float` that are off by 0.1 % with so many steps, less those with 1000."""
     more = run.number(f"growth-{steps}", "strict_1e3", kernel="float")
@@ -465,20 +475,20 @@ def latency(run, name):
     found = number(note.split(" ")[0])
     if math.isnan(found):
         raise Missing(f"the latency {name} of this processor was not measured")
-    return with_relative(found, REPEATS_OF_RATIOS)
+    return with_relative(found, OF_LATENCIES)
 
 
 def latency_of_root_and_division(run):
-    return with_relative(latency(run, "sqrt.d") + latency(run, "div.d"), REPEATS_OF_RATIOS)
+    return with_relative(latency(run, "sqrt.d") + latency(run, "div.d"), OF_LATENCIES)
 
 
 def latency_of_estimate_and_conversions(run):
-    return with_relative(latency(run, "rsqrt") + 2.0 * latency(run, "convert"), REPEATS_OF_RATIOS)
+    return with_relative(latency(run, "rsqrt") + 2.0 * latency(run, "convert"), OF_LATENCIES)
 
 
 def latency_saved_by_estimate(run):
-    saved = latency_of_root_and_division(run) - latency_of_estimate_and_conversions(run)
-    return with_relative(saved, REPEATS_OF_RATIOS)
+    root, estimate = latency_of_root_and_division(run), latency_of_estimate_and_conversions(run)
+    return Value(root - estimate, math.hypot(root.uncertainty, estimate.uncertainty))
 
 
 def is_zen2(run):
@@ -542,6 +552,7 @@ MEASURES = {
         faster,
         is_zen2,
         lanes_over,
+        largest_error,
         latency,
         latency_of_estimate_and_conversions,
         latency_of_root_and_division,

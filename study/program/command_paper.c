@@ -17,7 +17,8 @@ OPTION(paper_job, paper_source, "from", source, "DIR", set_text, 0,
 OPTION(paper_job, paper_budget, "budget", budget, "SECONDS", set_amount, 0,
        "how long to time the kernels (default 60); counting their operations comes on top");
 FLAG(paper_job, paper_csv, "csv", csv,
-     "as CSV: id,section,claim,paper,unit,low,high,reason,here,uncertainty,verdict,cause");
+     "as CSV: the columns of study/claims.csv without its measure and direction, then "
+     "here,uncertainty,verdict,cause");
 
 OPTION(paper_job, paper_record, "record", record, "NAME", set_text, 0,
        "add this machine to study/machines.csv under that name, and to the table of "
