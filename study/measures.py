@@ -46,9 +46,9 @@ class Value(float):
     """A number with its uncertainty, in the same unit."""
 
     def __new__(cls, value, uncertainty=0.0):
-        made = super().__new__(cls, value)
-        made.uncertainty = uncertainty
-        return made
+        number_with_uncertainty = super().__new__(cls, value)
+        number_with_uncertainty.uncertainty = uncertainty
+        return number_with_uncertainty
 
     @property
     def least(self):

@@ -79,13 +79,13 @@ def limit(text, without):
     return float(text) if text else without
 
 
-def verdict_of(here, low, high, direction):
+def verdict_of(measured, low, high, direction):
     """The verdict on a measured Value; `direction` is nan where the claim has none."""
-    if low <= here.least and here.most <= high:
+    if low <= measured.least and measured.most <= high:
         return HOLDS
-    if here.least <= low <= here.most or here.least <= high <= here.most:
+    if measured.least <= low <= measured.most or measured.least <= high <= measured.most:
         return INDISTINGUISHABLE
-    is_short = direction < here.least and here.most < low
+    is_short = direction < measured.least and measured.most < low
     return WEAKER if is_short else FAILS
 
 
@@ -148,16 +148,16 @@ def judge_claim(claim, run, causes):
     row = {name: claim[name] for name in columns}
     row |= {"here": "", "uncertainty": "", "verdict": UNMEASURED, "cause": ""}
     try:
-        here = measure(run, claim["measure"])
+        measured = measure(run, claim["measure"])
     except Missing as why:
         return row | {"cause": str(why)}
     low, high = limit(claim["low"], -math.inf), limit(claim["high"], math.inf)
-    verdict = verdict_of(here, low, high, limit(claim["direction"], math.nan))
-    row |= {"here": f"{here:.6g}", "verdict": verdict}
-    if here.uncertainty:
-        row["uncertainty"] = f"{here.uncertainty:.2g}"
+    verdict = verdict_of(measured, low, high, limit(claim["direction"], math.nan))
+    row |= {"here": f"{measured:.6g}", "verdict": verdict}
+    if measured.uncertainty:
+        row["uncertainty"] = f"{measured.uncertainty:.2g}"
     if verdict in (WEAKER, FAILS):
-        known = {"here": here, "low": Value(low), "high": Value(high)}
+        known = {"here": measured, "low": Value(low), "high": Value(high)}
         row["cause"] = causes_of(claim, run, known, causes)
     return row
 
@@ -211,10 +211,10 @@ def print_row(row, out):
     *first, last = textwrap.wrap(row["claim"], CLAIM_WIDTH)
     for line in first:
         print(f"  {line}", file=out)
-    paper, here = (row[name] and f"{float(row[name]):.5g}" for name in ("paper", "here"))
+    paper, measured = (row[name] and f"{float(row[name]):.5g}" for name in ("paper", "here"))
     if row["uncertainty"]:
-        here += f" ± {row['uncertainty']}"
-    numbers = f"{paper or '-':>8} {limits_of(row):>15} {here or '-':>15} {row['unit']:<10}"
+        measured += f" ± {row['uncertainty']}"
+    numbers = f"{paper or '-':>8} {limits_of(row):>15} {measured or '-':>15} {row['unit']:<10}"
     print(f"  {last:<{CLAIM_WIDTH}} {numbers} {row['verdict']}", file=out)
     for line in textwrap.wrap(row["cause"], CLAIM_WIDTH + 50):
         print(f"      {line}", file=out)
