@@ -1,19 +1,32 @@
 """The claims of the seed paper, judged by a run: `carom-lab paper`, or `tools/python -m study.paper`.
 
-claims.csv has a claim a row. Its value and its measure are expressions of Python over the functions
-of `Run`, which read the CSV files of the report; its rule says when the claim holds:
+claims.csv has a claim a row:
 
-    gain        a speedup or another factor above 1. It holds if nine tenths of the gain are there,
-                and is weaker if there is a gain at all
-    more        a factor that is above 1 by more than the times scatter; weaker if it is not below 1
-                by more than that
-    little      the same, and not above 1.1
-    near P      within P per cent of the value
-    at most, at least, equals    compared with the value
+    paper        the paper's number; empty where it gives an order or a word only
+    measure      what this run has for it: a function of measures.py and its words
+    low, high    the limits between which the claim holds, a border itself included; empty: none
+    reason       where the limits come from
+    direction    of a claim such as "1.65 times as fast", the number beyond which it is true at all
 
-The uncertainty of a time is twice the standard error of its median, and half a per cent, by which
-speedups differ between runs. Where a file, a compiler or a counter is missing the claim is not
-measurable here, and the reason stands in place of the cause.
+The limits were fixed before the run, by the same reason for all claims of a kind: the last digit
+that the paper gives where a number belongs to the processor; 13 %, by which rewrites of one kernel
+differ, where it depends on how the kernel is written; the border between two orders, where the
+paper gives the order only. A verdict compares them with the measured interval, which is the
+measured number and its uncertainty to both sides:
+
+    holds                  the interval is between the limits
+    indistinguishable      a limit is within the interval
+    weaker                 the claim has a direction, the interval has it, and is short of the limits
+    does not hold here     the interval is outside of the limits in another way
+    not measurable here    a file, a compiler or a counter is missing
+
+The uncertainty of a ratio of times is twice the standard error of its median, and half a per cent,
+by which such ratios differ between runs. Counts have none.
+
+causes.csv has what can explain that a claim does not hold: the claim, a predicate over the same
+run, and a text. A predicate compares measures: "here < low and latency convert < 2.5", where
+`here` is the measured number. A cause is printed where its predicate is true beyond the
+uncertainty, otherwise the cause is unknown.
 """
 
 import argparse
@@ -28,21 +41,21 @@ from collections import Counter
 from pathlib import Path
 
 from study import machines
-from study.report.data import DATA, SCALAR as SCALAR_NAMES, measure
-from study.report.sheets import ROOT, Sheet, number
+from study.measures import Missing, Run, Value, measure, speedup
+from study.report.data import DATA
+from study.report.data import measure as measure_files
+from study.report.sheets import ROOT, number
 
 HERE = Path(__file__).resolve().parent
-HOLDS, WEAKER, FAILS, UNMEASURED = (
+VERDICTS = HOLDS, INDISTINGUISHABLE, WEAKER, FAILS, UNMEASURED = (
     "holds",
+    "indistinguishable",
     "weaker",
     "does not hold here",
     "not measurable here",
 )
-SCALAR = SCALAR_NAMES.replace(",", " ")
-REPEATS = 0.005  # by which speedups differ between runs, relative
+UNKNOWN = "cause unknown"
 CLAIM_WIDTH = 58
-NORMAL = 1.4826 * 1.2533  # standard error of a median, in median absolute deviations over sqrt(n)
-
 
 NEEDED = [
     "kernels",
@@ -58,360 +71,101 @@ NEEDED = [
 ]
 
 
-class Missing(Exception):
-    """Why something was not measured."""
+# ---- The rule
 
 
-class Value(float):
-    """A number with its uncertainty, which is relative."""
-
-    def __new__(cls, number, uncertainty=0.0):
-        value = super().__new__(cls, number)
-        value.uncertainty = uncertainty
-        return value
+def limit(text, without):
+    """A limit of claims.csv, or `without` where the cell is empty."""
+    return float(text) if text else without
 
 
-class Run:
-    """What one run has measured, from the CSV files of the report's folder.
+def verdict_of(measured, low, high, direction):
+    """The verdict on a measured Value; `direction` is nan where the claim has none."""
+    if low <= measured.least and measured.most <= high:
+        return HOLDS
+    if measured.least <= low <= measured.most or measured.least <= high <= measured.most:
+        return INDISTINGUISHABLE
+    is_short = direction < measured.least and measured.most < low
+    return WEAKER if is_short else FAILS
 
-    A kernel is named as in kernels.def, with @ and a configuration where it is not the default of
-    the first compiler: "float@archnative", "base@gcc-o3".
-    """
 
-    def __init__(self, folder):
-        self.folder = Path(folder)
-        self.sheets = {}
+# ---- Causes
 
-    def sheet(self, name):
-        if name not in self.sheets:
-            self.sheets[name] = Sheet(self.folder / f"{name}.csv")
-        if not self.sheets[name].rows:
-            raise Missing(f"there is no {name}.csv in this run")
-        return self.sheets[name]
 
-    def row(self, sheet, **conditions):
-        found = self.sheet(sheet).first(**conditions)
-        if not found:
-            words = ", ".join(f"{name} {value}" for name, value in conditions.items())
-            raise Missing(f"{sheet}.csv has no row of {words}")
-        return found
+def value_of(term, run, known):
+    """A number, one of `known`, or a measure of the run."""
+    if term in known:
+        return known[term]
+    value = number(term)
+    return measure(run, term) if math.isnan(value) else Value(value)
 
-    def number(self, sheet, column, **conditions):
-        text = self.row(sheet, **conditions).get(column)
-        value = number(text)
-        if math.isnan(value):
-            raise Missing(f"{column} of {sheet}.csv is {text}")
-        return value
 
-    # ---- Times
-
-    def reference(self):
-        """The configuration of `base` that speedups are relative to."""
-        note = self.sheet("configs").notes.get("reference kernel", "")
-        if not note.startswith("base, "):
-            raise Missing("this build has no kernels of the ladder")
-        return note.split(", ")[1]
-
-    def build(self, kernel):
-        """The kernel's name and its build, such as clang-default."""
-        name, _, config = kernel.partition("@")
-        compiler = self.reference().split("-")[0]
-        if not config:
-            config = self.reference()
-        elif "-" not in config:
-            config = f"{compiler}-{config}"
-        return name, config
-
-    def uncertainty(self, row, sheet):
-        rounds = float(self.sheet(sheet).notes.get("rounds", "1").split(";")[0])
-        scatter = number(row["speedup_spread"]) / number(row["speedup"])
-        return math.hypot(2.0 * NORMAL * scatter / math.sqrt(rounds), REPEATS)
-
-    def speedup(self, kernel):
-        """Over base in the first compiler's default configuration, as in the paper."""
-        name, config = self.build(kernel)
-        # The default configuration is timed by itself too, in more rounds.
-        sheet = "ladder" if config == self.reference() else "configs"
-        row = self.row(sheet, kernel=name, config=config)
-        return Value(number(row["speedup"]), self.uncertainty(row, sheet))
-
-    def faster(self, kernel, second):
-        """How many times as fast as the other kernel."""
-        first_speedup, second_speedup = self.speedup(kernel), self.speedup(second)
-        return Value(
-            first_speedup / second_speedup,
-            math.hypot(first_speedup.uncertainty, second_speedup.uncertainty),
-        )
-
-    def slower(self, kernel, second):
-        return self.faster(second, kernel)
-
-    def builds(self, rungs):
-        """Rows of these kernels in the paper's configurations by the first compiler, fastest first."""
-        compiler = self.reference().split("-")[0]
-        rows = [
-            row
-            for row in self.sheet("configs").rows
-            if row["kernel"] in rungs.split()
-            and row["config"].startswith(f"{compiler}-")
-            and not row["config"].endswith("-zen2")
-        ]
-        return sorted(rows, key=lambda row: -number(row["speedup"]))
-
-    def best_build(self, rungs):
-        """The fastest build, "kernel@config"."""
-        best = self.builds(rungs)[0]
-        return f"{best['kernel']}@{best['config']}"
-
-    def rank(self, kernel, rungs):
-        """Its place among the builds of these kernels, by time: 1 is the fastest."""
-        name, config = self.build(kernel)
-        for place, row in enumerate(self.builds(rungs)):
-            if (row["kernel"], row["config"]) == (name, config):
-                return place + 1
-        raise Missing(f"{kernel} was not timed")
-
-    def slower_with(self, compiler, rungs):
-        """The share of kernels and configurations that are slower with this compiler."""
-        pairs = []
-        for row in self.sheet("configs").rows:
-            mine, config = row["config"].split("-", 1)
-            if row["kernel"] in rungs.split() and mine == "clang" and config != "zen2":
-                partner = self.row("configs", kernel=row["kernel"], config=f"{compiler}-{config}")
-                pairs.append(number(row["speedup"]) > number(partner["speedup"]))
-        if not pairs:
-            raise Missing("it needs clang and gcc")
-        return sum(pairs) / len(pairs)
-
-    def speed(self, kernel):
-        """Over base, from the table of the default configuration, which has the solvers too."""
-        row = self.row("ladder", kernel=kernel)
-        return Value(number(row["speedup"]), self.uncertainty(row, "ladder"))
-
-    def best_lanes(self):
-        """The fastest rung in lanes across collisions."""
-        rows = [row for row in self.sheet("ladder").rows if "_lanes" in row["kernel"]]
-        if not rows:
-            raise Missing("this build has no rungs in lanes, or the processor no AVX2")
-        return max(rows, key=lambda row: number(row["speedup"]))["kernel"]
-
-    def over_steps(self, kernel, column, least, most):
-        """The largest and the least of a column divided by the steps, over N from least to most."""
-        rows = [
-            row
-            for row in self.sheet("steps").rows
-            if row["kernel"] == kernel and least <= float(row["steps"]) <= most
-        ]
-        if not rows:
-            raise Missing(f"{kernel} was not timed with several numbers of steps")
-        values = [number(row[column]) / float(row["steps"]) for row in rows]
-        return max(values) / min(values)
-
-    # ---- Accuracy
-
-    def paper(self, kernel, column="paper"):
-        """The paper's speedup of a kernel, or one of its counts of cases, as kernels.def has it."""
-        return self.number("kernels" if column == "paper" else "verify", column, kernel=kernel)
-
-    def cases(self):
-        return self.number("verify", "cases", kernel="base", config=self.reference())
-
-    def over(self, kernel, column):
-        """The cases of the kernel in which a component is off; strict_1e2 is the paper's 1 %."""
-        name, config = self.build(kernel)
-        return self.number("verify", column, kernel=name, config=config)
-
-    def most_over(self, rungs, column):
-        """The same for the worst of several kernels, in all their builds."""
-        rows = [row for row in self.sheet("verify").rows if row["kernel"] in rungs.split()]
-        return max(number(row[column]) for row in rows)
-
-    def over_at(self, steps, column):
-        """The cases of `float` with so many steps."""
-        return self.number(f"growth-{steps}", column, kernel="float")
-
-    def model_error(self):
-        """The largest relative difference between measured and computed speeds and angles."""
-        shots = {}
-        for row in self.sheet("experiments").rows:
-            shots.setdefault(row["shot"], {})[row["source"]] = row
-        differences = []
-        for shot in shots.values():
-            for column in ("v_cue", "v_object", "angle_cue_deg"):
-                measured = float(shot["measured"][column])
-                differences.append(abs(float(shot["euler"][column]) / measured - 1.0))
-        return max(differences)
-
-    # ---- Operations and bounds, of the module that was timed
-
-    def counted(self, kernel, column):
-        return self.number("bounds", column, kernel=kernel)
-
-    def a_step(self, kernel, column):
-        """Counts over N, of the rungs that the bounds leave out too, with fewer steps."""
-        steps = re.search(r"N = (\d+)", self.sheet("operations").notes.get("cases", ""))
-        if not steps:
-            raise Missing("operations.csv does not say for how many steps it counts")
-        return self.number("operations", column, kernel=kernel) / float(steps[1])
-
-    def latency(self, row):
-        """Cycles of this processor, measured by a chain of such instructions."""
-        note = self.sheet("bounds").notes.get(f"latency {row}", "")
-        cycles = number(note.split(" ")[0])
-        if math.isnan(cycles):
-            raise Missing(f"the latency {row} of this processor was not measured")
-        return cycles
-
-    def cycles(self, kernel):
-        """Of a collision of 1000 steps, in the module whose operations are counted."""
-        config = self.row("bounds", kernel=kernel)["config"]
-        row = self.row("cycles", kernel=kernel, config=config, steps="1000")
-        self.compare_modules(config)
-        counted = number(row.get("cycles"))
-        cycles = number(row.get("core_cycles")) if math.isnan(counted) else counted
-        if math.isnan(cycles):
-            raise Missing("neither the processor nor a chain of additions counts its cycles")
-        return Value(cycles, number(row["ns_spread"]) / number(row["ns_median"]))
-
-    def compare_modules(self, config):
-        """What was timed must be what was counted."""
-        what = f"module {config}"
-        timed, counted = (self.sheet(name).notes.get(what) for name in ("cycles", "bounds"))
-        if timed is None or timed != counted:
-            raise Missing(f"{config} was timed and counted in different builds")
-
-    def share_of_bound(self, kernel):
-        return self.counted(kernel, "chain_cycles_native") / self.cycles(kernel)
-
-    # ---- Counters of the processor
-
-    def stalls(self, kernel):
-        """Cycles in which nothing could be dispatched for want of a place in a floating-point
-        scheduler (AMD, as in the paper), or in which nothing was executed (Intel).
-        """
-        name, config = self.build(kernel)
-        row = self.row("configs", kernel=name, config=config)
-        for column in ("stalls_fp_scheduler", "stalls_execution"):
-            counted = number(row.get(column))
-            if not math.isnan(counted):
-                return counted
-        raise Missing(self.sheet("configs").notes.get("counters", "it needs hardware counters"))
-
-    # ---- pooltool's shots
-
-    def motive(self, column, system):
+def is_true(predicate, run, known):
+    """Whether each comparison is true beyond the uncertainty; not where something is missing."""
+    for comparison in predicate.split(" and "):
+        first, sign, second = re.fullmatch(r"(.+) ([<>]) (.+)", comparison).groups()
         try:
-            return self.number("motive", column, system=system)
+            values = [value_of(term, run, known) for term in (first, second)]
         except Missing:
-            raise Missing("it needs pooltool: docs/study/paper.md says how to measure it") from None
-
-    def names(self):
-        """What expressions may use."""
-        functions = {
-            name: getattr(self, name)
-            for name in dir(self)
-            if not name.startswith("_") and callable(getattr(self, name))
-        }
-        return functions | {"SCALAR": SCALAR}
+            return False
+        smaller, larger = values if sign == "<" else reversed(values)
+        if not smaller.most < larger.least:
+            return False
+    return True
 
 
-# ---- The rules
+def fill(text, run, known):
+    """The text with its measures in braces, "{latency div.d:.0f}", replaced."""
+
+    def shown(match):
+        term, _, form = match[1].partition(":")
+        return format(float(value_of(term, run, known)), form)
+
+    return re.sub(r"\{([^}]*)\}", shown, text)
 
 
-def rule_gain(measured, value):
-    gained, expected = measured - 1.0, value - 1.0
-    if gained >= 0.9 * expected:
-        return HOLDS
-    return WEAKER if gained > measured * measured.uncertainty else FAILS
-
-
-def rule_more(measured, _):
-    if measured - 1.0 > measured.uncertainty:
-        return HOLDS
-    return WEAKER if measured - 1.0 >= -measured.uncertainty else FAILS
-
-
-def rule_little(measured, _):
-    if measured > 1.1:
-        return FAILS
-    return rule_more(measured, None)
-
-
-def rule_near(measured, value, per_cent):
-    return HOLDS if abs(measured / value - 1.0) <= float(per_cent) / 100.0 else FAILS
-
-
-def rule_at(measured, value, direction):
-    if direction == "most":
-        return HOLDS if measured <= value else FAILS
-    return HOLDS if measured >= value else FAILS
-
-
-def rule_equals(measured, value):
-    return HOLDS if measured == value else FAILS
-
-
-RULES = {
-    "gain": rule_gain,
-    "more": rule_more,
-    "little": rule_little,
-    "near": rule_near,
-    "at": rule_at,
-    "equals": rule_equals,
-}
+def causes_of(claim, run, known, causes):
+    """The texts of the claim's causes that are true in this run."""
+    found = [
+        fill(cause["text"], run, known)
+        for cause in causes
+        if cause["claim"] == claim["id"] and is_true(cause["predicate"], run, known)
+    ]
+    return "; ".join(found) or UNKNOWN
 
 
 # ---- Judging
 
 
-def read_claims(path=HERE / "claims.csv"):
-    with open(path, encoding="utf-8", newline="") as file:
+def read_table(name):
+    """The rows of a CSV of this folder without its comments."""
+    with open(HERE / name, encoding="utf-8", newline="") as file:
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 
-def evaluate(expression, names):
-    result = eval(expression, {"__builtins__": {}}, names)  # noqa: S307 our own data
-    return result if isinstance(result, Value) else Value(result)
-
-
-def fill(cause, names):
-    """The cause with its expressions in braces, "{latency('div.d'):.0f}", replaced."""
-
-    def value(match):
-        expression, _, form = match[1].partition(":")
-        return format(float(evaluate(expression, names)), form or ".3g")
-
+def judge_claim(claim, run, causes):
+    columns = ("id", "section", "claim", "paper", "unit", "low", "high", "reason")
+    row = {name: claim[name] for name in columns}
+    row |= {"here": "", "uncertainty": "", "verdict": UNMEASURED, "cause": ""}
     try:
-        return re.sub(r"\{([^}]*)\}", value, cause)
-    except Missing as why:
-        return f"the cause needs what was not measured: {why}"
-
-
-def judge_claim(claim, names):
-    row = {name: claim[name] for name in ("section", "claim", "unit")}
-    row |= {"paper": "", "here": "", "uncertainty": "", "verdict": UNMEASURED, "cause": ""}
-    try:
-        if claim["value"]:
-            value = evaluate(claim["value"], names)
-            row["paper"] = f"{value:.6g}"
-        else:
-            value = None
-        measured = evaluate(claim["measure"], names)
+        measured = measure(run, claim["measure"])
     except Missing as why:
         return row | {"cause": str(why)}
-    name, *more = claim["rule"].split()
-    row |= {"here": f"{measured:.6g}", "verdict": RULES[name](measured, value, *more)}
+    low, high = limit(claim["low"], -math.inf), limit(claim["high"], math.inf)
+    verdict = verdict_of(measured, low, high, limit(claim["direction"], math.nan))
+    row |= {"here": f"{measured:.6g}", "verdict": verdict}
     if measured.uncertainty:
-        row["uncertainty"] = f"{measured * measured.uncertainty:.2g}"
-    if row["verdict"] != HOLDS:
-        row["cause"] = fill(claim["cause"], names)
+        row["uncertainty"] = f"{measured.uncertainty:.2g}"
+    if verdict in (WEAKER, FAILS):
+        known = {"here": measured, "low": Value(low), "high": Value(high)}
+        row["cause"] = causes_of(claim, run, known, causes)
     return row
 
 
-def judge(folder):
-    """A row for each claim, in the order of the paper's sections."""
-    names = Run(folder).names()
-    return [judge_claim(claim, names) for claim in read_claims()]
+def judge(folder, reference=None):
+    """A row for each claim, in the order of the paper's sections; `Run` explains the reference."""
+    run, causes = Run(folder, reference), read_table("causes.csv")
+    return [judge_claim(claim, run, causes) for claim in read_table("claims.csv")]
 
 
 # ---- What is printed
@@ -423,17 +177,15 @@ def conclude(folder, rows):
     counts = Counter(row["verdict"] for row in rows)
     findings = [
         f"claims of the paper: {len(rows)}; "
-        + ", ".join(
-            f"{counts[verdict]} {verdict}" for verdict in (HOLDS, WEAKER, FAILS, UNMEASURED)
-        )
+        + ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS)
     ]
     try:
-        best = run.best_build(SCALAR)
+        best = run.best_build()
         kernel, config = run.build(best)
         findings.append(
-            f"paper: 1.93 x (float, clang-archnative, Zen 2); here {run.speedup('float@archnative'):.2f} x "
+            f"paper: 1.93 x (float, clang-archnative, Zen 2); here {speedup(run, 'float@archnative'):.2f} x "
             f"(float, {run.build('float@archnative')[1]}); fastest of these kernels here: "
-            f"{run.speedup(best):.2f} x ({kernel}, {config})"
+            f"{speedup(run, best):.2f} x ({kernel}, {config})"
         )
         exact = run.row("ladder", kernel="exact", isa="scalar")
         single = run.row("ladder", kernel="float", config=run.reference())
@@ -447,6 +199,13 @@ def conclude(folder, rows):
     return findings
 
 
+def limits_of(row):
+    """The limits as a text."""
+    if not row["low"]:
+        return f"<= {row['high']}"
+    return f"{row['low']} .. {row['high']}" if row["high"] else f">= {row['low']}"
+
+
 def print_row(row, out):
     """The claim in as many lines as it needs, numbers and verdict in the last, the cause below."""
     *first, last = textwrap.wrap(row["claim"], CLAIM_WIDTH)
@@ -455,14 +214,14 @@ def print_row(row, out):
     paper, measured = (row[name] and f"{float(row[name]):.5g}" for name in ("paper", "here"))
     if row["uncertainty"]:
         measured += f" ± {row['uncertainty']}"
-    numbers = f"{paper or '-':>8} {measured or '-':>15} {row['unit']:<10}"
+    numbers = f"{paper or '-':>8} {limits_of(row):>15} {measured or '-':>15} {row['unit']:<10}"
     print(f"  {last:<{CLAIM_WIDTH}} {numbers} {row['verdict']}", file=out)
-    for line in textwrap.wrap(row["cause"], CLAIM_WIDTH + 34):
+    for line in textwrap.wrap(row["cause"], CLAIM_WIDTH + 50):
         print(f"      {line}", file=out)
 
 
 def print_table(rows, out):
-    head = f"{'paper':>8} {'here':>15} {'':<10} verdict"
+    head = f"{'paper':>8} {'limits':>15} {'here':>15} {'':<10} verdict"
     print(f"{'claim of the paper':<{CLAIM_WIDTH + 2}} {head}", file=out)
     section = None
     for row in rows:
@@ -502,7 +261,7 @@ def measure_needed(folder, options):
         folder=folder, build=options.build.resolve(), budget=options.budget
     )
     with contextlib.redirect_stdout(sys.stderr):
-        measure(of_report, [name for name in DATA if name in NEEDED])
+        measure_files(of_report, [name for name in DATA if name in NEEDED])
     return [name for name in NEEDED if not (folder / f"{name}.csv").is_file()]
 
 

@@ -17,7 +17,8 @@ OPTION(paper_job, paper_source, "from", source, "DIR", set_text, 0,
 OPTION(paper_job, paper_budget, "budget", budget, "SECONDS", set_amount, 0,
        "how long to time the kernels (default 60); counting their operations comes on top");
 FLAG(paper_job, paper_csv, "csv", csv,
-     "as CSV: section,claim,unit,paper,here,uncertainty,verdict,cause");
+     "as CSV: the columns of study/claims.csv without its measure and direction, then "
+     "here,uncertainty,verdict,cause");
 
 OPTION(paper_job, paper_record, "record", record, "NAME", set_text, 0,
        "add this machine to study/machines.csv under that name, and to the table of "
@@ -28,13 +29,15 @@ static const command_form form = {
     .usage = "[OPTIONS]",
     .about =
         "Judges the claims of the seed paper, in the order of its sections (study/claims.csv): the "
-        "paper's value, the value of this run, and whether the claim holds, is weaker, does not "
-        "hold here, or is not measurable here, with the cause where it does not hold. Sentences "
-        "that compare the paper's best kernel with this run's end the table.\n",
+        "paper's value, the limits between which the claim holds, the value of this run, and "
+        "whether the claim holds, is indistinguishable from its limit, is weaker, does not hold "
+        "here, or is not measurable here. Where it does not hold, the causes are named that are "
+        "true of this run. Sentences that compare the paper's best kernel with this run's end the "
+        "table.\n",
     .options = (const option_row *const[]){&paper_source, &paper_budget, &paper_csv, &paper_record,
                                            &option_output, NULL},
-    .details = "The rules by which a claim holds stand at the head of study/paper.py, and "
-               "docs/study/paper.md gives the causes.\n"
+    .details = "study/paper.py explains the verdicts and the limits at its head, and "
+               "study/causes.csv has the causes with what they are tested by.\n"
                "\n"
                "exit code: 0; 1 if a file of the run could not be measured; 2 for bad usage\n",
     .example = "carom-lab paper --from build/results/report",

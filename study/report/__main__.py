@@ -240,6 +240,7 @@ def write_page(options, data):
     page = environment.get_template("page.html").render(
         claims=claims,
         conclusion=paper.conclude(options.folder, claims),
+        limits_of=paper.limits_of,
         picture=picture,
         cells=cells,
         is_number=lambda text: not math.isnan(number(text.replace(",", ""))),
