@@ -6,7 +6,8 @@
 #     native    native     default  archnative  novec  o3
 #     znver2    znver2     zen2     archzen2    novec  o3      novec and o3 name no processor
 #
-# study/matrix.py reads these names.
+# One more set, `ordered`, is `zen2` without regrouping of sums and products. It tells whether regrouping is why one
+# compiler's code is slower than another's. study/matrix.py reads these names.
 set(ladder_family_clang clang)
 set(ladder_family_gcc gcc)
 
@@ -38,6 +39,7 @@ if(CAROM_LADDER_MATRIX AND CAROM_LADDER_CLANG)
   endforeach()
 endif()
 if(CAROM_LADDER_MATRIX AND "zen2" IN_LIST ladder_configs)
-  list(APPEND ladder_configs archzen2)
+  list(APPEND ladder_configs archzen2 ordered)
   set(ladder_flags_archzen2 -O3 -march=znver2)
+  set(ladder_flags_ordered ${ladder_flags_zen2} -fno-associative-math)
 endif()
