@@ -37,7 +37,9 @@ FIGURES = ("speedup", "steps", "performance")  # of docs/study/paper.md, by thei
 PAGE_WIDTH = 120  # of a line of the docs
 NOTES = ("processor", "processor family", "commit", "date")
 VERDICTS_SHOWN = {"holds": "holds", "does not hold here": "**fails**", "not measurable here": "–"}
-BLOCK = re.compile(r"(<!-- (runs|verdicts|chains|figures|sentence) -->\n).*?(<!-- end of \2 -->\n)", re.S)
+BLOCK = re.compile(
+    r"(<!-- (runs|verdicts|chains|figures|sentence) -->\n).*?(<!-- end of \2 -->\n)", re.S
+)
 VERDICT_NOTES = ["claim", "section", "id", "unit", "paper", "here", "uncertainty", "verdict"]
 
 
@@ -109,7 +111,7 @@ def speedups_of(sheet, reference):
 
 
 def compiler_of(sheet):
-    """"clang 22.1.8", by the reference module's note."""
+    """ "clang 22.1.8", by the reference module's note."""
     reference = reference_of(sheet)
     version = re.search(r"\d+(\.\d+)+", sheet.notes.get(reference, ""))
     name = reference.split("-")[0]
@@ -311,9 +313,7 @@ def sentence(path=MACHINES):
         f"{best:.2f} x, and `exact` {float(run['exact']):.0f} x (run `{run['run']}`, {run['date']}, "
         f"commit {run['commit'][:8]})."
     )
-    verdicts = [
-        row for row in read_rows(beside(path, "verdicts"))[1] if row["run"] == run["run"]
-    ]
+    verdicts = [row for row in read_rows(beside(path, "verdicts"))[1] if row["run"] == run["run"]]
     if verdicts:
         count = Counter(row["verdict"] for row in verdicts)
         text += f" Of the paper's {len(verdicts)} claims, {count['holds']} hold in this run."
@@ -337,7 +337,9 @@ def figures(_path=MACHINES):
 
 def compiler_of_figure(notes):
     version = re.search(r"\d+(\.\d+)+", notes.get("clang-default", notes.get("gcc-default", "")))
-    return f"{'clang' if 'clang-default' in notes else 'gcc'} {version[0] if version else ''}".strip()
+    return (
+        f"{'clang' if 'clang-default' in notes else 'gcc'} {version[0] if version else ''}".strip()
+    )
 
 
 SHOWN = {
@@ -356,7 +358,13 @@ def page_with(text, path=MACHINES, names=("runs",)):
         raise Refusal(
             f"the page lacks the lines '<!-- {absent[0]} -->' and '<!-- end of {absent[0]} -->'"
         )
-    return BLOCK.sub(lambda found: f"{found[1]}\n{SHOWN[found[2]](path)}\n{found[3]}", text)
+
+    def block(found):
+        # A table needs an empty line on both sides; a sentence does not.
+        edge = "" if found[2] == "sentence" else "\n"
+        return f"{found[1]}{edge}{SHOWN[found[2]](path)}{edge}{found[3]}"
+
+    return BLOCK.sub(block, text)
 
 
 PAGES = {PAGE: ("runs", "verdicts", "chains", "figures"), README: ("sentence",)}

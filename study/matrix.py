@@ -104,7 +104,8 @@ def commands(name, modules, kernels):
         return {name: shlex.join(without(words, "--config"))}
     if "study.bounds" in words:
         sets = [f"{compiler}-{COUNTED}" for compiler in compilers]
-        sets += [f"{c}-{ORDERED}" for c in compilers if f"{c}-{ORDERED}" in modules]
+        if name == "bounds":
+            sets += [f"{c}-{ORDERED}" for c in compilers if f"{c}-{ORDERED}" in modules]
         words = without(words, "--config")
         return {f"{name}@{module}": shlex.join([*words, "--config", module]) for module in sets}
     if words[:2] != ["carom-lab", "bench"]:
@@ -288,7 +289,10 @@ def write_ordered(folder, column, compiler):
     """
     first = family(compiler)
     names = {f"{compiler}-{name}": f"{first}-{name}" for name in (COUNTED, ORDERED)}
-    for source, target in (("configs", "ordered"), (f"bounds@{compiler}-{ORDERED}", "bounds@ordered")):
+    for source, target in (
+        ("configs", "ordered"),
+        (f"bounds@{compiler}-{ORDERED}", "bounds@ordered"),
+    ):
         path = folder / f"{source}.csv"
         if path.is_file():
             reference = f"{first}-{COUNTED}"

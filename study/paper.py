@@ -427,7 +427,7 @@ def conclude(folder, rows):
         f"claims of the paper: {len(rows)}; "
         + ", ".join(
             f"{counts[verdict]} {verdict}" for verdict in (HOLDS, WEAKER, FAILS, UNMEASURED)
-        )
+        ),
     ]
     try:
         best = run.best_build(SCALAR)

@@ -70,7 +70,9 @@ def folder(tmp_path):
         if name == "ladder":
             rows.append(timed("base", "clang-default") | {"kernel": "exact", "config": "library"})
         write(tmp_path / f"{name}.csv", rows, notes)
-    cycles = [timed(k, f"{c}-zen2", n) for c in COMPILERS for k in OVER_BASE for n in ("10", "1000")]
+    cycles = [
+        timed(k, f"{c}-zen2", n) for c in COMPILERS for k in OVER_BASE for n in ("10", "1000")
+    ]
     write(tmp_path / "cycles.csv", cycles, notes)
     for place, compiler in enumerate(COMPILERS):
         for name in ("zen2", "ordered"):
