@@ -1,51 +1,121 @@
-"""The ladder by machine: `tools/python -m study.machines DIR NAME` appends a run's row.
+"""The recorded runs of the study: `carom-lab paper --record NAME` writes them.
 
-machines.csv has a machine a row: its name, processor, compiler, the run's date and commit, the
-source of the numbers, and for each kernel the speedup over base in clang's default configuration.
-`float@archnative` is the build that the paper found to be the fastest. A cell is empty where
-nobody has measured, and has words where the paper gives words. docs/study/paper.md shows the file
-as a table, and study/tests/report/test_machines.py compares the two.
+A *run* is one measurement of one compiler and target on one machine. Its id, such as
+xeon207-clang22-native, is what tables and sentences cite. Three files in study/ hold the runs:
+
+    machines.csv   a run a row: id, machine, processor, compiler, target, date, commit, source, and
+                   the speedup of each kernel over the run's own `base` by default. The paper is the
+                   first row. `float@archnative` is the build that the paper found to be the fastest.
+                   A cell is empty where nobody has measured, and has words where the paper has words
+    verdicts.csv   a claim of a run a row: the paper's value, the run's, and the verdict
+    chains.csv     a kernel of a run a row: the counts of its machine code, by study/bounds; and the
+                   same for `ordered`, which does not regroup sums and products
+
+Recording a run again replaces its rows. docs/study/paper.md and README.md show the files between
+comments; study/tests/report/test_machines.py compares them. `tools/python -m study.machines` writes
+the pages anew, and with DIR NAME records the run whose files are in DIR.
 """
 
 import argparse
 import csv
 import re
 import sys
+import textwrap
+from collections import Counter
 from pathlib import Path
 
-from study.report.sheets import ROOT, Sheet
+from study.report.sheets import ROOT, Sheet, number
 
 MACHINES = ROOT / "study" / "machines.csv"
 PAGE = ROOT / "docs" / "study" / "paper.md"
-BEGIN, END = "<!-- machines.csv, as a table -->\n", "<!-- end of the table -->\n"
-ABOUT = ["machine", "processor", "compiler", "date", "commit", "source"]
-CONFIG = "clang-default"
+README = ROOT / "README.md"
+ABOUT = ["run", "machine", "processor", "compiler", "target", "date", "commit", "source"]
+CHAINS = ["run", "kernel", "set", "chain_cycles_zen2", "chain_cycles_registers"]
+CHAINS += ["loads_per_step", "stores_per_step", "shuffles_per_step", "speedup"]
 BEST = "float@archnative"
-NOTES = ("processor", "processor family", "commit", "date", CONFIG)
+FIGURES = ("speedup", "steps", "performance")  # of docs/study/paper.md, by their data
+PAGE_WIDTH = 120  # of a line of the docs
+NOTES = ("processor", "processor family", "commit", "date")
+VERDICTS_SHOWN = {"holds": "holds", "does not hold here": "**fails**", "not measurable here": "–"}
+BLOCK = re.compile(
+    r"(<!-- (runs|verdicts|chains|figures|sentence) -->\n).*?(<!-- end of \2 -->\n)", re.S
+)
+VERDICT_NOTES = ["claim", "section", "id", "unit", "paper", "here", "uncertainty", "verdict"]
 
 
 class Refusal(Exception):
-    """Why a run gives no row."""
+    """Why a run is not recorded."""
 
 
-def read_machines(path=MACHINES):
-    """The comment at the head of the file, and its rows."""
-    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+# ---- The files
+
+
+def read_rows(path):
+    """The comment at the head of a file, and its rows."""
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True) if path.is_file() else []
     comment = "".join(line for line in lines if line.startswith("#"))
     return comment, list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
-def speedups_of(sheet):
-    """Each kernel's speedup in clang's default configuration, and that of the paper's best build."""
+def read_machines(path=MACHINES):
+    return read_rows(path)
+
+
+def beside(path, name):
+    """verdicts.csv and chains.csv are next to machines.csv."""
+    return path.with_name(f"{name}.csv")
+
+
+def write_rows(path, comment, rows):
+    columns = list(dict.fromkeys(column for row in rows for column in row))
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        file.write(comment)
+        writer = csv.DictWriter(file, columns, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+# ---- A run
+
+
+def id_of(machine, compiler, target):
+    """xeon207-clang22-native: the major version decides."""
+    name, _, version = compiler.partition(" ")
+    slug = re.sub(r"[^a-z0-9]+", "", machine.lower())
+    return f"{slug}-{name}{version.partition('.')[0]}-{target}"
+
+
+def reference_of(sheet):
+    """The module whose `base` the speedups are relative to."""
+    note = sheet.notes.get("reference kernel", "none")
+    if not note.startswith("base, "):
+        raise Refusal(f"speedups are relative to {note}; a run needs the kernels of the ladder")
+    return note.split(", ")[1]
+
+
+def speedups_of(sheet, reference):
+    """Each kernel's speedup in the default configuration, and that of the paper's best build."""
     found = {
         row["kernel"]: row["speedup"]
         for row in sheet.rows
-        if row["config"] == CONFIG and row["kernel"] != "base"
+        if row["config"] == reference and row["kernel"] != "base"
     }
-    best = sheet.first(kernel="float", config="clang-archnative")
+    best = sheet.first(kernel="float", config=f"{reference.split('-')[0]}-archnative")
     if best:
         found[BEST] = best["speedup"]
+    for solver in ("exact", "fast"):
+        single = sheet.first(kernel=solver, config="library", isa="scalar")
+        if single:
+            found[solver] = single["speedup"]
     return {kernel: f"{float(speedup):.2f}" for kernel, speedup in found.items()}
+
+
+def compiler_of(sheet):
+    """ "clang 22.1.8", by the reference module's note."""
+    reference = reference_of(sheet)
+    version = re.search(r"\d+(\.\d+)+", sheet.notes.get(reference, ""))
+    name = reference.split("-")[0]
+    return f"{name} {version[0]}" if version else name
 
 
 def row_of_run(folder, name):
@@ -54,85 +124,317 @@ def row_of_run(folder, name):
     sheet = Sheet(path)
     if not sheet.rows:
         raise Refusal(f"{path} is not there or has no rows; `carom-lab paper` measures it")
-    reference = sheet.notes.get("reference kernel", "none")
-    if not reference.startswith(f"base, {CONFIG}"):
-        raise Refusal(
-            f"{path}: speedups are relative to {reference}; the table needs base, {CONFIG}, "
-            "so build the ladder with clang"
-        )
-    absent = [note for note in NOTES if note not in sheet.notes]
+    try:
+        reference = reference_of(sheet)
+    except Refusal as why:
+        raise Refusal(f"{path}: {why}") from None
+    absent = [note for note in (*NOTES, reference) if note not in sheet.notes]
     if absent:
         raise Refusal(f"{path}: no line '# {absent[0]}: ...', which `carom-lab bench` writes")
-    version = re.search(r"\d+(\.\d+)+", sheet.notes[CONFIG])
+    commit = sheet.notes["commit"]
+    if not re.fullmatch(r"[0-9a-f]{7,40}", commit):
+        raise Refusal(
+            f"{path} was measured at commit '{commit}'; a run is recorded at a commit without "
+            "changes, so commit them, build and measure again"
+        )
+    target = sheet.notes.get("target of the column", "native")
     about = {
+        "run": id_of(name, compiler_of(sheet), target),
         "machine": name,
         "processor": f"{sheet.notes['processor']}, family {sheet.notes['processor family']}",
-        "compiler": f"clang {version[0]}" if version else "clang",
+        "compiler": compiler_of(sheet),
+        "target": target,
         "date": sheet.notes["date"][:10],
-        "commit": sheet.notes["commit"],
-        "source": f"a run of {sheet.notes.get('rounds', 'unknown')} rounds",
+        "commit": commit,
+        "source": f"{sheet.notes.get('rounds', 'unknown').split(';')[0]} rounds",
     }
     # The default configuration is timed by itself too, with every rung and in more rounds.
-    return about | speedups_of(sheet) | speedups_of(Sheet(Path(folder) / "ladder.csv"))
+    ladder = Sheet(Path(folder) / "ladder.csv")
+    return about | speedups_of(sheet, reference) | speedups_of(ladder, reference)
 
 
-def record(folder, name, path=MACHINES):
-    """Appends the run's row. A kernel that is new in the run becomes a column."""
+def chains_of(folder, run):
+    """The counts of the run's kernels, and of the same kernels without regrouping. Both targets of
+    a compiler share the counts; the run of the counted target has them.
+    """
+    rows, timed = [], Sheet(Path(folder) / "ordered.csv")
+    for sheet in (Sheet(Path(folder) / "bounds.csv"), Sheet(Path(folder) / "bounds@ordered.csv")):
+        if sheet.notes.get("target of the column") == "native":
+            continue
+        steps = re.search(r"N = (\d+)", sheet.notes.get("cases", ""))
+        for row in sheet.rows:
+            found = {"run": run, "kernel": row["kernel"], "set": row["config"].split("-")[1]}
+            found |= {column: row[column] for column in CHAINS[3:] if column in row}
+            if steps and "shuffles" in row:
+                found["shuffles_per_step"] = f"{number(row['shuffles']) / float(steps[1]):.1f}"
+            time = timed.first(kernel=row["kernel"], config=row["config"])
+            if time:
+                found["speedup"] = f"{number(time['speedup']):.2f}"
+            rows.append(found)
+    return rows
+
+
+def record(runs, path=MACHINES):
+    """Writes runs, (folder, name, verdicts) each, into the files; returns their ids. A kernel that
+    is new in a run becomes a column.
+    """
     comment, rows = read_machines(path)
-    row = row_of_run(folder, name)
-    for other in rows:
-        if all(other[key] == row[key] for key in ("machine", "compiler", "commit")):
-            raise Refusal(
-                f"{path} has {name} with {row['compiler']} at commit {row['commit']} already; "
-                "remove that row, or choose another name"
-            )
-    columns = list(dict.fromkeys([*rows[0], *row]))
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        file.write(comment)
-        writer = csv.DictWriter(file, columns, restval="", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows([*rows, row])
-    return row
+    new, verdicts, chains = [], [], []
+    for folder, name, judged in runs:
+        row = row_of_run(folder, name)
+        new.append(row)
+        for claim in judged:
+            known = {column: claim[column] for column in VERDICT_NOTES if column in claim}
+            verdicts.append({"run": row["run"]} | known)
+        chains += chains_of(folder, row["run"])
+    ids = [row["run"] for row in new]
+    write_rows(path, comment, [row for row in rows if row["run"] not in ids] + new)
+    for name, added in (("verdicts", verdicts), ("chains", chains)):
+        head, kept = read_rows(beside(path, name))
+        kept = [row for row in kept if row["run"] not in ids]
+        if kept or added:
+            write_rows(beside(path, name), head, kept + added)
+    return ids
 
 
-def table(rows):
-    """The rows as Markdown: a machine a column, a kernel a row."""
-    names = [row["machine"] for row in rows]
-    lines = [f"| | {' | '.join(names)} |", f"|---{'|---' * len(rows)}|"]
+# ---- What the pages show
+
+
+def markdown(lines):
+    head, *rest = lines
+    all_lines = [head, ["---"] * len(head), *rest]
+    return "".join(re.sub(r" +\|", " |", f"| {' | '.join(line)} |\n") for line in all_lines)
+
+
+def table_of_runs(path):
+    """A run a column, a kernel a row."""
+    rows = read_machines(path)[1]
+    lines = [["", *(f"`{row['run']}`" for row in rows)]]
     for column in list(rows[0])[1:]:
         head = column if column in ABOUT else f"`{column}`"
-        lines.append(f"| {head} | {' | '.join(row[column] for row in rows)} |")
-    return "\n".join(re.sub(r" +\|", " |", line) for line in lines) + "\n"
+        lines.append([head, *(row[column] or "" for row in rows)])
+    return markdown(lines)
 
 
-def page_with(rows, text):
-    """The page's text with the table of these rows between its two comments."""
-    before, begin, rest = text.partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not begin or not end:
-        raise Refusal(f"the page lacks the lines '{BEGIN.strip()}' and '{END.strip()}'")
-    return f"{before}{BEGIN}\n{table(rows)}\n{END}{after}"
+def key_of(claim):
+    """What names a claim: its id, or else its section and words."""
+    return claim.get("id") or (claim["section"], claim["claim"])
 
 
-def record_and_show(folder, name, path=MACHINES):
-    """Appends the run's row, and writes the page's table where the file is the page's own."""
-    row = record(folder, name, path)
-    said = f"{path} has the row of {row['machine']}, {row['compiler']}, commit {row['commit']}"
+def table_of_verdicts(path):
+    """A claim a row, a run a column: the run's value and the verdict."""
+    rows = read_rows(beside(path, "verdicts"))[1]
+    if not rows:
+        return "No run with verdicts is recorded yet.\n"
+    runs = list(dict.fromkeys(row["run"] for row in rows))
+    by_claim = {}
+    for row in rows:
+        by_claim.setdefault(key_of(row), {})[row["run"]] = row
+    lines = [["claim", "paper", *(f"`{run}`" for run in runs)]]
+    section = None
+    for found in by_claim.values():
+        first = next(iter(found.values()))
+        if first["section"] != section:
+            section = first["section"]
+            lines.append([f"**{section}**", "", *([""] * len(runs))])
+        lines.append(
+            [first["claim"], shown(first["paper"]), *(cell(found.get(run)) for run in runs)]
+        )
+    counts = [Counter(row["verdict"] for row in rows if row["run"] == run) for run in runs]
+    for verdict in dict.fromkeys(row["verdict"] for row in rows):
+        lines.append([f"number: {verdict}", "", *(str(count[verdict]) for count in counts)])
+    return markdown(lines)
+
+
+def shown(text):
+    return f"{float(text):.4g}" if text else ""
+
+
+def cell(row):
+    if row is None:
+        return ""
+    verdict = VERDICTS_SHOWN.get(row["verdict"], row["verdict"])
+    return f"{shown(row['here'])} {verdict}".strip()
+
+
+def table_of_chains(path):
+    """The longest chain by compiler, with and without regrouping."""
+    rows = read_rows(beside(path, "chains"))[1]
+    about = {row["run"]: row for row in read_machines(path)[1]}
+    heads = ["compiler", "kernel", "chain", "in registers", "chain, ordered", "speedup"]
+    lines = [[*heads, "speedup, ordered", "loads", "stores", "lane moves"]]
+    first = {}
+    for row in rows:
+        run = about.get(row["run"], {})
+        first.setdefault((run.get("compiler", ""), row["kernel"]), {}).setdefault(row["set"], row)
+    for (compiler, kernel), sets in first.items():
+        usual, ordered = sets.get("zen2"), sets.get("ordered", {})
+        if usual:
+            lines.append(
+                [
+                    compiler,
+                    f"`{kernel}`",
+                    a_step(usual["chain_cycles_zen2"]),
+                    a_step(usual.get("chain_cycles_registers")),
+                    a_step(ordered.get("chain_cycles_zen2")),
+                    usual.get("speedup", ""),
+                    ordered.get("speedup", ""),
+                    usual.get("loads_per_step", ""),
+                    usual.get("stores_per_step", ""),
+                    usual.get("shuffles_per_step", ""),
+                ]
+            )
+    return markdown(lines) if len(lines) > 1 else "No run with counts is recorded yet.\n"
+
+
+def a_step(cycles):
+    """Cycles of a step from those of a collision with 1000 steps."""
+    return f"{number(cycles) / 1000:.0f}" if cycles else ""
+
+
+def main_run(path=MACHINES):
+    """The run that README cites: of the latest date the first, which is the first compiler's for
+    the machine at hand.
+    """
+    rows = [row for row in read_machines(path)[1] if row["commit"] and row.get("exact")]
+    latest = max((row["date"] for row in rows), default=None)
+    return next((row for row in rows if row["date"] == latest), None)
+
+
+def sentence(path=MACHINES):
+    """What README says of the paper's claims."""
+    run = main_run(path)
+    if run is None:
+        return "No run is recorded yet.\n"
+    kernels = {name: float(run[name]) for name in ("double", "float", BEST) if run.get(name)}
+    best = max(kernels.values())
+    text = (
+        f"On the {run['machine']} with {run['compiler']}, the paper's fastest kernel reaches "
+        f"{best:.2f} x, and `exact` {float(run['exact']):.0f} x (run `{run['run']}`, {run['date']}, "
+        f"commit {run['commit'][:8]})."
+    )
+    verdicts = [row for row in read_rows(beside(path, "verdicts"))[1] if row["run"] == run["run"]]
+    if verdicts:
+        count = Counter(row["verdict"] for row in verdicts)
+        text += f" Of the paper's {len(verdicts)} claims, {count['holds']} hold in this run."
+    return textwrap.fill(text, PAGE_WIDTH, break_on_hyphens=False) + "\n"
+
+
+def figures(_path=MACHINES):
+    """Where and when the page's figures were measured, by the notes of their data."""
+    said = {}
+    for name in FIGURES:
+        notes = Sheet(ROOT / "docs" / "figures" / "data" / f"{name}.csv").notes
+        about = (
+            f"{notes.get('processor', 'unknown')}, family {notes.get('processor family', 'unknown')}"
+            f", {compiler_of_figure(notes)}, commit {notes.get('commit', 'unknown')[:8]}"
+            f", {notes.get('date', 'unknown')[:10]}"
+        )
+        said.setdefault(about, []).append(name)
+    lines = [f"Data of the figures {', '.join(names)}: {about}." for about, names in said.items()]
+    return textwrap.fill(" ".join(lines), PAGE_WIDTH, break_on_hyphens=False) + "\n"
+
+
+def compiler_of_figure(notes):
+    version = re.search(r"\d+(\.\d+)+", notes.get("clang-default", notes.get("gcc-default", "")))
+    return (
+        f"{'clang' if 'clang-default' in notes else 'gcc'} {version[0] if version else ''}".strip()
+    )
+
+
+SHOWN = {
+    "figures": figures,
+    "runs": table_of_runs,
+    "verdicts": table_of_verdicts,
+    "chains": table_of_chains,
+    "sentence": sentence,
+}
+
+
+def page_with(text, path=MACHINES, names=("runs",)):
+    """The page's text with what the files say between its comments."""
+    absent = [name for name in names if f"<!-- {name} -->\n" not in text]
+    if absent:
+        raise Refusal(
+            f"the page lacks the lines '<!-- {absent[0]} -->' and '<!-- end of {absent[0]} -->'"
+        )
+
+    def block(found):
+        # A table needs an empty line on both sides; a sentence does not.
+        edge = "" if found[2] == "sentence" else "\n"
+        return f"{found[1]}{edge}{SHOWN[found[2]](path)}{edge}{found[3]}"
+
+    return BLOCK.sub(block, text)
+
+
+PAGES = {PAGE: ("runs", "verdicts", "chains", "figures"), README: ("sentence",)}
+
+
+def write_pages():
+    for page, names in PAGES.items():
+        text = page_with(page.read_text(encoding="utf-8"), MACHINES, names)
+        page.write_text(text, encoding="utf-8")
+
+
+def record_and_show(runs, path=MACHINES):
+    """Records the runs, and writes the pages where the file is the pages' own."""
+    ids = record(runs, path)
+    said = f"recorded in {path.parent}: {', '.join(ids)}"
     if path != MACHINES:
         return said
-    page = page_with(read_machines()[1], PAGE.read_text(encoding="utf-8"))
-    PAGE.write_text(page, encoding="utf-8")
-    return f"{said}, and {PAGE.relative_to(ROOT)} the new table"
+    write_pages()
+    pages = " and ".join(str(page.relative_to(ROOT)) for page in PAGES)
+    return f"{said}; {pages} show them"
+
+
+# ---- What a run prints
+
+
+def compilers_of(sheet):
+    """Which compilers a run compared, in a sentence: the choice is never silent."""
+    found = {}
+    for what, text in sheet.notes.items():
+        name, _, config = what.partition("-")
+        if config and re.fullmatch(r"(clang|gcc)\d*", name) and name not in found:
+            version = re.search(r"\d+(\.\d+)+", text)
+            found[name] = f"{name} {version[0] if version else 'of unknown version'}"
+    if not found:
+        return "compilers: none; this build has no kernels of the ladder"
+    target = sheet.notes.get("target of the column", "native")
+    first = sheet.notes.get("reference kernel", "base, ?").split(", ")[1].split("-")[0]
+    listed = sorted(found, key=lambda name: name != first)
+    return (
+        f"compilers: {', '.join(found[name] for name in listed)}; speedups are over base by "
+        f"{found.get(first, first)}, target {target}"
+    )
+
+
+def summary(path=MACHINES):
+    """A line for each recorded run: how many claims have which verdict."""
+    rows = read_rows(beside(path, "verdicts"))[1]
+    lines = []
+    for run in dict.fromkeys(row["run"] for row in rows):
+        count = Counter(row["verdict"] for row in rows if row["run"] == run)
+        said = ", ".join(f"{number} {verdict}" for verdict, number in count.items())
+        lines.append(f"recorded run {run}: {said}")
+    return lines
 
 
 def main(words):
     parser = argparse.ArgumentParser(prog="study.machines", description=__doc__.partition("\n")[0])
-    parser.add_argument("folder", type=Path, metavar="DIR", help="a run's folder, with configs.csv")
-    parser.add_argument("name", metavar="NAME", help="what the table calls the machine")
+    parser.add_argument(
+        "folder", type=Path, nargs="?", metavar="DIR", help="a run's folder, with configs.csv"
+    )
+    parser.add_argument("name", nargs="?", metavar="NAME", help="what the tables call the machine")
     parser.add_argument("--to", type=Path, default=MACHINES, help="the file that gets the row")
     options = parser.parse_args(words)
+    if (options.folder is None) != (options.name is None):
+        parser.error("a run needs DIR and NAME; without both, only the pages are written")
     try:
-        print(record_and_show(options.folder, options.name, options.to))
+        if options.folder is None:
+            write_pages()
+        else:
+            print(record_and_show([(options.folder, options.name, [])], options.to))
     except Refusal as why:
         parser.error(str(why))
     return 0

@@ -34,17 +34,18 @@ import contextlib
 import csv
 import math
 import re
+import shutil
 import sys
 import tempfile
 import textwrap
 from collections import Counter
 from pathlib import Path
 
-from study import machines
+from study import machines, matrix
 from study.measures import Missing, Run, Value, measure, speedup
 from study.report.data import DATA
 from study.report.data import measure as measure_files
-from study.report.sheets import ROOT, number
+from study.report.sheets import ROOT, Sheet, number
 
 HERE = Path(__file__).resolve().parent
 VERDICTS = HOLDS, INDISTINGUISHABLE, WEAKER, FAILS, UNMEASURED = (
@@ -176,8 +177,9 @@ def conclude(folder, rows):
     run = Run(folder)
     counts = Counter(row["verdict"] for row in rows)
     findings = [
+        machines.compilers_of(Sheet(folder / "configs.csv")),
         f"claims of the paper: {len(rows)}; "
-        + ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS)
+        + ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS),
     ]
     try:
         best = run.best_build()
@@ -248,6 +250,11 @@ def arguments(words):
     parser.add_argument(
         "--record", metavar="NAME", help="add this machine to machines.csv under that name"
     )
+    parser.add_argument(
+        "--matrix",
+        action="store_true",
+        help="judge the claims for each compiler and target; the budget is for each",
+    )
     options = parser.parse_args(words)
     if options.source and not options.source.is_dir():
         print(f"carom-lab paper: --from: there is no folder {options.source}", file=sys.stderr)
@@ -265,8 +272,42 @@ def measure_needed(folder, options):
     return [name for name in NEEDED if not (folder / f"{name}.csv").is_file()]
 
 
+def main_of_matrix(options):
+    """Builds, measures and judges the matrix; --from takes the files of one that was measured."""
+    folder, missing = options.source, []
+    if not folder:
+        folder = options.build / "results" / "matrix"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        of_matrix = argparse.Namespace(
+            folder=folder.resolve(), build=options.build.resolve(), budget=options.budget
+        )
+        with contextlib.redirect_stdout(sys.stderr):
+            matrix.build_matrix(of_matrix.build)
+            missing = matrix.measure(of_matrix, [name for name in DATA if name in NEEDED])
+    folders = matrix.columns(folder)
+    if not folders:
+        raise matrix.NotBuilt(f"{folder} has no measured matrix")
+    judged = {column: judge(folders[column]) for column in folders}
+    if options.record:
+        runs = [(folders[column], options.record, judged[column]) for column in folders]
+        print(machines.record_and_show(runs), file=sys.stderr)
+    (matrix.print_csv if options.csv else matrix.print_matrix)(judged, sys.stdout)
+    if not options.source:
+        print(f"carom-lab paper: the measurements are in {folder}", file=sys.stderr)
+    if missing:
+        print(f"carom-lab paper: not measured: {', '.join(missing)}", file=sys.stderr)
+    return 1 if missing else 0
+
+
 def main(words):
     options, missing = arguments(words), []
+    if options.matrix:
+        try:
+            return main_of_matrix(options)
+        except (matrix.NotBuilt, machines.Refusal) as why:
+            print(f"carom-lab paper: --matrix: {why}", file=sys.stderr)
+            return 2
     with tempfile.TemporaryDirectory() as work:
         folder = options.source or Path(work)
         if not options.source:
@@ -274,13 +315,13 @@ def main(words):
         rows = judge(folder)
         if options.record:
             try:
-                print(machines.record_and_show(folder, options.record), file=sys.stderr)
+                print(machines.record_and_show([(folder, options.record, rows)]), file=sys.stderr)
             except machines.Refusal as why:
                 print(f"carom-lab paper: --record: {why}", file=sys.stderr)
                 return 2
         (print_csv if options.csv else print_table)(rows, sys.stdout)
         if not options.csv:
-            print("", *conclude(folder, rows), sep="\n")
+            print("", *conclude(folder, rows), *machines.summary(), sep="\n")
     if missing:
         print(f"carom-lab paper: not measured: {', '.join(missing)}", file=sys.stderr)
     return 1 if missing else 0

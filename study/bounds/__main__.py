@@ -12,7 +12,8 @@ instructions. per_step_flops_amd is the difference between N and N/4, divided by
 The others belong to one case. loads_per_step and stores_per_step are data accesses of the kernel, by callgrind's cache simulation,
 the difference between N and N/4 divided by the steps between. steps_total, chain_cycles_* and mca_cycles_* are per collision at N:
 the iterations of its hot loops, their cycles by the longest chain, with the latencies of Zen 2 and with those of this processor, and
-their cycles by llvm-mca's models of both; NA where llvm-mca is missing or has no model.
+their cycles by llvm-mca's models of both; NA where llvm-mca is missing or has no model. chain_cycles_registers is the chain with the
+latencies of Zen 2 if what a step stores cost nothing to load: the difference is what the compiler keeps in memory on the chain.
 
 The note "module CONFIG: FINGERPRINT" is of the module's file, as `carom-lab bench` writes it: counts belong to times only if both
 are the same.
@@ -56,7 +57,7 @@ OTHERS = {
 }
 COLUMNS = [f"flops_{kind}" for kind in COUNTED] + [*OTHERS.values(), "flops_total", "flops_amd", "shuffles", "instructions"] + [
     "per_step_flops_amd", "loads_per_step", "stores_per_step", "steps_total", "chain_cycles_zen2", "chain_cycles_native",
-    "mca_cycles_zen2", "mca_cycles_native"
+    "chain_cycles_registers", "mca_cycles_zen2", "mca_cycles_native"
 ]  # fmt: skip
 
 
@@ -351,6 +352,7 @@ def table(options, out):
             )
     driver = options.build / "study" / "bounds" / "bounds_driver"
     latencies = {"zen2": machine_code.read_latencies()}
+    latencies["registers"] = latencies["zen2"] | {"load": 0.0}
     measured = subprocess.run(
         [options.build / "study" / "bounds" / "bounds_latency"], capture_output=True, text=True
     )

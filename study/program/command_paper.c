@@ -8,7 +8,7 @@ typedef struct paper_job {
   shared_options shared;
   const char *source;
   double budget;
-  bool csv;
+  bool csv, matrix;
   const char *record;
 } paper_job;
 
@@ -21,8 +21,12 @@ FLAG(paper_job, paper_csv, "csv", csv,
      "here,uncertainty,verdict,cause");
 
 OPTION(paper_job, paper_record, "record", record, "NAME", set_text, 0,
-       "add this machine to study/machines.csv under that name, and to the table of "
-       "docs/study/paper.md");
+       "add this run to study/machines.csv and verdicts.csv under that name of the machine, and to "
+       "the tables of docs/study/paper.md; a run of the same machine, compiler and target is "
+       "replaced");
+FLAG(paper_job, paper_matrix, "matrix", matrix,
+     "build and judge every installed clang from 14 on, and gcc, each for -march=native and for "
+     "-march=znver2: a column each. The budget is for each column");
 
 static const command_form form = {
     .name = "paper",
@@ -35,7 +39,7 @@ static const command_form form = {
         "true of this run. Sentences that compare the paper's best kernel with this run's end the "
         "table.\n",
     .options = (const option_row *const[]){&paper_source, &paper_budget, &paper_csv, &paper_record,
-                                           &option_output, NULL},
+                                           &paper_matrix, &option_output, NULL},
     .details = "study/paper.py explains the verdicts and the limits at its head, and "
                "study/causes.csv has the causes with what they are tested by.\n"
                "\n"
@@ -50,9 +54,12 @@ int command_paper(int argc, char **argv) {
     return code;
   char budget[32];
   snprintf(budget, sizeof budget, "%.17g", job.budget);
-  const char *words[10] = {"--build", STUDY_BUILD, "--budget", budget};
+  const char *words[12] = {"--build", STUDY_BUILD, "--budget", budget};
+  size_t count = 4;
   if (job.csv)
-    words[4] = "--csv";
+    words[count++] = "--csv";
+  if (job.matrix)
+    words[count++] = "--matrix";
   python_option(words, "--from", job.source);
   python_option(words, "--record", job.record);
   return python_command("jinja2", "study.paper", words, job.shared.output);

@@ -1,10 +1,11 @@
-"""The ladder by machine: the page's table is what machines.csv has, and a run gives a row.
+"""The recorded runs: the pages show what the files have, a run is recorded once, and the commit of
+each run is in the history.
 
-UPDATE=1 writes the page's table.
+UPDATE=1 writes the pages.
 """
 
-import csv
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -15,39 +16,95 @@ import pytest
 STORED = Path(__file__).resolve().parent
 ROOT = STORED.parents[2]
 sys.path.insert(0, str(ROOT))
-from study import machines  # noqa: E402
+from study import machines, paper  # noqa: E402
+from study.report.sheets import Sheet  # noqa: E402
+
+JUDGED = [
+    {"section": "3", "claim": "speedup of double", "unit": "x", "paper": "1.65", "here": "1.68"}
+    | {"uncertainty": "0.01", "verdict": "holds", "cause": ""},
+    {"section": "4", "claim": "float_vec is slower", "unit": "x", "paper": "", "here": "0.98"}
+    | {"uncertainty": "0.02", "verdict": "does not hold here", "cause": "why"},
+]
 
 
 def copied(tmp_path):
     return Path(shutil.copy(machines.MACHINES, tmp_path / "machines.csv"))
 
 
-def run_with(tmp_path, change=lambda text: text):
+def run_with(folder, change=lambda text: text):
     """A folder of a run: the stored configs.csv, changed."""
+    folder.mkdir(exist_ok=True)
     text = (STORED / "configs.csv").read_text(encoding="utf-8")
-    (tmp_path / "configs.csv").write_text(change(text), encoding="utf-8")
-    return tmp_path
+    (folder / "configs.csv").write_text(change(text), encoding="utf-8")
+    return folder
 
 
-def test_page():
-    text = machines.PAGE.read_text(encoding="utf-8")
-    wanted = machines.page_with(machines.read_machines()[1], text)
+@pytest.mark.parametrize("page", machines.PAGES, ids=lambda page: page.name)
+def test_pages(page):
+    text = page.read_text(encoding="utf-8")
+    wanted = machines.page_with(text, machines.MACHINES, machines.PAGES[page])
     if os.environ.get("UPDATE") == "1":
-        machines.PAGE.write_text(wanted, encoding="utf-8")
-    assert machines.PAGE.read_text(encoding="utf-8") == wanted, "UPDATE=1 writes the table"
+        page.write_text(wanted, encoding="utf-8")
+    shown = page.read_text(encoding="utf-8")
+    assert shown == wanted, "UPDATE=1 writes the tables, and so does tools/python -m study.machines"
 
 
 def test_page_without_its_comments():
     with pytest.raises(machines.Refusal, match="lacks the lines"):
-        machines.page_with(machines.read_machines()[1], "# The paper\n")
+        machines.page_with("# The paper\n")
 
 
-def test_kernels_are_those_of_the_ladder():
-    """A column that names no kernel would never be filled."""
+def test_columns_are_kernels():
+    """A column that names no kernel and no solver would never be filled."""
     ladder = (ROOT / "study/ladder/kernels.def").read_text(encoding="utf-8")
     for column in machines.read_machines()[1][0]:
-        if column not in machines.ABOUT:
+        if column not in (*machines.ABOUT, "exact", "fast"):
             assert f"\nRUNG({column.partition('@')[0]}, " in ladder, column
+
+
+def test_each_run_has_one_id():
+    ids = [row["run"] for row in machines.read_machines()[1]]
+    assert len(set(ids)) == len(ids)
+    for name in ("verdicts", "chains"):
+        rows = machines.read_rows(machines.beside(machines.MACHINES, name))[1]
+        assert {row["run"] for row in rows} <= set(ids), name
+
+
+def test_verdicts_are_of_the_claims():
+    """A recorded run has been judged by the claims that there are; otherwise record it again."""
+    wanted = {machines.key_of(claim) for claim in paper.read_claims()}
+    rows = machines.read_rows(machines.beside(machines.MACHINES, "verdicts"))[1]
+    for run in {row["run"] for row in rows}:
+        assert {machines.key_of(row) for row in rows if row["run"] == run} == wanted, run
+
+
+def git(*words):
+    return subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True)
+
+
+def unknown(commits):
+    """Those that are no ancestors of today's commit."""
+    return [
+        commit
+        for commit in commits
+        if git("merge-base", "--is-ancestor", commit, "HEAD").returncode != 0
+    ]
+
+
+@pytest.mark.skipif(
+    git("rev-parse", "--is-shallow-repository").stdout.strip() != "false",
+    reason="this tree has no git history, or not all of it",
+)
+def test_commits_are_in_the_history():
+    """What was measured at a commit that is gone can be measured by nobody: drop such a run, and
+    draw such a figure again.
+    """
+    commits = {row["commit"] for row in machines.read_machines()[1]} - {""}
+    for figure in (ROOT / "docs/figures/data").glob("*.csv"):
+        commit = Sheet(figure).notes.get("commit")
+        commits |= {commit.removesuffix("-dirty")} if commit else set()
+    assert commits and not unknown(commits)
+    assert unknown(["0123456789ab"]) == ["0123456789ab"]
 
 
 def test_row_of_a_run(tmp_path):
@@ -65,22 +122,57 @@ def test_row_of_a_run(tmp_path):
     assert others == before
     wanted = {}  # ladder.csv has the default configuration in more rounds
     for name in ("configs", "ladder"):
-        with open(STORED / f"{name}.csv", encoding="utf-8", newline="") as file:
-            for run in csv.DictReader(line for line in file if not line.startswith("#")):
-                if run["config"] == "clang-default" and run["kernel"] != "base":
-                    wanted[run["kernel"]] = f"{float(run['speedup']):.2f}"
+        for run in Sheet(STORED / f"{name}.csv").rows:
+            if run["config"] == "clang-default" and run["kernel"] != "base":
+                wanted[run["kernel"]] = f"{float(run['speedup']):.2f}"
     assert wanted and {kernel: row[kernel] for kernel in wanted} == wanted
     assert row["processor"] == "AMD EPYC, family 26, model 2"
     assert (row["compiler"], row["date"]) == ("clang 19.1.7", "2026-11-20")
-    assert row["commit"] == "60390f11549d"
+    assert (row["commit"], row["run"]) == ("60390f11549d", "stored-clang19-native")
+
+
+def test_verdicts_of_a_run(tmp_path):
+    """The table has a claim a row and a run a column, with numbers of verdicts at its end."""
+    path = copied(tmp_path)
+    machines.record([(STORED, "One", JUDGED), (STORED, "Two", JUDGED[:1])], path)
+    table = machines.table_of_verdicts(path)
+    assert "| claim | paper | `one-clang19-native` | `two-clang19-native` |" in table
+    assert "| speedup of double | 1.65 | 1.68 holds | 1.68 holds |" in table
+    assert "| float_vec is slower | | 0.98 **fails** | |" in table
+    assert "| number: holds | | 1 | 1 |" in table
+    assert machines.summary(path) == [
+        "recorded run one-clang19-native: 1 holds, 1 does not hold here",
+        "recorded run two-clang19-native: 1 holds",
+    ]
+
+
+def test_chains_of_a_run(tmp_path):
+    """Counts of the run's kernels stand in the table by compiler."""
+    path = copied(tmp_path)
+    machines.record([(STORED, "One", [])], path)
+    counted = Sheet(STORED / "bounds.csv").first(kernel="double")
+    cycles = f"{float(counted['chain_cycles_zen2']) / 1000:.0f}"
+    assert f"| clang 19.1.7 | `double` | {cycles} |" in machines.table_of_chains(path)
+
+
+def test_sentence(tmp_path):
+    """README cites the latest run that has timed `exact`, and says how many claims hold in it."""
+    path = copied(tmp_path)
+    ladder = "kernel,config,isa,speedup\nexact,library,scalar,44.6\n"
+    folder = run_with(tmp_path / "run", lambda text: text.replace("2026-11-20", "2999-01-01"))
+    (folder / "ladder.csv").write_text(ladder, encoding="utf-8")
+    machines.record([(folder, "One", JUDGED)], path)
+    said = " ".join(machines.sentence(path).split())
+    assert "On the One with clang 19.1.7" in said and "`exact` 45 x" in said
+    assert "`one-clang19-native`" in said and "Of the paper's 2 claims, 1 hold" in said
 
 
 def test_new_kernel_becomes_a_column(tmp_path):
     run = run_with(
-        tmp_path, lambda text: text.replace("\ndouble,clang-default", "\nnew,clang-default")
+        tmp_path / "run", lambda text: text.replace("\ndouble,clang-default", "\nnew,clang-default")
     )
     path, (first, *_) = copied(tmp_path), machines.read_machines()[1]
-    machines.record(run, "Another", path)
+    machines.record([(run, "Another", [])], path)
     rows = machines.read_machines(path)[1]
     assert list(rows[0]) == [*first, "new"]
     assert rows[0]["new"] == "" and rows[-1]["new"] and rows[-1]["double"] == ""
@@ -90,26 +182,35 @@ def test_new_kernel_becomes_a_column(tmp_path):
     "change, why",
     [
         (lambda text: "", "has no rows"),
-        (lambda text: text.replace("kernel: base, clang", "kernel: base, gcc"), "with clang"),
+        (lambda text: text.replace("kernel: base, clang", "kernel: euler, clang"), "of the ladder"),
         (
             lambda text: text.replace("# processor family", "# family"),
             "no line '# processor family",
         ),
+        (lambda text: text.replace("60390f11549d", "60390f11549d-dirty"), "without changes"),
     ],
 )
 def test_refused_runs(tmp_path, change, why):
-    run, path = run_with(tmp_path, change), copied(tmp_path)
+    run, path = run_with(tmp_path / "run", change), copied(tmp_path)
     before = path.read_bytes()
     with pytest.raises(machines.Refusal, match=why):
-        machines.record(run, "Another", path)
+        machines.record([(run, "Another", [])], path)
     assert path.read_bytes() == before
 
 
 def test_the_same_run_twice(tmp_path):
+    """A run that is measured again replaces the one before."""
     path = copied(tmp_path)
-    machines.record(STORED, "Stored", path)
-    with pytest.raises(machines.Refusal, match="already"):
-        machines.record(STORED, "Stored", path)
+    for _ in range(2):
+        machines.record([(STORED, "Stored", JUDGED)], path)
+    rows = machines.read_machines(path)[1]
+    assert [row["run"] for row in rows].count("stored-clang19-native") == 1
+    assert len(machines.read_rows(machines.beside(path, "verdicts"))[1]) == len(JUDGED)
+
+
+def test_compilers_are_printed():
+    said = machines.compilers_of(Sheet(STORED / "configs.csv"))
+    assert re.fullmatch("compilers: clang 19.1.7, gcc 12.2.0; .* clang 19.1.7, target native", said)
 
 
 def test_refusal_of_carom_lab_paper(tmp_path):
