@@ -1,4 +1,5 @@
-/* Clocks: the monotonic one, for all that takes time, and the processor's. */
+/* Clocks: the monotonic one, for all that takes time, and the processor's, of all threads or of
+ * the caller's. */
 #ifndef CAROM_CLI_MONOTONIC_H
 #define CAROM_CLI_MONOTONIC_H
 
@@ -15,6 +16,9 @@ static inline double clock_ns(void) {
 }
 static inline double processor_ns(void) {
   return ns_of(CLOCK_PROCESS_CPUTIME_ID);
+}
+static inline double thread_ns(void) {
+  return ns_of(CLOCK_THREAD_CPUTIME_ID);
 }
 
 #endif

@@ -22,13 +22,22 @@
 enum {
   ZEN = CORE_ZEN2 + CORE_ZEN3 + CORE_ZEN4 + CORE_ZEN5,
   ZEN2_TO_4 = CORE_ZEN2 + CORE_ZEN3 + CORE_ZEN4,
-  INTEL = CORE_INTEL_AVX2 + CORE_INTEL_AVX512,
+  ALL_SKYLAKE = CORE_SKYLAKE + CORE_SKYLAKE_SERVER,
+  INTEL_AVX512 = CORE_SKYLAKE_SERVER + CORE_ICE_LAKE + CORE_SAPPHIRE_RAPIDS,
+  INTEL = CORE_SKYLAKE + INTEL_AVX512,
   MOST_IN_GROUP = 32
 };
 
 /* AMD counts a fused multiply-add as two operations, hence the weight 0.5 of "fma". Intel's events
  * count vectors, once for each kind of vector and twice where an instruction adds and multiplies,
- * hence the weights of "flops"; they include least and greatest, and approximations of 1/x. */
+ * hence the weights of "flops"; they include least and greatest, and approximations of 1/x.
+ *
+ * The paper's token stalls are cycles in which an instruction could be dispatched, and a resource
+ * is missing: a place in a scheduler, a register, a place in the retire queue. AMD has an event for
+ * each of them. Intel has one for all of them together, "stalls_resources": a cycle on Skylake, and
+ * a slot on its successors, which issue in 5 or 6 slots a cycle, hence the weights. Another event,
+ * "stalls_execution", counts cycles in which no unit begins anything. The paper reads no such
+ * event. */
 const counter_row counter_table[] = {
     {CORE_ANY, COUNTER_CYCLES, "PERF_COUNT_HW_CPU_CYCLES", PERF_TYPE_HARDWARE,
      PERF_COUNT_HW_CPU_CYCLES, 1.0},
@@ -52,11 +61,16 @@ const counter_row counter_table[] = {
     {INTEL, COUNTER_FLOPS, "FP_ARITH_INST_RETIRED.SCALAR", PERF_TYPE_RAW, 0x03c7, 1.0},
     {INTEL, COUNTER_FLOPS, "FP_ARITH_INST_RETIRED.128B_PACKED_DOUBLE", PERF_TYPE_RAW, 0x04c7, 2.0},
     {INTEL, COUNTER_FLOPS, "FP_ARITH_INST_RETIRED.4_FLOPS", PERF_TYPE_RAW, 0x18c7, 4.0},
-    {CORE_INTEL_AVX2, COUNTER_FLOPS, "FP_ARITH_INST_RETIRED.256B_PACKED_SINGLE", PERF_TYPE_RAW,
+    {CORE_SKYLAKE, COUNTER_FLOPS, "FP_ARITH_INST_RETIRED.256B_PACKED_SINGLE", PERF_TYPE_RAW,
      0x20c7, 8.0},
-    {CORE_INTEL_AVX512, COUNTER_FLOPS, "FP_ARITH_INST_RETIRED.8_FLOPS", PERF_TYPE_RAW, 0x60c7, 8.0},
-    {CORE_INTEL_AVX512, COUNTER_FLOPS, "FP_ARITH_INST_RETIRED.512B_PACKED_SINGLE", PERF_TYPE_RAW,
-     0x80c7, 16.0},
+    {INTEL_AVX512, COUNTER_FLOPS, "FP_ARITH_INST_RETIRED.8_FLOPS", PERF_TYPE_RAW, 0x60c7, 8.0},
+    {INTEL_AVX512, COUNTER_FLOPS, "FP_ARITH_INST_RETIRED.512B_PACKED_SINGLE", PERF_TYPE_RAW, 0x80c7,
+     16.0},
+    {ALL_SKYLAKE, COUNTER_STALLS_RESOURCES, "RESOURCE_STALLS.ANY", PERF_TYPE_RAW, 0x01a2, 1.0},
+    {CORE_ICE_LAKE, COUNTER_STALLS_RESOURCES, "TOPDOWN.BACKEND_BOUND_SLOTS", PERF_TYPE_RAW, 0x02a4,
+     1.0 / 5.0},
+    {CORE_SAPPHIRE_RAPIDS, COUNTER_STALLS_RESOURCES, "TOPDOWN.BACKEND_BOUND_SLOTS", PERF_TYPE_RAW,
+     0x02a4, 1.0 / 6.0},
     {INTEL, COUNTER_STALLS_EXECUTION, "CYCLE_ACTIVITY.STALLS_TOTAL", PERF_TYPE_RAW, 0x040004a3,
      1.0},
 };
@@ -87,25 +101,36 @@ counter_core counter_core_of(const char *vendor, unsigned family, unsigned model
       {"AuthenticAMD", 0x1a, 0x00, 0x2f, CORE_ZEN5},
       {"AuthenticAMD", 0x1a, 0x40, 0x4f, CORE_ZEN5},
       {"AuthenticAMD", 0x1a, 0x60, 0x7f, CORE_ZEN5},
-      {"GenuineIntel", 6, 0x4e, 0x4e, CORE_INTEL_AVX2}, /* Skylake and its successors */
-      {"GenuineIntel", 6, 0x5e, 0x5e, CORE_INTEL_AVX2},
-      {"GenuineIntel", 6, 0x8e, 0x8e, CORE_INTEL_AVX2},
-      {"GenuineIntel", 6, 0x9e, 0x9e, CORE_INTEL_AVX2},
-      {"GenuineIntel", 6, 0xa5, 0xa6, CORE_INTEL_AVX2},
-      {"GenuineIntel", 6, 0x55, 0x55, CORE_INTEL_AVX512}, /* Skylake of servers */
-      {"GenuineIntel", 6, 0x6a, 0x6a, CORE_INTEL_AVX512}, /* Ice, Tiger and Rocket Lake */
-      {"GenuineIntel", 6, 0x6c, 0x6c, CORE_INTEL_AVX512},
-      {"GenuineIntel", 6, 0x7d, 0x7e, CORE_INTEL_AVX512},
-      {"GenuineIntel", 6, 0x8c, 0x8d, CORE_INTEL_AVX512},
-      {"GenuineIntel", 6, 0xa7, 0xa7, CORE_INTEL_AVX512},
-      {"GenuineIntel", 6, 0x8f, 0x8f, CORE_INTEL_AVX512}, /* Sapphire and Emerald Rapids */
-      {"GenuineIntel", 6, 0xcf, 0xcf, CORE_INTEL_AVX512},
+      {"GenuineIntel", 6, 0x4e, 0x4e, CORE_SKYLAKE}, /* Skylake and its successors */
+      {"GenuineIntel", 6, 0x5e, 0x5e, CORE_SKYLAKE},
+      {"GenuineIntel", 6, 0x8e, 0x8e, CORE_SKYLAKE},
+      {"GenuineIntel", 6, 0x9e, 0x9e, CORE_SKYLAKE},
+      {"GenuineIntel", 6, 0xa5, 0xa6, CORE_SKYLAKE},
+      {"GenuineIntel", 6, 0x55, 0x55, CORE_SKYLAKE_SERVER}, /* Skylake of servers */
+      {"GenuineIntel", 6, 0x6a, 0x6a, CORE_ICE_LAKE},       /* Ice, Tiger and Rocket Lake */
+      {"GenuineIntel", 6, 0x6c, 0x6c, CORE_ICE_LAKE},
+      {"GenuineIntel", 6, 0x7d, 0x7e, CORE_ICE_LAKE},
+      {"GenuineIntel", 6, 0x8c, 0x8d, CORE_ICE_LAKE},
+      {"GenuineIntel", 6, 0xa7, 0xa7, CORE_ICE_LAKE},
+      {"GenuineIntel", 6, 0x8f, 0x8f, CORE_SAPPHIRE_RAPIDS}, /* Sapphire and Emerald Rapids */
+      {"GenuineIntel", 6, 0xcf, 0xcf, CORE_SAPPHIRE_RAPIDS},
   };
   for (size_t k = 0; k < COUNT_OF(known); k++)
     if (strcmp(vendor, known[k].vendor) == 0 && family == known[k].family &&
         model >= known[k].first && model <= known[k].last)
       return known[k].core;
   return CORE_UNKNOWN;
+}
+
+/* Is this a virtual machine, by what the processor says of itself? */
+static bool has_hypervisor(void) {
+#if defined(__x86_64__)
+  unsigned a, b, c, d;
+  __cpuid(1, a, b, c, d);
+  return (c >> 31 & 1) != 0;
+#else
+  return false;
+#endif
 }
 
 static counter_core core_here(void) {
@@ -329,6 +354,8 @@ void counters_describe(const counter_set *set, FILE *out) {
       if (set->refusal[set->event[k].row->column] == 0)
         fprintf(out, " %s", set->event[k].row->name);
     fprintf(out, ", in %zu group(s) that take turns by rounds; ", set->groups);
+    if (has_hypervisor())
+      fputs("this is a virtual machine, and an event that its host hides counts 0; ", out);
   }
   /* each errno once, with its columns */
   for (int c = 0; c < COUNTER_COLUMNS; c++) {

@@ -22,6 +22,7 @@
   X(STALLS_FP_SCHEDULER, "stalls_fp_scheduler") \
   X(STALLS_FP_REGISTERS, "stalls_fp_registers") \
   X(STALLS_RETIRE, "stalls_retire")             \
+  X(STALLS_RESOURCES, "stalls_resources")       \
   X(STALLS_EXECUTION, "stalls_execution")
 
 typedef enum counter_column {
@@ -41,9 +42,11 @@ typedef enum counter_core {
   CORE_ZEN3 = 4,
   CORE_ZEN4 = 8,
   CORE_ZEN5 = 16,
-  CORE_INTEL_AVX2 = 32,
-  CORE_INTEL_AVX512 = 64,
-  CORE_ANY = 127
+  CORE_SKYLAKE = 32,
+  CORE_SKYLAKE_SERVER = 64,
+  CORE_ICE_LAKE = 128,
+  CORE_SAPPHIRE_RAPIDS = 256,
+  CORE_ANY = 511
 } counter_core;
 
 /* The core of a processor by what the instruction cpuid reports: "AuthenticAMD", 0x17, 0x71. */

@@ -66,17 +66,28 @@ typedef struct counting {
   double *count; /* of each event */
 } counting;
 
-/* The counters start and stop just outside the clock, so that starting them is not timed. */
-static double sample(const bench_subject *s, size_t loops, double (*clock)(void),
-                     const counting *counters) {
+/* What a sample takes, ns: of the clock, which a user waits for, and of the processor, which other
+ * programs do not lengthen. */
+typedef struct duration {
+  double clock, processor;
+} duration;
+
+typedef struct clocks {
+  double (*clock)(void), (*processor)(void);
+} clocks;
+
+/* The counters start and stop just outside the clocks, so that starting them is not timed. */
+static duration sample(const bench_subject *s, size_t loops, const clocks *by,
+                       const counting *counters) {
   if (s->prepare != NULL)
     s->prepare(s->context);
   if (counters->set != NULL)
     counters_start(counters->set, counters->group);
-  const double start = clock();
+  const duration start = {.processor = by->processor(), .clock = by->clock()};
   for (size_t k = 0; k < loops; k++)
     s->resolve(s->context);
-  const double elapsed = clock() - start;
+  duration elapsed = {.clock = by->clock() - start.clock};
+  elapsed.processor = by->processor() - start.processor;
   if (counters->set != NULL)
     counters_stop(counters->set, counters->group, counters->count);
   return elapsed;
@@ -84,30 +95,33 @@ static double sample(const bench_subject *s, size_t loops, double (*clock)(void)
 
 /* Warm-up, and what one pass costs: the fastest of ever more loops until they take a
  * millisecond. */
-static double estimate(const bench_subject *s, double (*clock)(void)) {
+static double estimate(const bench_subject *s, const clocks *by) {
   double pass = INFINITY, elapsed = 0.0;
   for (size_t loops = 1; elapsed < short_sample && loops < SIZE_MAX / 2; loops *= 2) {
-    elapsed = sample(s, loops, clock, &(counting){.set = NULL});
+    elapsed = sample(s, loops, by, &(counting){.set = NULL}).clock;
     pass = fmin(pass, elapsed / (double)loops);
   }
   return pass;
 }
 
-/* ns per pair. A sample of more than one loop begins with a pass that is not timed. Counters
- * belong to this thread, so they do not count a subject that has more of them. */
-static double take_sample(const bench_subject *s, size_t loops, double (*clock)(void),
-                          counting counters) {
+/* ns per pair. A sample of more than one loop begins with a pass that is not timed. Counters and
+ * processor time belong to this thread, so they do not count a subject that has more of them. */
+static duration take_sample(const bench_subject *s, size_t loops, const clocks *by,
+                            counting counters) {
   if (s->threads > 1) {
     pinning_suspend();
     counters.set = NULL;
   }
   if (loops > 1)
-    sample(s, 1, clock, &(counting){.set = NULL});
-  const double full = sample(s, loops, clock, &counters);
-  if (s->threads > 1)
+    sample(s, 1, by, &(counting){.set = NULL});
+  duration full = sample(s, loops, by, &counters);
+  if (s->threads > 1) {
     pinning_resume();
-  pinning_breathe(full);
-  return full / (double)loops / (double)s->pairs;
+    full.processor = NAN;
+  }
+  pinning_breathe(full.clock);
+  const double pairs = (double)loops * (double)s->pairs;
+  return (duration){.clock = full.clock / pairs, .processor = full.processor / pairs};
 }
 
 /* The columns of subject k from its counts of each event in each round, of which those are NAN that
@@ -147,6 +161,9 @@ static void summarise_times(const double *ns, const double *cycles, size_t round
 void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *settings,
                   bench_figure *figure) {
   double (*const clock)(void) = settings->clock != NULL ? settings->clock : clock_ns;
+  clocks by = {.clock = clock, .processor = thread_ns};
+  if (settings->processor != NULL)
+    by.processor = settings->processor;
   const double start = clock(), budget = 1e9 * settings->budget;
   const counter_set *counters = settings->counters;
   size_t groups = 0, events = 0;
@@ -160,7 +177,7 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
   double passes = 0.0;
   for (size_t k = 0; k < n; k++) {
     fingerprints[k] = subject[k].fingerprint(subject[k].context);
-    passes += pass[k] = estimate(&subject[k], clock);
+    passes += pass[k] = estimate(&subject[k], &by);
   }
 
   /* samples of the length that gives the rounds that are wanted */
@@ -188,8 +205,9 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
       double cycle = NAN;
       if (settings->cycle != NULL)
         cycle = settings->cycle();
-      ns[rounds * n + k] = take_sample(&subject[k], figure[k].loops, clock, round);
-      cycles[rounds * n + k] = ns[rounds * n + k] / cycle;
+      const duration pair = take_sample(&subject[k], figure[k].loops, &by, round);
+      ns[rounds * n + k] = pair.clock;
+      cycles[rounds * n + k] = pair.processor / cycle;
       if (settings->progress != NULL)
         settings->progress(fmin(clock() - start, budget) * 1e-9, settings->budget);
     }

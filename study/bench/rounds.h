@@ -34,6 +34,8 @@ typedef struct bench_settings {
   double budget;                               /* seconds for all; at least 5 rounds are run
                                                   whatever it is */
   double (*clock)(void);                       /* nanoseconds; NULL for the monotonic clock */
+  double (*processor)(void);                   /* the same of the thread's processor time, for
+                                                  cycles; NULL for Linux's clock of it */
   double (*cycle)(void);                       /* a core cycle just now, ns; NULL: not wanted */
   void (*progress)(double done, double total); /* called after each sample; NULL for none */
   const counter_set *counters;                 /* read around each sample; NULL for none */
@@ -48,9 +50,10 @@ typedef struct sample_summary {
 typedef struct bench_figure {
   sample_summary ns;      /* per pair */
   sample_summary speedup; /* the reference's time over this one's */
-  double core_cycles; /* per pair: each sample over the core cycle just before it, the median; NAN
-                         where that is not wanted or not known */
-  size_t loops;       /* workloads in a sample */
+  double core_cycles;     /* per pair: the processor time of each sample over the core cycle just
+                         before it, the median; NAN where that is not wanted or not known, and
+                         with several threads */
+  size_t loops;           /* workloads in a sample */
   double counted[COUNTER_COLUMNS]; /* per pair: medians over the rounds in which they were counted;
                                       NAN where they are not, as with several threads */
   bool unchanged;                  /* the results after the last round are those before the first */

@@ -99,7 +99,7 @@ TEST(ratios_cancel_what_slows_both) {
   bench_subject subjects[] = {subject_of(&slow, 0), subject_of(&fast, 0)};
   subjects[0].resolve = subjects[1].resolve = work_slower;
   bench_figure figure[2];
-  bench_settings settings = {.budget = 8.0, .clock = now_made_up};
+  bench_settings settings = {.budget = 8.0, .clock = now_made_up, .processor = now_made_up};
   bench_rounds(subjects, 2, &settings, figure);
   ck_assert(isnan(figure[0].core_cycles));
   settings.cycle = cycle_made_up;
@@ -110,6 +110,29 @@ TEST(ratios_cancel_what_slows_both) {
   ck_assert_double_gt(figure[1].ns.spread, 0.1 * figure[1].ns.median);
   ck_assert_double_eq_tol(figure[1].speedup.median, 2.0, 0.04);
   ck_assert_double_lt(figure[1].speedup.spread, 0.01);
+}
+
+/* Other programs take half of the time, so the processor's clock advances half as fast. */
+static double processor_shared(void) {
+  return 0.5 * made_up_now;
+}
+
+static double cycle_of_1_ns(void) {
+  return 1.0;
+}
+
+TEST(cycles_are_of_processor_time) {
+  made_up one = {.cost = 4e6};
+  bench_subject subjects[] = {subject_of(&one, SIZE_MAX), subject_of(&one, SIZE_MAX)};
+  subjects[1].threads = 2;
+  bench_figure figure[2];
+  const bench_settings settings = {
+      .budget = 1.0, .clock = now_made_up, .processor = processor_shared, .cycle = cycle_of_1_ns};
+  bench_rounds(subjects, 2, &settings, figure);
+  const double pairs = (double)subjects[0].pairs;
+  ck_assert_double_eq_tol(figure[0].ns.median, 4e6 / pairs, 1e-3);
+  ck_assert_double_eq_tol(figure[0].core_cycles, 2e6 / pairs, 1e-3);
+  ck_assert(isnan(figure[1].core_cycles)); /* the thread that waits has no time of the others */
 }
 
 TEST(budget_too_small_for_one_round) {

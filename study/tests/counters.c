@@ -129,8 +129,12 @@ TEST(table_is_well_formed) {
   for (int c = 0; c < COUNTER_COLUMNS; c++)
     ck_assert_msg(cores_of[c] != 0, "%s has no row", counter_column_name((counter_column)c));
   /* what the paper reads from a Zen 2 */
-  for (int c = 0; c < COUNTER_STALLS_EXECUTION; c++)
+  for (int c = 0; c < COUNTER_STALLS_RESOURCES; c++)
     ck_assert_uint_ne(cores_of[c] & CORE_ZEN2, 0);
+  /* AMD's stalls by resource, or Intel's by all of them together: never both */
+  const unsigned intel = CORE_SKYLAKE + CORE_SKYLAKE_SERVER + CORE_ICE_LAKE + CORE_SAPPHIRE_RAPIDS;
+  ck_assert_uint_eq(cores_of[COUNTER_STALLS_RESOURCES], intel);
+  ck_assert_uint_eq(cores_of[COUNTER_STALLS_FP_SCHEDULER] & intel, 0);
 }
 
 TEST(cores_by_signature) {
@@ -141,10 +145,10 @@ TEST(cores_by_signature) {
   ck_assert_int_eq(counter_core_of("AuthenticAMD", 0x19, 0x61), CORE_ZEN4);
   ck_assert_int_eq(counter_core_of("AuthenticAMD", 0x1a, 0x44), CORE_ZEN5);
   ck_assert_int_eq(counter_core_of("AuthenticAMD", 0x1a, 0x50), CORE_UNKNOWN); /* Zen 6 */
-  ck_assert_int_eq(counter_core_of("GenuineIntel", 6, 0x9e), CORE_INTEL_AVX2);
-  ck_assert_int_eq(counter_core_of("GenuineIntel", 6, 0x55), CORE_INTEL_AVX512);
-  ck_assert_int_eq(counter_core_of("GenuineIntel", 6, 167), CORE_INTEL_AVX512);
-  ck_assert_int_eq(counter_core_of("GenuineIntel", 6, 207), CORE_INTEL_AVX512);
+  ck_assert_int_eq(counter_core_of("GenuineIntel", 6, 0x9e), CORE_SKYLAKE);
+  ck_assert_int_eq(counter_core_of("GenuineIntel", 6, 0x55), CORE_SKYLAKE_SERVER);
+  ck_assert_int_eq(counter_core_of("GenuineIntel", 6, 167), CORE_ICE_LAKE);
+  ck_assert_int_eq(counter_core_of("GenuineIntel", 6, 207), CORE_SAPPHIRE_RAPIDS);
   ck_assert_int_eq(counter_core_of("GenuineIntel", 6, 0x97), CORE_UNKNOWN); /* two kinds of cores */
   ck_assert_int_eq(counter_core_of("AuthenticAMD", 6, 0x55), CORE_UNKNOWN);
 }
