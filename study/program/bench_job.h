@@ -28,6 +28,7 @@ struct bench_job {
   shared_options shared;            /* the precision: ANY_PRECISION for both */
   name_list kernels, configs, isas; /* none: all; the default one; all */
   name_list steps, pairs, threads;  /* of Euler's method; in a batch; of a batch */
+  name_list slips;                  /* none: the kernel's own */
   bool batch;                       /* batches only */
   double budget;                    /* 0: the table's own */
   bool csv, spread, errors, counters;

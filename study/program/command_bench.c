@@ -32,6 +32,7 @@ typedef carom_status call(const workload *w, size_t first);
 
 struct workload {
   const kernel *kernel;
+  const kernel_claim *claim;   /* one of the kernel's: the slip, and what must be reached with it */
   const ladder_module *module; /* of a rung; NULL for a solver of the library */
   const case_set *cases;
   carom_options options;
@@ -167,14 +168,14 @@ static bool compare_file(const workload *w, const char *folder, const char *name
 }
 
 /* What a kernel must reach on the cases at its claim's steps: for batches that of their
- * precision; 0 asks for the same bits. */
+ * precision, if it is wider; 0 asks for the same bits. */
 static double bound_of(const workload *w) {
   static const double of_batches[][2] = {[CAROM_SOLVER_EXACT] = {1e-6, 2e-5},
                                          [CAROM_SOLVER_EULER] = {0.0, 1e-2},
                                          [CAROM_SOLVER_FAST] = {1e-6, 2e-5}};
   if (w->size == 0 || w->kernel->is_rung)
-    return w->kernel->claims[0].bound;
-  return of_batches[w->kernel->solver][w->single];
+    return w->claim->bound;
+  return fmax(w->claim->bound, of_batches[w->kernel->solver][w->single]);
 }
 
 static bool within(const workload *w, double allowed, int steps) {
@@ -221,12 +222,12 @@ static bool verify_other_steps(workload *w) {
   w->claimed = compare(w, reference);
   free(reference);
   const int steps = w->options.steps;
-  return within(w, kernel_bound(bound_of(w), &w->kernel->claims[0], steps), steps);
+  return within(w, kernel_bound(bound_of(w), w->claim, steps), steps);
 }
 
 /* Resolves the cases and compares. *good: may it be timed? False if data could not be read. */
 static bool verify(workload *w, const char *folder, bool *good) {
-  const kernel_claim *claim = &w->kernel->claims[0];
+  const kernel_claim *claim = w->claim;
   const int steps = w->options.steps;
   w->options.steps = claim->steps;
   choose_isa(w);
@@ -267,13 +268,13 @@ static bool wants_precision(const bench_job *job, bool single) {
          (job->shared.precision == SINGLE_PRECISION) == single;
 }
 
-static workload *add(const kernel *candidate, int steps) {
+static workload *add(const kernel *candidate, const kernel_claim *claim, int steps) {
   timing.work = grow(timing.work, &timing.room, timing.count + 1, sizeof *timing.work);
   workload *w = &timing.work[timing.count++];
-  *w = (workload){.kernel = candidate, .cases = &timing.cases, .isa = carom_isa_in_force()};
-  w->options = (carom_options){.slip = candidate->claims[0].slip,
-                               .steps = CAROM_DEFAULT_STEPS,
-                               .solver = CAROM_SOLVER_EXACT};
+  *w = (workload){
+      .kernel = candidate, .claim = claim, .cases = &timing.cases, .isa = carom_isa_in_force()};
+  w->options = (carom_options){
+      .slip = claim->slip, .steps = CAROM_DEFAULT_STEPS, .solver = CAROM_SOLVER_EXACT};
   if (kernel_takes_steps(candidate))
     w->options.steps = steps;
   if (!candidate->is_rung)
@@ -283,12 +284,13 @@ static workload *add(const kernel *candidate, int steps) {
 
 /* The cases, one call each, unless they are there already. Where a kernel takes no steps, they
  * are not read. */
-static void add_calls(const kernel *candidate, const ladder_module *module, int steps) {
+static void add_calls(const kernel *candidate, const kernel_claim *claim,
+                      const ladder_module *module, int steps) {
   for (const workload *w = timing.work; w < timing.work + timing.count; w++)
-    if (w->size == 0 && w->kernel == candidate && w->module == module &&
+    if (w->size == 0 && w->kernel == candidate && w->claim == claim && w->module == module &&
         (w->options.steps == steps || !kernel_takes_steps(candidate)))
       return;
-  workload *w = add(candidate, steps);
+  workload *w = add(candidate, claim, steps);
   w->module = module;
   w->single_call = by_library;
   if (candidate->is_rung)
@@ -326,9 +328,9 @@ static size_t whole_turns(size_t size, size_t period) {
 
 /* A rung across collisions, on batches of the cases that its precision resolves in so many
  * steps. */
-static void add_lanes(const kernel *candidate, const ladder_module *module, int steps,
-                      size_t size) {
-  workload *w = add(candidate, steps);
+static void add_lanes(const kernel *candidate, const kernel_claim *claim,
+                      const ladder_module *module, int steps, size_t size) {
+  workload *w = add(candidate, claim, steps);
   const size_t n = timing.cases.count;
   int8_t *status = allocate(n, sizeof *status);
   carom_result *unused = allocate(n, sizeof *unused);
@@ -361,24 +363,36 @@ static void add_lanes(const kernel *candidate, const ladder_module *module, int 
 }
 
 /* By the sizes of batches that are asked for, or the rung's own. */
-static void add_all_lanes(const bench_job *job, const kernel *candidate,
+static void add_all_lanes(const bench_job *job, const kernel *candidate, const kernel_claim *claim,
                           const ladder_module *module, int steps) {
   const bool has_sizes = job->pairs.room > 0;
   for (size_t k = 0; has_sizes && k < job->pairs.count; k++)
-    add_lanes(candidate, module, steps, (size_t)atoi(job->pairs.name[k]));
+    add_lanes(candidate, claim, module, steps, (size_t)atoi(job->pairs.name[k]));
   if (!has_sizes)
-    add_lanes(candidate, module, steps, 0);
+    add_lanes(candidate, claim, module, steps, 0);
+}
+
+/* Is it the kernel's first claim with its slip, and is the slip asked for? Without --slip, a kernel
+ * is timed with its own, that of its first claim. */
+static bool wants_claim(const bench_job *job, const kernel *candidate, const kernel_claim *claim) {
+  for (const kernel_claim *earlier = candidate->claims; earlier < claim; earlier++)
+    if (earlier->slip == claim->slip)
+      return false;
+  if (job->slips.count == 0)
+    return claim == candidate->claims;
+  return names(&job->slips, carom_slip_name(claim->slip));
 }
 
 static bool add_config(const bench_job *job, const kernel *candidate, const char *config) {
   const ladder_module *module;
   if (!kernel_module(candidate, config, &module))
     return false;
-  for (size_t k = 0; k < job->steps.count; k++)
-    if (is_rung_of_lanes(candidate))
-      add_all_lanes(job, candidate, module, atoi(job->steps.name[k]));
-    else
-      add_calls(candidate, module, atoi(job->steps.name[k]));
+  for (const kernel_claim *claim = candidate->claims; claim->reference != NULL; claim++)
+    for (size_t k = 0; k < job->steps.count && wants_claim(job, candidate, claim); k++)
+      if (is_rung_of_lanes(candidate))
+        add_all_lanes(job, candidate, claim, module, atoi(job->steps.name[k]));
+      else
+        add_calls(candidate, claim, module, atoi(job->steps.name[k]));
   return true;
 }
 
@@ -429,9 +443,9 @@ static bool add_all_calls(const bench_job *job) {
 }
 
 /* Batches of `size` pairs by a solver in lanes of `isa`, from the cases over and over. */
-static void add_batch(const kernel *candidate, carom_isa isa, bool single, int threads, int steps,
-                      size_t size) {
-  workload *w = add(candidate, steps);
+static void add_batch(const kernel *candidate, const kernel_claim *claim, carom_isa isa,
+                      bool single, int threads, int steps, size_t size) {
+  workload *w = add(candidate, claim, steps);
   w->in = timing.tiled;
   if (single)
     w->in = timing.tiled_f32;
@@ -463,7 +477,8 @@ static bool wants_batches(const bench_job *job, const kernel *candidate) {
 
 /* Every size, precision, number of threads and, where a kernel takes any, of steps that is
  * wanted. */
-static void add_batches(const bench_job *job, const kernel *candidate, carom_isa isa) {
+static void add_batches(const bench_job *job, const kernel *candidate, const kernel_claim *claim,
+                        carom_isa isa) {
   size_t steps = 1;
   if (kernel_takes_steps(candidate))
     steps = job->steps.count;
@@ -471,7 +486,7 @@ static void add_batches(const bench_job *job, const kernel *candidate, carom_isa
     for (int single = 0; single < 2; single++)
       for (size_t t = 0; t < job->threads.count && wants_precision(job, single != 0); t++)
         for (size_t k = 0; k < steps; k++)
-          add_batch(candidate, isa, single != 0, atoi(job->threads.name[t]),
+          add_batch(candidate, claim, isa, single != 0, atoi(job->threads.name[t]),
                     atoi(job->steps.name[k]), (size_t)atoi(job->pairs.name[size]));
 }
 
@@ -498,8 +513,10 @@ static void add_all_batches(bench_job *job) {
   for (size_t k = 0; (candidate = kernel_at(k)) != NULL; k++)
     for (int isa = 0; carom_isa_name((carom_isa)isa) != NULL && wants_batches(job, candidate);
          isa++)
-      if (wants_isa(job, (carom_isa)isa))
-        add_batches(job, candidate, (carom_isa)isa);
+      for (const kernel_claim *claim = candidate->claims;
+           claim->reference != NULL && wants_isa(job, (carom_isa)isa); claim++)
+        if (wants_claim(job, candidate, claim))
+          add_batches(job, candidate, claim, (carom_isa)isa);
 }
 
 /* ---- The reference of speedup: the ladder's first rung in the default configuration; without a
@@ -507,7 +524,8 @@ static void add_all_batches(bench_job *job) {
  * none */
 
 static bool is_reference(const workload *w) {
-  return w->size == 0 && w->kernel == timing.reference && w->module == timing.reference_module;
+  return w->size == 0 && w->kernel == timing.reference && w->claim == timing.reference->claims &&
+         w->module == timing.reference_module;
 }
 
 static bool add_references(void) {
@@ -518,7 +536,8 @@ static bool add_references(void) {
   if (timing.reference->is_rung && !kernel_module(timing.reference, NULL, &timing.reference_module))
     return false;
   for (size_t k = 0, chosen = timing.count; k < chosen; k++)
-    add_calls(timing.reference, timing.reference_module, timing.work[k].options.steps);
+    add_calls(timing.reference, timing.reference->claims, timing.reference_module,
+              timing.work[k].options.steps);
   return true;
 }
 
@@ -594,6 +613,10 @@ static void note(const bench_job *job, FILE *out) {
   if (job->pairs.room > 0)
     pairs = "column";
   machine_note(out, "batches", "the cases over and over, %s pairs in a call", pairs);
+  if (job->spread)
+    machine_note(out, "core cycles",
+                 "processor time of the thread over that of an addition in a "
+                 "chain, timed before each sample");
   for (const workload *w = timing.work; w < timing.work + job->subject_count; w++)
     if (is_rung_of_lanes(w->kernel) && job->pairs.room == 0) {
       machine_note(out, "lanes of the ladder", "the cases over and over, %zu pairs in a call",
@@ -669,7 +692,7 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
       {more, "speedup_max", "%.5g", f->speedup.max},
       {more, "speedup_spread", "%.3g", f->speedup.spread},
       {more, "core_cycles", "%.6g", f->core_cycles},
-      {job->errors, "slip", NULL, 0.0},
+      {job->errors || job->slips.count > 0, "slip", NULL, 0.0},
       {job->errors, "error_exact_median", "%.3g", listed->exact.median},
       {job->errors || !csv, "error_exact_max", "%.3g", listed->exact.max},
       {job->pairs.room > 0, "pairs", "%.0f", pairs},
@@ -849,6 +872,21 @@ static OPTION_SET(set_kernels) {
 static OPTION_SET(set_isas) {
   return add_each(row, text, field, is_isa);
 }
+static bool is_slip(const option_row *row, char *word) {
+  char known[64] = "";
+  for (int slip = 0; carom_slip_name((carom_slip)slip) != NULL; slip++) {
+    if (same_text(word, carom_slip_name((carom_slip)slip)))
+      return true;
+    strcat(strcat(known, slip > 0 ? ", " : ""), carom_slip_name((carom_slip)slip));
+  }
+  if (is_name(row, word))
+    complain("no slip '%s'; there are %s", word, known);
+  return false;
+}
+
+static OPTION_SET(set_slips) {
+  return add_each(row, text, field, is_slip);
+}
 static OPTION_SET(set_counts) {
   return add_each(row, text, field, is_count);
 }
@@ -886,6 +924,10 @@ FLAG(bench_job, option_batch, "batch", batch,
 OPTION(
     bench_job, option_isa, "isa", isas, "NAME,...", set_isas, 0,
     "only these instruction sets: scalar (single calls), plain, sse2, avx2, avx512, neon, or best");
+OPTION(bench_job, option_slips, "slip", slips, "NAME,...", set_slips, 0,
+       "sign of the spin in the slip over the cloth: paper, pooltool (default: that of each "
+       "kernel's reference, pooltool for the ladder, paper for exact and fast); adds the column "
+       "slip");
 OPTION(bench_job, option_one_precision, "precision", shared.precision, "double|single", set_choice,
        0, "only this precision (default: both)");
 OPTION(bench_job, option_thread_counts, "threads", threads, "N,...", set_threads, 1,
@@ -899,7 +941,7 @@ OPTION(bench_job, option_budget, "budget", budget, "SECONDS", set_budget, 0,
 FLAG(bench_job, option_csv, "csv", csv, "as CSV, with lines about the machine that begin with #");
 FLAG(bench_job, option_spread, "spread", spread,
      "more columns in the CSV: spread of the time; least, greatest and spread of the speedup; core "
-     "cycles of a collision, by an addition timed before each sample");
+     "cycles of a collision, its processor time over that of an addition");
 FLAG(bench_job, option_errors, "errors", errors,
      "more columns in the CSV: slip, and the pair error against the exact reference, median and "
      "largest");
@@ -929,12 +971,13 @@ static const command_form form = {
     .name = "bench",
     .usage = "[OPTIONS]",
     .about = about,
-    .options = (const option_row *const[]){&option_kernel, &option_config, &option_counts,
-                                           &option_batch, &option_isa, &option_one_precision,
-                                           &option_thread_counts, &option_pairs, &option_budget,
-                                           &option_csv, &option_spread, &option_errors,
-                                           &option_counters, &option_shots, &option_cushions,
-                                           &options_of_motion, &option_data, &option_output, NULL},
+    .options =
+        (const option_row *const[]){
+            &option_kernel,     &option_config,   &option_counts,        &option_slips,
+            &option_batch,      &option_isa,      &option_one_precision, &option_thread_counts,
+            &option_pairs,      &option_budget,   &option_csv,           &option_spread,
+            &option_errors,     &option_counters, &option_shots,         &option_cushions,
+            &options_of_motion, &option_data,     &option_output,        NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
 };
@@ -942,7 +985,7 @@ static const command_form form = {
 /* Options that choose collisions mean nothing for shots and cushions. */
 static bool is_plain(const bench_job *job) {
   return job->kernels.count + job->configs.count + job->isas.count + job->steps.count +
-                 job->pairs.count ==
+                 job->slips.count + job->pairs.count ==
              0 &&
          !job->batch && !job->errors && !job->counters && job->shared.precision == ANY_PRECISION;
 }
@@ -955,8 +998,8 @@ static int bench(bench_job *job) {
   else if (job->cushions && job->threads.count > 0)
     complain("--threads is for batches and shots, not for --cushions, which are single calls");
   else if ((job->shots != NULL || job->cushions) && !is_plain(job))
-    complain("--kernel, --config, --steps, --batch, --isa, --precision, --pairs, --errors and "
-             "--counters are for collisions of two balls");
+    complain("--kernel, --config, --steps, --slip, --batch, --isa, --precision, --pairs, --errors "
+             "and --counters are for collisions of two balls");
   else {
     job->table = &bench_of_collisions;
     if (job->shots != NULL)

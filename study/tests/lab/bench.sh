@@ -36,6 +36,7 @@ for row in csv.DictReader(line for line in lines if not line.startswith("#")):
 PYTHON
 lab bench --kernel euler --counters --budget 0.1 | grep '^kernel' | tr -s ' '
 timed --kernel exact --steps 10,50 --isa scalar
+timed --kernel exact --slip pooltool,paper --isa scalar,plain --precision double --threads 1 # base has pooltool's only
 timed --kernel exact --threads 1,2
 sed -n 's/^# \(batches\): .*, \([0-9]* pairs\).*/\1: \2/p' out.csv
 timed --batch --isa plain --precision double --threads 1 --pairs 1,7,300
@@ -72,6 +73,8 @@ try lab bench --isa mmx 2>&1 | sed 's/best, .*/best, .../'
 try env CAROM_ISA=plain "$LAB" bench --isa avx512
 try env CAROM_ISA=AVX2 "$LAB" bench
 try lab bench --precision half
+try lab bench --slip papr
+try lab bench --kernel base --slip paper
 try lab bench now
 for words in "--isa ," "--batch --kernel base" "--kernel exact --isa scalar --precision single" "--pairs 0" "--pairs ," "--threads 1,none" "--kernel euler,faster" "--steps 10,many" \
   "--budget never" "--budget 0" "--budget 1x" "--spread" "--shots $DATA/shots-mathavan.jsonl --pairs 8" "--cushions --shots nowhere.jsonl" "--cushions --threads 2" "--cushions --kernel exact" "--cushions --counters" "--shots nowhere.jsonl" "--data nowhere"; do
