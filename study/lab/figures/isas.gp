@@ -1,6 +1,6 @@
 # Bars: speedup of the solvers in lanes by instruction set and precision, a panel for each solver.
 width = 1000; height = 520
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../figures/study.gp" ARG1 ARG2 ARG3
 unset title
 
 select(what, condition) = system("awk -F, '/^#/ { next } n++ && (".condition.") && !seen[".what."]++ { printf \"%s \", ".what." }' '".data."'")

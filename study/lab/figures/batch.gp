@@ -1,6 +1,6 @@
 # Throughput over batch size, and over threads.
 width = 1000; height = 520
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../figures/study.gp" ARG1 ARG2 ARG3
 unset title
 
 number(program) = real(system("awk -F, '/^#/ { next } !at { for (k = 1; k <= NF; k++) if ($k == \"pairs\") at = k; next } ".program."' '".data."'"))
