@@ -9,11 +9,16 @@ Columns: flops_*, rsqrt, rcp, conversions, compares, minmax are executed operati
 flops_total is add + mul + div + sqrt + fma, flops_amd counts an fma twice, as AMD's counter does; shuffles and instructions are
 instructions. per_step_flops_amd is the difference between N and N/4, divided by the steps between.
 
-The others belong to one case. loads_per_step and stores_per_step are data accesses of the kernel, by callgrind's cache simulation,
-the difference between N and N/4 divided by the steps between. steps_total, chain_cycles_* and mca_cycles_* are per collision at N:
-the iterations of its hot loops, their cycles by the longest chain, with the latencies of Zen 2 and with those of this processor, and
-their cycles by llvm-mca's models of both; NA where llvm-mca is missing or has no model. chain_cycles_registers is the chain with the
-latencies of Zen 2 if what a step stores cost nothing to load: the difference is what the compiler keeps in memory on the chain.
+mean_steps and mean_chain_cycles_* are of the same cases: the iterations of the hot loops of a collision, and their cycles by the longest
+chain of each case, with the latencies of Zen 2 and with those of this processor. `carom-lab bench` times these cases, so the share of
+the bound is mean_chain_cycles_* over its cycles. In some cases less friction acts, and their chain is shorter.
+
+The others belong to one case, in which friction acts at the cloth in every step, as in the bound of the seed paper. loads_per_step and
+stores_per_step are data accesses of the kernel, by callgrind's cache simulation, the difference between N and N/4 divided by the steps
+between. steps_total, chain_cycles_* and mca_cycles_* are per collision at N: the iterations of its hot loops, their cycles by the longest
+chain, and their cycles by llvm-mca's models of both processors; NA where llvm-mca is missing or has no model.
+chain_cycles_registers is the chain with the latencies of Zen 2 if what a step stores cost nothing to load: the difference is what
+the compiler keeps in memory on the chain.
 
 The note "module CONFIG: FINGERPRINT" is of the module's file, as `carom-lab bench` writes it: counts belong to times only if both
 are the same.
@@ -56,7 +61,7 @@ OTHERS = {
     "minmax": "minmax",
 }
 COLUMNS = [f"flops_{kind}" for kind in COUNTED] + [*OTHERS.values(), "flops_total", "flops_amd", "shuffles", "instructions"] + [
-    "per_step_flops_amd", "loads_per_step", "stores_per_step", "steps_total", "chain_cycles_zen2", "chain_cycles_native",
+    "per_step_flops_amd", "mean_steps", "mean_chain_cycles_zen2", "mean_chain_cycles_native", "loads_per_step", "stores_per_step", "steps_total", "chain_cycles_zen2", "chain_cycles_native",
     "chain_cycles_registers", "mca_cycles_zen2", "mca_cycles_native"
 ]  # fmt: skip
 
@@ -153,7 +158,7 @@ def lines_of_object(text, path):
 
 
 def execute(driver, module, kernel, steps, cases, *more):
-    """The module's lines of the file of a run under callgrind."""
+    """The files of a run under callgrind: one, or with --dump-before one more for each call of that function."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "callgrind.out"
         words = [
@@ -176,7 +181,7 @@ def execute(driver, module, kernel, steps, cases, *more):
             ],
             input=cases,
         )
-        return lines_of_object(out.read_text(), Path(module).resolve())
+        return [lines_of_object(file.read_text(), Path(module).resolve()) for file in Path(folder).iterdir()]
 
 
 def join(code, counts):
@@ -230,17 +235,61 @@ def hot_loops(code, counts, jump_counts, threshold):
     return loops
 
 
+def split_into_loops(code, counts, jump_counts, threshold):
+    """The same where an iteration takes one path in some steps and another in others: each loop is found in what the loops before it
+    leave of the executions."""
+    counts, jump_counts = Counter(counts), Counter(jump_counts)
+    found = []
+    while loops := hot_loops(code, counts, jump_counts, threshold):
+        executions, path = loops[0]
+        found.append(loops[0])
+        for instruction, following in zip(path, [*path[1:], path[0]]):
+            counts[instruction.address] -= executions
+            if instruction.target == following.address:
+                jump_counts[instruction.address] -= executions
+    return found
+
+
+def bound_of(code, text, steps, latencies, chains):
+    """(iterations, {machine: cycles}) of the hot loops of a collision. `chains` keeps the cycles of paths that other cases took too."""
+    total, cycles = 0, Counter()
+    for executions, path in split_into_loops(code, *parse_callgrind(text), steps / 100):
+        total += executions
+        for machine, cycles_of in latencies.items():
+            key = (machine, *(instruction.address for instruction in path))
+            if key not in chains:
+                chains[key] = machine_code.chain(machine_code.steps_of(path, cycles_of))
+            cycles[machine] += executions * chains[key]
+    return total, cycles
+
+
+def means_of_bounds(code, texts, steps, count, latencies):
+    """The columns mean_*: the bounds of all cases, of which callgrind wrote a file each."""
+    total, sums, chains = 0, Counter(), {}
+    for text in texts:
+        iterations, cycles = bound_of(code, text, steps, latencies, chains)
+        total += iterations
+        sums.update(cycles)
+    return {"mean_steps": total / count} | {
+        f"mean_chain_cycles_{machine}": sums[machine] / count for machine in latencies
+    }
+
+
 def measure(driver, module, kernel, steps, cases, case, latencies):
     """{column: value}: operations as the mean over `cases`, texts of a line each, and bounds of the one `case`, the sum over its hot
     loops of executions times cycles per iteration."""
     code, totals = code_of(module, kernel), []
     for n in (steps // 4, steps):
-        counts, _ = parse_callgrind(execute(driver, module, kernel, n, "".join(cases)))
+        (text,) = execute(driver, module, kernel, n, "".join(cases))
+        counts, _ = parse_callgrind(text)
         totals.append(
             Counter({kind: count / len(cases) for kind, count in join(code, counts).items()})
         )
     few, many = totals
-    row = {f"flops_{kind}": many[kind] for kind in COUNTED} | {
+    every_call = f"--dump-before=carom_rung_{kernel}"
+    texts = execute(driver, module, kernel, steps, "".join(cases), every_call)
+    row = means_of_bounds(code, texts, steps, len(cases), latencies)
+    row |= {f"flops_{kind}": many[kind] for kind in COUNTED} | {
         name: many[kind] for kind, name in OTHERS.items()
     }
     row |= {
@@ -253,25 +302,21 @@ def measure(driver, module, kernel, steps, cases, case, latencies):
         "per_step_flops_amd": (flops(many, 2) - flops(few, 2)) / (steps - steps // 4),
     }
     short, long = (
-        execute(driver, module, kernel, n, case, "--cache-sim=yes") for n in (steps // 4, steps)
+        execute(driver, module, kernel, n, case, "--cache-sim=yes")[0] for n in (steps // 4, steps)
     )
     for name, low, high in zip(
         ("loads", "stores"), data_accesses(short, code), data_accesses(long, code)
     ):
         row[f"{name}_per_step"] = (high - low) / (steps - steps // 4)
-    row |= {"steps_total": 0} | {f"chain_cycles_{machine}": 0 for machine in latencies}
+    row["steps_total"], cycles = bound_of(code, long, steps, latencies, {})
+    row |= {f"chain_cycles_{machine}": cycles[machine] for machine in latencies}
     for executions, path in hot_loops(code, *parse_callgrind(long), steps / 10):
-        row["steps_total"] += executions
         for machine, model in MODELS.items():
             cycles = mca_cycles(path, model)
             if cycles is not None:
                 row[f"mca_cycles_{machine}"] = (
                     row.get(f"mca_cycles_{machine}", 0) + executions * cycles
                 )
-        for machine, cycles_of in latencies.items():
-            row[f"chain_cycles_{machine}"] += executions * machine_code.chain(
-                machine_code.steps_of(path, cycles_of)
-            )
     return row
 
 
@@ -373,7 +418,7 @@ def table(options, out):
     print(f"# counts: {output_of(['valgrind', '--version']).strip()}", file=out)
     print(f"# model: {Path(mca()).name if mca() else 'NA (no llvm-mca: package llvm)'}", file=out)
     print(
-        f"# cases: {len(cases)}, N = {options.steps}; bounds: case {CASE}, cycles per collision",
+        f"# cases: {len(cases)}, N = {options.steps}; columns from loads_per_step on: case {CASE}",
         file=out,
     )
     writer = csv.writer(out, lineterminator="\n")

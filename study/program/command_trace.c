@@ -1,5 +1,5 @@
 /* `carom-lab trace`: a reference collision over normal impulse, by the exact solver and by Euler's
- * method, as the CSV file that study/figures/trace.gp draws. */
+ * method, as the CSV file that study/lab/figures/trace.gp draws. */
 #include "cases.h"
 #include "program/program.h"
 #include "rows/kind.h"

@@ -42,6 +42,39 @@ MACHINE = (
     "flags",
     "date",
 )
+# Heads of columns where the name in the CSV would not be understood; of others the name.
+HEADS = {
+    "ns_median": "ns",
+    "ns_spread": "± ns",
+    "speedup_spread": "± speedup",
+    "paper_text": "paper",
+    "ours_over_paper": "here / paper",
+    "max": "largest error",
+    "over_1e3": "> 0.1 %, with floor",
+    "strict_1e3": "> 0.1 %",
+    "paper_1e3": "paper: > 0.1 %",
+    "over_1e2": "> 1 %, with floor",
+    "strict_1e2": "> 1 %",
+    "paper_1e2": "paper: > 1 %",
+    "paper_verdict": "by the paper's rule",
+    "flops_add": "additions",
+    "flops_mul": "products",
+    "flops_div": "divisions",
+    "flops_sqrt": "square roots",
+    "flops_fma": "fused",
+    "rsqrt": "estimates",
+    "flops_amd": "AMD's sum",
+    "paper_flops": "paper: sum",
+    "chain_cycles_zen2": "longest chain, Zen 2",
+    "paper_bound": "paper: longest chain",
+    "mean_chain_cycles_zen2": "mean chain, Zen 2",
+    "mean_chain_cycles_native": "mean chain, here",
+    "share": "share %, Zen 2",
+    "share_here": "share %, here",
+    "paper_share": "paper: share %",
+    "error_exact_median": "median error",
+    "error_exact_max": "largest error",
+}
 # The seed paper's section 4.3, at N = 1000: operations, the bound in cycles, cycles as measured.
 PAPER_BOUNDS = {"base": (77796, 77000, 85300), "double": (43829, 44000, 50200)}
 
@@ -92,9 +125,9 @@ def same_module(data, config):
 
 def derive_performance(options, data):
     """Operations at N are those at N = 1000 and, for every step more or less, those of a step; the
-    bound is a step's operations over the cycles of its longest chain. A cycle is a core cycle as
-    bench measures it. Where the processor counted operations or cycles, its counts are used
-    instead; the notes say which.
+    bound is a step's operations over the cycles of its longest chain, the mean over the cases that
+    were timed. A cycle is a core cycle as bench measures it. Where the processor counted operations
+    or cycles, its counts are used instead; the notes say which.
     """
     cycles, rows = data["cycles"], []
     same = {
@@ -113,7 +146,7 @@ def derive_performance(options, data):
         else "of the machine code that was timed",
         "cycles": "counted by the processor"
         if counted["cycles"]
-        else "time of the clock over that of an addition just before each sample",
+        else "processor time over that of an addition just before each sample",
     }
     for row in cycles.rows:
         count = data["bounds"].first(kernel=row["kernel"], config=row["config"])
@@ -125,7 +158,7 @@ def derive_performance(options, data):
             number(row.get("core_cycles")),
         )
         bound, local_bound = (
-            1000 * a_step / number(count.get(f"chain_cycles_{machine}"))
+            1000 * a_step / number(count.get(f"mean_chain_cycles_{machine}"))
             for machine in ("zen2", "native")
         )
         if counted["flops"]:
@@ -163,6 +196,7 @@ def operations(data):
                 "paper_flops": flops,
                 "paper_bound": bound,
                 "share": 100 * number(timed.get("share_of_bound")) if timed else "NA",
+                "share_here": 100 * number(timed.get("share_of_bound_here")) if timed else "NA",
                 "paper_share": 100 * bound / paper_cycles,
             }
         )
@@ -174,6 +208,8 @@ def operations(data):
 def worst_of_builds(rows):
     worst = {}
     for row in rows:
+        reference = row["reference"].removeprefix("reference-").removesuffix(".csv")
+        row = {**row, "reference": reference}
         group = worst.setdefault((row["kernel"], row["reference"]), {**row, "builds": 0})
         group["builds"] += 1
         group["identical"] = min(group["identical"], row["identical"], key=number)
@@ -182,6 +218,19 @@ def worst_of_builds(rows):
         for name in ("verdict", "paper_verdict"):
             group[name] = min(group[name], row[name])  # fail before pass
     return list(worst.values())
+
+
+def solvers(ladder):
+    """Single calls with both slips, and collisions in lanes: what takes another way than a step
+    after the other of one collision. The slowest first.
+    """
+    rows = [
+        row
+        for row in ladder.rows
+        if row["kernel"] in ("base", "float", "exact", "fast") and row["isa"] == "scalar"
+    ]
+    rows += [row for row in ladder.rows if "_lanes" in row["kernel"]]
+    return sorted(rows, key=lambda row: number(row["speedup"]))
 
 
 def crossed(sheet, down, across, value):
@@ -233,9 +282,10 @@ def write_page(options, data):
         "speedups": data["speedup"].rows,
         "errors": worst_of_builds(data["verify"].rows),
         "operations": operations(data),
+        "bounds": operations(data),
         "configurations": crossed(data["configs"], "kernel", "config", "speedup"),
         "experiments": data["experiments"].rows,
-        "batches": [row for row in ladder.rows + data["isas"].rows if row["config"] == "library"],
+        "solvers": solvers(ladder),
     }
     page = environment.get_template("page.html").render(
         claims=claims,
@@ -245,6 +295,7 @@ def write_page(options, data):
         cells=cells,
         is_number=lambda text: not math.isnan(number(text.replace(",", ""))),
         contents=CONTENTS,
+        head_of=lambda name: HEADS.get(name, name.replace("_", " ")),
         machine=[(what, ladder.notes[what]) for what in MACHINE if what in ladder.notes],
         commands=[(f"{name}.csv", command) for name, (_, command) in DATA.items()],
     )
@@ -262,10 +313,9 @@ def print_speedups(data):
             f"{row['kernel']:<17} {number(row['ns']):>9.0f} ns {number(row['speedup']):>9.2f}  the paper: {row['paper_text']}"
         )
     for row in ladder.rows:
-        if row["config"] == "library":
-            how = f"{row['isa']}, {row['precision']}, {row['threads']} thread(s)"
+        if row["config"] == "library" and row["isa"] == "scalar":
             print(
-                f"{row['kernel']:<17} {number(row['ns_median']):>9.1f} ns {number(row['speedup']):>9.2f}  the library, {how}"
+                f"{row['kernel']:<17} {number(row['ns_median']):>9.1f} ns {number(row['speedup']):>9.2f}  the library, slip: {row.get('slip', 'not noted')}"
             )
 
 

@@ -51,7 +51,7 @@ def shown(text):
     x = number(text)
     return (
         ""
-        if text in (None, "NA", "nan")
+        if str(text) in ("None", "NA", "nan")
         else str(text)
         if x != x
         else f"{x:,.0f}"

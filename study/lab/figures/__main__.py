@@ -1,7 +1,7 @@
 """The figures of the docs beyond the study: `tools/python -m study.lab.figures DIR` computes their CSV
 files in DIR/data and draws them in DIR. What is computed does not depend on the machine.
 
-Cushions and hops have gnuplot scripts here; what `carom` draws itself stands in
+Batches are measured, and so only with --budget. What `carom` draws itself stands in
 docs/figures/made.csv.
 """
 
@@ -14,14 +14,27 @@ import subprocess
 import sys
 from pathlib import Path
 
+from study.report.fingerprints import stamp
 from study.report.pictures import draw
-from study.report.sheets import PLAIN, ROOT, write
+from study.report.sheets import PLAIN, ROOT, run, write
 
 HERE = Path(__file__).resolve().parent
 # NAME.svg by NAME.gp: its title.
-FIGURES = {
+COMPUTED = {
     "cushion": "A ball and a cushion: rebound, a fine sweep, jumps",
     "hops": "How high the cue ball hops, by the elevation of the butt",
+}
+SIZES = "1,2,4,8,16,32,64,256,1024,4096,16384,65536,262144"
+# The same of what is measured, and the command, to which --budget and --output are added.
+MEASURED = {
+    "isas": (
+        "Batches by instruction set and precision",
+        "carom-lab bench --kernel exact,fast --batch --threads 1 --pairs 4080 --csv --spread",
+    ),
+    "batch": (
+        "Throughput of the exact solver over batch size and threads",
+        f"carom-lab bench --kernel exact --isa scalar,best --threads all --pairs {SIZES} --csv --spread",
+    ),
 }
 
 
@@ -126,12 +139,29 @@ def jumps(rows, radius):
     ]
 
 
+def measure(options):
+    """The CSV files of MEASURED, an equal share of the budget for each; False where one fails."""
+    for name, (_, command) in MEASURED.items():
+        target = options.folder / f"{name}.csv"
+        share = f"{options.budget / len(MEASURED):.4g}"
+        if not run(command, options, "--budget", share, "--output", target):
+            return False
+        stamp(target)
+    return True
+
+
 def arguments(words):
     parser = argparse.ArgumentParser(
         prog="study.lab.figures", description=__doc__.partition("\n\n")[0]
     )
     parser.add_argument("folder", metavar="DIR", type=Path, help="where the figures go")
     parser.add_argument("--build", default=ROOT / "build", metavar="DIR2", type=Path)
+    parser.add_argument(
+        "--budget",
+        type=float,
+        metavar="SECONDS",
+        help="measure the figures of batches too, so long in all",
+    )
     options = parser.parse_args(words)
     options.docs, options.build = options.folder.resolve(), options.build.resolve()
     options.folder = options.docs / "data"
@@ -147,7 +177,12 @@ def main(words):
     options.folder.mkdir(parents=True, exist_ok=True)
     derive_cushion(options)
     derive_hops(options)
-    for name, title in FIGURES.items():
+    titles = dict(COMPUTED)
+    if options.budget:
+        if not measure(options):
+            return 1
+        titles |= {name: title for name, (title, _) in MEASURED.items()}
+    for name, title in titles.items():
         draw(options.folder, name, name, title, HERE / f"{name}.gp")
         picture = options.folder / f"{name}.svg"
         if not picture.is_file():

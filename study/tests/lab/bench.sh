@@ -36,7 +36,7 @@ for row in csv.DictReader(line for line in lines if not line.startswith("#")):
 PYTHON
 lab bench --kernel euler --counters --budget 0.1 | grep '^kernel' | tr -s ' '
 timed --kernel exact --steps 10,50 --isa scalar
-timed --kernel exact,euler --slip pooltool,paper --isa scalar,plain --precision double --threads 1 # base only has pooltool's
+timed --kernel exact --slip pooltool,paper --isa scalar,plain --precision double --threads 1 # base has pooltool's only
 timed --kernel exact --threads 1,2
 sed -n 's/^# \(batches\): .*, \([0-9]* pairs\).*/\1: \2/p' out.csv
 timed --batch --isa plain --precision double --threads 1 --pairs 1,7,300

@@ -81,6 +81,25 @@ class Paths(unittest.TestCase):
         ((executions, path),) = bounds.hot_loops(lines, counts, taken, 10)
         self.assertEqual([executions] + [i.address for i in path], [100, 0, 4, 12, 16])
 
+    def test_two_paths_of_a_loop(self):
+        """60 of 100 iterations divide, and the others jump over it: each path is a loop, and no iteration is in two."""
+        lines = code(
+            "vaddsd %xmm0,%xmm1,%xmm1",
+            "jne c",
+            "vdivsd %xmm0,%xmm1,%xmm1",
+            "vmulsd %xmm0,%xmm1,%xmm1",
+            "jb 0",
+            "ret",
+        )
+        counts = Counter({0: 100, 4: 100, 8: 60, 12: 100, 16: 100, 20: 1})
+        taken = Counter({4: 40, 16: 99})
+        loops = bounds.split_into_loops(lines, counts, taken, 10)
+        self.assertEqual(
+            [(executions, [i.address for i in path]) for executions, path in loops],
+            [(60, [0, 4, 8, 12, 16]), (40, [0, 4, 12, 16])],
+        )
+        self.assertEqual(sum(bounds.split_into_loops(lines, counts, taken, 50)[0][:1]), 60)
+
 
 class Chains(unittest.TestCase):
     def test_pace(self):
@@ -157,6 +176,11 @@ class Live(unittest.TestCase):
         steps = float(self.row["steps_total"])
         self.assertTrue(95 < steps < 110, steps)
         self.assertGreater(float(self.row["chain_cycles_zen2"]), 33 * steps)
+        self.assertTrue(95 < float(self.row["mean_steps"]) < 110, self.row["mean_steps"])
+        self.assertGreater(float(self.row["mean_chain_cycles_zen2"]), 33 * steps)
+        self.assertLess(
+            float(self.row["mean_chain_cycles_zen2"]), 1.05 * float(self.row["chain_cycles_zen2"])
+        )
 
     def test_fingerprint(self):
         """FNV-1a of the module's file, computed anew."""

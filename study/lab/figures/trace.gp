@@ -1,7 +1,7 @@
 # One collision against normal impulse: slips, velocities and work, from the CSV of `carom-lab trace`. Lines are the exact limit, circles
 # Euler's method.
 width = 760; height = 1120; tall = 1120
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../command/figures/style.gp" ARG1 ARG2 ARG3 ARG4
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../../command/figures/style.gp" ARG1 ARG2 ARG3 ARG4
 unset title
 
 # The panels, and from where the balls stick (NaN: never).
