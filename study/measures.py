@@ -416,8 +416,8 @@ def cycles(run, kernel):
 
 
 def share_of_bound(run, kernel):
-    """In per cent, with this processor's latencies."""
-    chain = counted(run, kernel, "chain_cycles_native")
+    """In per cent, with this processor's latencies; bound and time are of the same cases."""
+    chain = counted(run, kernel, "mean_chain_cycles_native")
     return ratio(Value(100.0 * chain), cycles(run, kernel))
 
 
