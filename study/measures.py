@@ -19,9 +19,6 @@ from study.report.sheets import Sheet, number
 RUNGS = SCALAR.split(",")  # the paper's scalar kernels
 IN_DOUBLE = [rung for rung in RUNGS if rung not in ("base", "float")]
 PAPER_CONFIGS = ("default", "archnative", "novec", "o3")
-# For a run that is judged in the configuration zen2: what stands for the paper's configurations
-# where the target of the compiler is the paper's processor.
-OF_ZEN2 = {"default": "zen2", "archnative": "archzen2"}
 COUNTED = "zen2"  # the configuration whose operations are counted
 # Of time ratios in one run, and of times, between runs (docs/study/measuring.md).
 REPEATS_OF_RATIOS, REPEATS_OF_TIMES = 0.005, 0.028
@@ -72,15 +69,12 @@ def ratio(one, other):
 
 
 class Run:
-    """The files of a run, judged in one configuration of one compiler.
-
-    That is the configuration that bench compares with, clang-default, unless another is named:
-    then speedups are those of its kernels over its own base, and counts are of its compiler.
+    """The files of a run. It is judged in the configuration that bench compares with, such as
+    clang-default, and its counts are of the same compiler.
     """
 
-    def __init__(self, folder, reference=None):
+    def __init__(self, folder):
         self.folder = Path(folder)
-        self.judged_in = reference
         self.sheets = {}
 
     # ---- Files
@@ -108,25 +102,15 @@ class Run:
 
     # ---- Builds
 
-    def timed_against(self):
-        """The configuration of base that the speedups in the files are relative to."""
+    def reference(self):
+        """The configuration of base that speedups are relative to."""
         note = self.sheet("configs").notes.get("reference kernel", "")
         if not note.startswith("base, "):
             raise Missing("this build has no kernels of the ladder")
         return note.split(", ")[1]
 
-    def reference(self):
-        return self.judged_in or self.timed_against()
-
     def compiler(self):
         return self.reference().split("-")[0]
-
-    def config(self, name):
-        """A configuration by the compiler and for the target that are judged."""
-        compiler, judged_in = self.reference().split("-", 1)
-        if judged_in == "zen2":
-            name = OF_ZEN2.get(name, name)
-        return f"{compiler}-{name}"
 
     def build(self, kernel):
         """The kernel's name and its build, such as clang-default."""
@@ -134,12 +118,12 @@ class Run:
         if not config:
             config = self.reference()
         elif "-" not in config:
-            config = self.config(config)
+            config = f"{self.compiler()}-{config}"
         return name, config
 
     def builds(self):
         """Rows of the scalar kernels in the paper's configurations by the compiler, fastest first."""
-        configs = [self.config(name) for name in PAPER_CONFIGS]
+        configs = [f"{self.compiler()}-{name}" for name in PAPER_CONFIGS]
         rows = [
             row
             for row in self.sheet("configs").rows
@@ -162,15 +146,15 @@ class Run:
         return 2.0 * OF_MEDIAN * spread / math.sqrt(rounds)
 
     def speedup_of_row(self, sheet, row):
-        """Over the base that bench compares with."""
+        """Over base in the reference configuration, with its uncertainty."""
         spread = number(row["speedup_spread"]) / number(row["speedup"])
         relative = math.hypot(self.scatter(sheet, spread), REPEATS_OF_RATIOS)
         return with_relative(number(row["speedup"]), relative)
 
-    def speed(self, kernel):
+    def speedup(self, kernel):
         name, config = self.build(kernel)
-        # The configuration that bench compares with is timed by itself too, in more rounds.
-        sheet = "ladder" if config == self.timed_against() else "configs"
+        # The reference configuration is timed by itself too, in more rounds.
+        sheet = "ladder" if config == self.reference() else "configs"
         return self.speedup_of_row(sheet, self.row(sheet, kernel=name, config=config))
 
     def time_of_a_step(self, kernel, row):
@@ -218,8 +202,8 @@ class Run:
 
 
 def speedup(run, kernel):
-    """Over base in the configuration that is judged, by default the paper's."""
-    return faster(run, kernel, f"base@{run.reference()}")
+    """Over base in the reference configuration, as in the paper."""
+    return run.speedup(kernel)
 
 
 def speedup_in(run, config, kernel):
@@ -229,11 +213,7 @@ def speedup_in(run, config, kernel):
 
 def faster(run, kernel, second):
     """How many times as fast as the other kernel."""
-    if run.build(kernel) == run.build(second):
-        return Value(1.0)
-    if run.build(second) == ("base", run.timed_against()):
-        return run.speed(kernel)
-    return ratio(run.speed(kernel), run.speed(second))
+    return ratio(run.speedup(kernel), run.speedup(second))
 
 
 def slower(run, kernel, second):
@@ -273,7 +253,7 @@ def share_slower_with(run, compiler):
 def solver_over(run, solver, kernel):
     """How many times as fast as the kernel a solver of the library is, in single calls."""
     row = run.row("ladder", kernel=solver, isa="scalar")
-    return ratio(run.speedup_of_row("ladder", row), run.speed(kernel))
+    return ratio(run.speedup_of_row("ladder", row), run.speedup(kernel))
 
 
 def lanes_over(run, kernel):
@@ -282,7 +262,7 @@ def lanes_over(run, kernel):
     if not rows:
         raise Missing("this build has no rungs in lanes, or the processor no AVX2")
     best = max(rows, key=lambda row: number(row["speedup"]))
-    return ratio(run.speedup_of_row("ladder", best), run.speed(kernel))
+    return ratio(run.speedup_of_row("ladder", best), run.speedup(kernel))
 
 
 def time_of_a_step_over_steps(run):
@@ -415,10 +395,18 @@ def cycles(run, kernel):
     return run.cycles_of_row(row, REPEATS_OF_TIMES)
 
 
+def chain_of_cases(run, kernel, latencies):
+    """The longest chain as the mean over the cases that are timed; of one case, where bounds.csv
+    has no mean.
+    """
+    mean = f"mean_chain_cycles_{latencies}"
+    has_mean = mean in run.counts("bounds", kernel)
+    return counted(run, kernel, mean if has_mean else f"chain_cycles_{latencies}")
+
+
 def share_of_bound(run, kernel):
-    """In per cent, with this processor's latencies; bound and time are of the same cases."""
-    chain = counted(run, kernel, "mean_chain_cycles_native")
-    return ratio(Value(100.0 * chain), cycles(run, kernel))
+    """In per cent, with this processor's latencies."""
+    return ratio(Value(100.0 * chain_of_cases(run, kernel, "native")), cycles(run, kernel))
 
 
 def share_of_peak(run, kernel):
@@ -429,7 +417,8 @@ def share_of_peak(run, kernel):
 
 def performance_at_bound(run, kernel):
     """Operations per cycle, if a collision took only the cycles of its longest chain."""
-    return Value(counted(run, kernel, "flops_amd") / counted(run, kernel, "chain_cycles_zen2"))
+    chain = chain_of_cases(run, kernel, "zen2")
+    return Value(counted(run, kernel, "flops_amd") / chain)
 
 
 def performance(run, counts, row):

@@ -144,6 +144,14 @@ def read_table(name):
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 
+def read_claims():
+    return read_table("claims.csv")
+
+
+def read_causes():
+    return read_table("causes.csv")
+
+
 def judge_claim(claim, run, causes):
     columns = ("id", "section", "claim", "paper", "unit", "low", "high", "reason")
     row = {name: claim[name] for name in columns}
@@ -163,10 +171,10 @@ def judge_claim(claim, run, causes):
     return row
 
 
-def judge(folder, reference=None):
-    """A row for each claim, in the order of the paper's sections; `Run` explains the reference."""
-    run, causes = Run(folder, reference), read_table("causes.csv")
-    return [judge_claim(claim, run, causes) for claim in read_table("claims.csv")]
+def judge(folder):
+    """A row for each claim, in the order of the paper's sections."""
+    run, causes = Run(folder), read_causes()
+    return [judge_claim(claim, run, causes) for claim in read_claims()]
 
 
 # ---- What is printed

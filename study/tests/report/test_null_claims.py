@@ -18,7 +18,7 @@ KERNELS = [kernel for kernel in SPEEDUPS if kernel != "base" and "_lanes" not in
 SIZES = {"fastest"} | {
     f"speedup-{kernel}" for kernel in ("rsqrt", "recmass", "reorder", "double", "float")
 }
-CLAIMS = paper.read_table("claims.csv")
+CLAIMS = paper.read_claims()
 # Claims that compare the times of two kernels.
 ORDERS = {
     claim["id"]
