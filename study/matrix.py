@@ -203,7 +203,7 @@ def over_own_base(rows, reference):
     bases = {
         row.get("steps"): row
         for row in rows
-        if row["kernel"] == "base" and row["config"] == reference
+        if row.get("kernel") == "base" and row.get("config") == reference
     }
     found = []
     for row in rows:

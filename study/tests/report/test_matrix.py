@@ -2,6 +2,7 @@
 
 import csv
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -83,6 +84,7 @@ def folder(tmp_path):
             counted = {"cases": "204, N = 1000", f"module {module}": notes[f"module {module}"]}
             write(tmp_path / f"bounds@{module}.csv", [row | {"shuffles": "9000"}], counted)
     write(tmp_path / "kernels.csv", [{"kernel": "double", "paper": "1.65"}], {})
+    shutil.copy(Path(__file__).with_name("experiments.csv"), tmp_path)  # a sheet without kernels
     return tmp_path
 
 
@@ -90,7 +92,7 @@ def test_a_column_for_each_compiler_and_target(folder):
     found = matrix.columns(folder)
     assert set(found) == {(c, t) for c in COMPILERS for t in ("native", "znver2")}
     for path in found.values():
-        assert (path / "kernels.csv").is_file()
+        assert (path / "kernels.csv").is_file() and (path / "experiments.csv").is_file()
 
 
 def test_speedups_are_over_the_columns_base(folder):
