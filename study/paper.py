@@ -27,6 +27,9 @@ causes.csv has what can explain that a claim does not hold: the claim, a predica
 run, and a text. A predicate compares measures: "here < low and latency convert < 2.5", where
 `here` is the measured number. A cause is printed where its predicate is true beyond the
 uncertainty, otherwise the cause is unknown.
+
+related.csv has the claims of other studies of the same algorithm, in the same columns. They are a
+second table, and are not counted with the paper's.
 """
 
 import argparse
@@ -162,10 +165,10 @@ def judge_claim(claim, run, causes):
     return row
 
 
-def judge(folder, reference=None):
+def judge(folder, reference=None, claims="claims.csv"):
     """A row for each claim, in the order of the paper's sections; `Run` explains the reference."""
     run, causes = Run(folder, reference), read_table("causes.csv")
-    return [judge_claim(claim, run, causes) for claim in read_table("claims.csv")]
+    return [judge_claim(claim, run, causes) for claim in read_table(claims)]
 
 
 # ---- What is printed
@@ -220,9 +223,9 @@ def print_row(row, out):
         print(f"      {line}", file=out)
 
 
-def print_table(rows, out):
+def print_table(rows, out, title="claim of the paper"):
     head = f"{'paper':>8} {'limits':>15} {'here':>15} {'':<10} verdict"
-    print(f"{'claim of the paper':<{CLAIM_WIDTH + 2}} {head}", file=out)
+    print(f"{title:<{CLAIM_WIDTH + 2}} {head}", file=out)
     section = None
     for row in rows:
         if row["section"] != section:
@@ -280,6 +283,8 @@ def main(words):
                 return 2
         (print_csv if options.csv else print_table)(rows, sys.stdout)
         if not options.csv:
+            print()
+            print_table(judge(folder, claims="related.csv"), sys.stdout, "claim of related work")
             print("", *conclude(folder, rows), sep="\n")
     if missing:
         print(f"carom-lab paper: not measured: {', '.join(missing)}", file=sys.stderr)

@@ -27,7 +27,7 @@ DATA = {
     ),
     "configs": (
         18,
-        f"carom-lab bench --kernel {SCALAR},double_vec,float_vec --config all --csv --spread --counters",
+        f"carom-lab bench --kernel {SCALAR},double_newton,double_vec,float_vec --config all --csv --spread --counters",
     ),
     "cycles": (
         11,
