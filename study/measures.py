@@ -220,6 +220,14 @@ def slower(run, kernel, second):
     return faster(run, second, kernel)
 
 
+def more_registers(run, kernel):
+    """The kernel with the 32 registers of AVX-512 over the same with the 16 of AVX2."""
+    if not any(row["isa"] == "avx512" for row in run.sheet("ladder").rows):
+        raise Missing("this processor has no AVX-512, so all configurations have 16 registers")
+    compiler = run.compiler()
+    return faster(run, f"{kernel}@{compiler}-default", f"{kernel}@{compiler}-zen2")
+
+
 def speedup_of_best_build(run):
     return speedup(run, run.best_build())
 
@@ -521,6 +529,10 @@ def motive_gain_over_scatter(run):
     return Value((motive(run, "with_paper") - 1.0) / motive(run, "spread"))
 
 
+def on_apple_m1(run):
+    raise Missing("it needs an Apple M1, and the kernels are x86 code")
+
+
 def other_codes(run):
     raise Missing("no run decides it; docs/study/paper.md names other code that has the algorithm")
 
@@ -551,10 +563,12 @@ MEASURES = {
         memory_a_step,
         memory_ratio,
         model_error,
+        more_registers,
         most_cases_over,
         motive,
         motive_gain_over_scatter,
         operations_ratio,
+        on_apple_m1,
         other_codes,
         performance_at_bound,
         performance_over_steps,

@@ -27,6 +27,9 @@ causes.csv has what can explain that a claim does not hold: the claim, a predica
 run, and a text. A predicate compares measures: "here < low and latency convert < 2.5", where
 `here` is the measured number. A cause is printed where its predicate is true beyond the
 uncertainty, otherwise the cause is unknown.
+
+related.csv has the claims of other studies of the same algorithm, in the same columns. They are a
+second table, and are not counted with the paper's.
 """
 
 import argparse
@@ -144,8 +147,8 @@ def read_table(name):
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 
-def read_claims():
-    return read_table("claims.csv")
+def read_claims(name="claims.csv"):
+    return read_table(name)
 
 
 def read_causes():
@@ -171,10 +174,10 @@ def judge_claim(claim, run, causes):
     return row
 
 
-def judge(folder):
+def judge(folder, claims="claims.csv"):
     """A row for each claim, in the order of the paper's sections."""
     run, causes = Run(folder), read_causes()
-    return [judge_claim(claim, run, causes) for claim in read_claims()]
+    return [judge_claim(claim, run, causes) for claim in read_claims(claims)]
 
 
 # ---- What is printed
@@ -230,9 +233,9 @@ def print_row(row, out):
         print(f"      {line}", file=out)
 
 
-def print_table(rows, out):
+def print_table(rows, out, title="claim of the paper"):
     head = f"{'paper':>8} {'limits':>15} {'here':>15} {'':<10} verdict"
-    print(f"{'claim of the paper':<{CLAIM_WIDTH + 2}} {head}", file=out)
+    print(f"{title:<{CLAIM_WIDTH + 2}} {head}", file=out)
     section = None
     for row in rows:
         if row["section"] != section:
@@ -329,6 +332,8 @@ def main(words):
                 return 2
         (print_csv if options.csv else print_table)(rows, sys.stdout)
         if not options.csv:
+            print()
+            print_table(judge(folder, claims="related.csv"), sys.stdout, "claim of related work")
             print("", *conclude(folder, rows), *machines.summary(), sep="\n")
     if missing:
         print(f"carom-lab paper: not measured: {', '.join(missing)}", file=sys.stderr)

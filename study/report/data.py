@@ -30,7 +30,7 @@ DATA = {
     ),
     "configs": (
         21,
-        f"carom-lab bench --kernel {SCALAR},double_vec,float_vec --config all --csv --spread --counters",
+        f"carom-lab bench --kernel {SCALAR},double_newton,double_vec,float_vec --config all --csv --spread --counters",
     ),
     "cycles": (
         13,

@@ -50,6 +50,12 @@ class Classifying(unittest.TestCase):
 
 
 class Joining(unittest.TestCase):
+    def test_lines_of_another_object(self):
+        """Two objects may have the same addresses."""
+        text = "events: Ir\nob=/lib/loader.so\n0x10 0 5\nob=/build/kernels.so\n0x10 0 7\n"
+        kept = bounds.lines_of_object(text, Path("/build/kernels.so"))
+        self.assertEqual(kept, "events: Ir\nob=/build/kernels.so\n0x10 0 7\n")
+
     def test_executions_count_operations(self):
         """Lines as callgrind writes them: an address, a line of the source, a count; what is called costs nothing here."""
         text = "positions: instr line\n0x0 1 7\ncalls=1 0x40 0\n0x4 1 90\njcnd=5/7 0x0\n0x8 1\n0x8 1 7\n"

@@ -51,6 +51,20 @@ def test_claims_are_whole():
         claim_like("speedup-float", measure="guess float")
 
 
+def test_related_work_is_judged(tmp_path):
+    """Each claim of related work has a row, with a measure that there is, and limits with a reason."""
+    claims = paper.read_table("related.csv")
+    assert list(claims[0]) == list(next(iter(CLAIMS.values())))
+    for claim in claims:
+        assert claim["measure"].split()[0] in measures.MEASURES, claim
+        assert claim["reason"] and (claim["low"] or claim["high"]), claim
+    rows = paper.judge(machine(tmp_path / "one"), claims="related.csv")
+    assert [row["id"] for row in rows] == [claim["id"] for claim in claims]
+    verdicts = {row["id"]: row["verdict"] for row in rows}
+    assert verdicts["related-m1"] == paper.UNMEASURED
+    assert verdicts["related-latency"] == paper.FAILS
+
+
 def test_limits_follow_their_reason():
     """The same reason gives the same limits, computed from the paper's number."""
     for claim in CLAIMS.values():
