@@ -181,7 +181,10 @@ def execute(driver, module, kernel, steps, cases, *more):
             ],
             input=cases,
         )
-        return [lines_of_object(file.read_text(), Path(module).resolve()) for file in Path(folder).iterdir()]
+        return [
+            lines_of_object(file.read_text(), Path(module).resolve())
+            for file in Path(folder).iterdir()
+        ]
 
 
 def join(code, counts):
