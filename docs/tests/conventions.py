@@ -178,7 +178,7 @@ SIGNS = {
     "`phi`, `--aim`": check_phi,
     "`theta`, `--elevation`": check_theta,
     "`tip`, `--tip`: right, above": check_tip,
-    "`a`, `b`: the tip in C and in files, as in pooltool": check_offsets,
+    "`a`, `b`: the tip in C, the packages and files, as in pooltool": check_offsets,
     "`w`": check_rotation,
     "`w_z`, `--side`": check_side,
     "`--spin` of `carom hit`": check_spin,
