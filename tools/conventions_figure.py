@@ -102,7 +102,7 @@ def table():
     panel.text(-0.14, 0.54, "y")
     panel.towards_reader(0, 0, INK)
     panel.text(-0.14, -0.17, "z", INK)
-    panel.text(width - 0.06, 0.06, "head rail, y = 0", GREY, 13, "end")
+    panel.text(width - 0.06, 0.08, "head rail, y = 0", GREY, 13, "end")
     panel.text(width / 2, length + 0.09, "foot rail", GREY, 13, "middle")
     panel.text(0.07, length * 0.62, "left rail,", GREY, 13)
     panel.text(0.07, length * 0.62 - 0.12, "x = 0", GREY, 13)
@@ -127,7 +127,7 @@ def tip():
     panel.circle(0, 0, radius, BALL)
     panel.dashed((-radius, 0), (radius, 0))
     panel.dashed((0, -radius), (0, radius))
-    right, above = 0.38 * radius, 0.38 * radius
+    right, above = 0.35 * radius, 0.38 * radius
     panel.line((0, above), (right, above), colour=RED)
     panel.line((right, 0), (right, above), colour=RED)
     panel.circle(right, above, 5, BLUE, BLUE)
@@ -182,7 +182,7 @@ def collision():
     radius = 52
     y_axis = (1.0, 0.0)
     x_axis = (y_axis[1], -y_axis[0])  # y cross z, with z towards the reader
-    panel.text(0, 80, "impulses, from above", GREY, 13, "middle")
+    panel.text(0, 84, "impulses, from above", GREY, 13, "middle")
     panel.circle(-radius, 0, radius, BALL)
     panel.circle(radius, 0, radius, OBJECT_BALL)
     panel.text(-radius - 22, 24, "i")
@@ -193,8 +193,8 @@ def collision():
     panel.text(46, -18, "ΔP", RED)
     panel.arrow((-6, 0), (-6 + 50 * x_axis[0], 50 * x_axis[1]), "blue")
     panel.arrow((6, 0), (6 - 50 * x_axis[0], -50 * x_axis[1]), "blue")
-    panel.text(-16, -62, "ΔP₁", BLUE, 14, "end")
-    panel.text(16, 50, "-ΔP₁", BLUE)
+    panel.text(-14, -67, "ΔP₁", BLUE, 14, "end")
+    panel.text(14, 58, "-ΔP₁", BLUE)
     panel.towards_reader(-20, 14, BLUE)
     panel.away_from_reader(20, -14, BLUE)
     panel.text(-32, 26, "ΔP₂", BLUE, 14, "end")

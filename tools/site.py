@@ -29,7 +29,7 @@ GROUPS = {
     group: pages_of.split() for group, pages_of in re.findall(r"^(\w.*)\n((?:  .+\n)+)", ROWS, re.M)
 }
 FRONT = ["README.md", "docs/README.md"]
-CONTRIBUTE = ["CONTRIBUTING.md", "docs/contributing/extending.md", "CHANGELOG.md"]
+CONTRIBUTE = ["CONTRIBUTING.md", "docs/contributing/extending.md", "CHANGELOG.md", "SECURITY.md"]
 ROOMS = sorted(
     str(page.relative_to(SOURCE))
     for room in ("bindings", "command", "core", "data", "games", "python", "study", "web")
