@@ -191,10 +191,10 @@ def record(runs, path=MACHINES):
     ids = [row["run"] for row in new]
     write_rows(path, comment, [row for row in rows if row["run"] not in ids] + new)
     for name, added in (("verdicts", verdicts), ("chains", chains), ("measured", numbers)):
-        head, kept = read_rows(beside(path, name))
-        kept = [row for row in kept if row["run"] not in ids]
-        if kept or added:
-            write_rows(beside(path, name), head, kept + added)
+        head, remaining = read_rows(beside(path, name))
+        remaining = [row for row in remaining if row["run"] not in ids]
+        if remaining or added:
+            write_rows(beside(path, name), head, remaining + added)
     return ids
 
 

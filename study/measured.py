@@ -74,13 +74,13 @@ def speedups(folder):
         if row["kernel"] in SCALAR and config in PAPER_CONFIGS:
             yield "speedup", row["kernel"], row["config"], f"{number(row['speedup']):.2f}"
     ladder = Sheet(folder / "ladder.csv")
-    ours, other = (
+    with_paper, with_pooltool = (
         ladder.first(kernel="exact", isa="scalar", slip=slip) for slip in ("paper", "pooltool")
     )
-    if ours and other:
-        ratio = number(other["ns_median"]) / number(ours["ns_median"])
+    if with_paper and with_pooltool:
+        ratio = number(with_pooltool["ns_median"]) / number(with_paper["ns_median"])
         yield "time_slip", "exact", "", f"{ratio:.2f}"
-        yield "error_slip", "exact", "", other["error_exact_max"]
+        yield "error_slip", "exact", "", with_pooltool["error_exact_max"]
 
 
 def known(row, columns):
@@ -158,8 +158,8 @@ def table_of_configurations(rows, run):
     found = lookup(rows, run)
     configs = list(dict.fromkeys(config for about, _, config in found if about == "speedup"))
     order = {name: place for place, name in enumerate(PAPER_CONFIGS)}
-    own = configs[0].partition("-")[0] if configs else ""
-    configs.sort(key=lambda config: (not config.startswith(own), order[config.partition("-")[2]]))
+    first = configs[0].partition("-")[0] if configs else ""
+    configs.sort(key=lambda config: (not config.startswith(first), order[config.partition("-")[2]]))
     lines = [["kernel", *(config.replace("-", " ") for config in configs)]]
     for kernel in SCALAR:
         lines.append([f"`{kernel}`"] + [found.get(("speedup", kernel, c), "") for c in configs])
