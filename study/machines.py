@@ -37,6 +37,8 @@ CHAINS += ["loads_per_step", "stores_per_step", "shuffles_per_step", "speedup"]
 BEST = "float@archnative"
 FIGURES = ("speedup", "steps", "performance")  # of docs/study/paper.md, by their data
 PAGE_WIDTH = 120  # of a line of the docs
+# After a number of claims.
+VERDICTS_COUNTED = {"holds": "hold", "does not hold here": "do not hold here"}
 NOTES = ("processor", "processor family", "commit", "date")
 VERDICTS_SHOWN = {"holds": "holds", "does not hold here": "**fails**", "not measurable here": "–"}
 BLOCK = re.compile(
@@ -441,14 +443,21 @@ def compilers_of(sheet):
     )
 
 
+def counted(verdicts):
+    """ "37 hold, 8 indistinguishable": how many claims have which verdict."""
+    count = Counter(verdicts)
+    return ", ".join(
+        f"{number} {VERDICTS_COUNTED.get(verdict, verdict)}" for verdict, number in count.items()
+    )
+
+
 def summary(path=MACHINES):
     """A line for each recorded run: how many claims have which verdict."""
     rows = read_rows(beside(path, "verdicts"))[1]
     lines = []
     for run in dict.fromkeys(row["run"] for row in rows):
-        count = Counter(row["verdict"] for row in rows if row["run"] == run)
-        said = ", ".join(f"{number} {verdict}" for verdict, number in count.items())
-        lines.append(f"recorded run {run}: {said}")
+        counts = counted(row["verdict"] for row in rows if row["run"] == run)
+        lines.append(f"recorded run {run}: {counts}")
     return lines
 
 

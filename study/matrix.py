@@ -14,9 +14,9 @@ import shutil
 import subprocess
 import sys
 import textwrap
-from collections import Counter
 from pathlib import Path
 
+from study.machines import counted
 from study.report.data import DATA
 from study.report.fingerprints import stamp
 from study.report.sheets import Sheet, number, run
@@ -329,9 +329,7 @@ def print_matrix(judged, out):
         print(f"{last:<60} {short(first['paper']):>7}{cells}", file=out)
     print(file=out)
     for name, line in zip(names, judged.values()):
-        count = Counter(row["verdict"] for row in line)
-        said = ", ".join(f"{number} {verdict}" for verdict, number in count.items())
-        print(f"{name}: {said}", file=out)
+        print(f"{name}: {counted(row['verdict'] for row in line)}", file=out)
 
 
 def short(text):

@@ -141,8 +141,8 @@ def test_verdicts_of_a_run(tmp_path):
     assert "| float_vec is slower | | 0.98 **fails** | |" in table
     assert "| number: holds | | 1 | 1 |" in table
     assert machines.summary(path) == [
-        "recorded run one-clang19-native: 1 holds, 1 does not hold here",
-        "recorded run two-clang19-native: 1 holds",
+        "recorded run one-clang19-native: 1 hold, 1 do not hold here",
+        "recorded run two-clang19-native: 1 hold",
     ]
 
 
