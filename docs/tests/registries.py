@@ -31,11 +31,12 @@ SKIPPED = {"build", "dist", ".git", "__pycache__", "node_modules"}
 
 def told(text, registries):
     """The commands in a text that install carom from another registry than these."""
+    lines = [line for line in text.splitlines() if "carom" in line.lower()]
     return [
         found[0]
         for registry, command in COMMANDS.items()
         if registry not in registries
-        for found in re.finditer(command, text, flags=re.I)
+        for found in re.finditer(command, "\n".join(lines), flags=re.I)
     ]
 
 
