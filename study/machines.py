@@ -1,7 +1,7 @@
 """The recorded runs of the study: `carom-lab paper --record NAME` writes them.
 
 A *run* is one measurement of one compiler and target on one machine. Its id, such as
-xeon207-clang22-native, is what tables and sentences cite. Three files in study/ hold the runs:
+xeon207-clang22-native, is what tables and sentences cite. Four files in study/ hold the runs:
 
     machines.csv   a run a row: id, machine, processor, compiler, target, date, commit, source, and
                    the speedup of each kernel over the run's own `base` by default. The paper is the
@@ -10,6 +10,7 @@ xeon207-clang22-native, is what tables and sentences cite. Three files in study/
     verdicts.csv   a claim of a run a row: the paper's value, the run's, and the verdict
     chains.csv     a kernel of a run a row: the counts of its machine code, by study/bounds; and the
                    same for `ordered`, which does not regroup sums and products
+    measured.csv   the other numbers of the page, one in a row; study/measured.py explains them
 
 Recording a run again replaces its rows. docs/study/paper.md and README.md show the files between
 comments; study/tests/report/test_machines.py compares them. `tools/python -m study.machines` writes
@@ -24,6 +25,7 @@ import textwrap
 from collections import Counter
 from pathlib import Path
 
+from study import measured
 from study.report.sheets import ROOT, Sheet, number
 
 MACHINES = ROOT / "study" / "machines.csv"
@@ -35,10 +37,14 @@ CHAINS += ["loads_per_step", "stores_per_step", "shuffles_per_step", "speedup"]
 BEST = "float@archnative"
 FIGURES = ("speedup", "steps", "performance")  # of docs/study/paper.md, by their data
 PAGE_WIDTH = 120  # of a line of the docs
+# After a number of claims.
+VERDICTS_COUNTED = {"holds": "hold", "does not hold here": "do not hold here"}
 NOTES = ("processor", "processor family", "commit", "date")
 VERDICTS_SHOWN = {"holds": "holds", "does not hold here": "**fails**", "not measurable here": "–"}
 BLOCK = re.compile(
-    r"(<!-- (runs|verdicts|chains|figures|sentence) -->\n).*?(<!-- end of \2 -->\n)", re.S
+    r"(<!-- (runs|verdicts|chains|figures|sentence|errors|steps|operations|configurations)"
+    r" -->\n).*?(<!-- end of \2 -->\n)",
+    re.S,
 )
 VERDICT_NOTES = ["claim", "section", "id", "unit", "paper", "here", "uncertainty", "verdict"]
 
@@ -103,10 +109,6 @@ def speedups_of(sheet, reference):
     best = sheet.first(kernel="float", config=f"{reference.split('-')[0]}-archnative")
     if best:
         found[BEST] = best["speedup"]
-    for solver in ("exact", "fast"):
-        single = sheet.first(kernel=solver, config="library", isa="scalar")
-        if single:
-            found[solver] = single["speedup"]
     return {kernel: f"{float(speedup):.2f}" for kernel, speedup in found.items()}
 
 
@@ -179,7 +181,7 @@ def record(runs, path=MACHINES):
     is new in a run becomes a column.
     """
     comment, rows = read_machines(path)
-    new, verdicts, chains = [], [], []
+    new, verdicts, chains, numbers = [], [], [], []
     for folder, name, judged in runs:
         row = row_of_run(folder, name)
         new.append(row)
@@ -187,13 +189,14 @@ def record(runs, path=MACHINES):
             known = {column: claim[column] for column in VERDICT_NOTES if column in claim}
             verdicts.append({"run": row["run"]} | known)
         chains += chains_of(folder, row["run"])
+        numbers += measured.rows_of(folder, row["run"])
     ids = [row["run"] for row in new]
     write_rows(path, comment, [row for row in rows if row["run"] not in ids] + new)
-    for name, added in (("verdicts", verdicts), ("chains", chains)):
-        head, kept = read_rows(beside(path, name))
-        kept = [row for row in kept if row["run"] not in ids]
-        if kept or added:
-            write_rows(beside(path, name), head, kept + added)
+    for name, added in (("verdicts", verdicts), ("chains", chains), ("measured", numbers)):
+        head, remaining = read_rows(beside(path, name))
+        remaining = [row for row in remaining if row["run"] not in ids]
+        if remaining or added:
+            write_rows(beside(path, name), head, remaining + added)
     return ids
 
 
@@ -279,8 +282,8 @@ def table_of_chains(path):
                     a_step(ordered.get("chain_cycles_zen2")),
                     usual.get("speedup", ""),
                     ordered.get("speedup", ""),
-                    usual.get("loads_per_step", ""),
-                    usual.get("stores_per_step", ""),
+                    tenths(usual.get("loads_per_step")),
+                    tenths(usual.get("stores_per_step")),
                     usual.get("shuffles_per_step", ""),
                 ]
             )
@@ -292,11 +295,16 @@ def a_step(cycles):
     return f"{number(cycles) / 1000:.0f}" if cycles else ""
 
 
+def tenths(text):
+    return f"{number(text):.1f}" if text else ""
+
+
 def main_run(path=MACHINES):
     """The run that README cites: of the latest date the first, which is the first compiler's for
     the machine at hand.
     """
-    rows = [row for row in read_machines(path)[1] if row["commit"] and row.get("exact")]
+    judged = {row["run"] for row in read_rows(beside(path, "verdicts"))[1]}
+    rows = [row for row in read_machines(path)[1] if row["run"] in judged]
     latest = max((row["date"] for row in rows), default=None)
     return next((row for row in rows if row["date"] == latest), None)
 
@@ -310,14 +318,35 @@ def sentence(path=MACHINES):
     best = max(kernels.values())
     text = (
         f"On the {run['machine']} with {run['compiler']}, the paper's fastest kernel reaches "
-        f"{best:.2f} x, and `exact` {float(run['exact']):.0f} x (run `{run['run']}`, {run['date']}, "
-        f"commit {run['commit'][:8]})."
+        f"{best:.2f} x (run `{run['run']}`, {run['date']}, commit {run['commit'][:8]})."
     )
     verdicts = [row for row in read_rows(beside(path, "verdicts"))[1] if row["run"] == run["run"]]
     if verdicts:
         count = Counter(row["verdict"] for row in verdicts)
         text += f" Of the paper's {len(verdicts)} claims, {count['holds']} hold in this run."
+    known = measured.lookup(read_rows(beside(path, "measured"))[1], run["run"])
+    if ("time_slip", "exact", "") in known:
+        error = f"{float(known['error_slip', 'exact', '']):.1e}".replace("e-0", "e-")
+        text += (
+            " `base` computes pooltool's slip, the solvers the paper's: with pooltool's, a call of "
+            f"`exact` takes {known['time_slip', 'exact', '']} times as long, and its error is at "
+            f"most {error}."
+        )
     return textwrap.fill(text, PAGE_WIDTH, break_on_hyphens=False) + "\n"
+
+
+def table_of(table, target):
+    """A table of study/measured.py, of the main run's machine and compiler for a target."""
+
+    def shown(path=MACHINES):
+        run = main_run(path)
+        if run is None:
+            return "No run is recorded yet.\n"
+        name = f"{run['run'].rpartition('-')[0]}-{target}"
+        lines = table(read_rows(beside(path, "measured"))[1], name)
+        return f"Run `{name}`:\n\n{markdown(lines)}"
+
+    return shown
 
 
 def figures(_path=MACHINES):
@@ -348,6 +377,10 @@ SHOWN = {
     "verdicts": table_of_verdicts,
     "chains": table_of_chains,
     "sentence": sentence,
+    "errors": table_of(measured.table_of_errors, "native"),
+    "steps": table_of(measured.table_of_steps, "znver2"),
+    "operations": table_of(measured.table_of_operations, "znver2"),
+    "configurations": table_of(measured.table_of_configurations, "native"),
 }
 
 
@@ -367,7 +400,8 @@ def page_with(text, path=MACHINES, names=("runs",)):
     return BLOCK.sub(block, text)
 
 
-PAGES = {PAGE: ("runs", "verdicts", "chains", "figures"), README: ("sentence",)}
+TABLES = ("runs", "verdicts", "chains", "errors", "steps", "operations", "configurations")
+PAGES = {PAGE: (*TABLES, "figures"), README: ("sentence",)}
 
 
 def write_pages():
@@ -409,14 +443,21 @@ def compilers_of(sheet):
     )
 
 
+def counted(verdicts):
+    """ "37 hold, 8 indistinguishable": how many claims have which verdict."""
+    count = Counter(verdicts)
+    return ", ".join(
+        f"{number} {VERDICTS_COUNTED.get(verdict, verdict)}" for verdict, number in count.items()
+    )
+
+
 def summary(path=MACHINES):
     """A line for each recorded run: how many claims have which verdict."""
     rows = read_rows(beside(path, "verdicts"))[1]
     lines = []
     for run in dict.fromkeys(row["run"] for row in rows):
-        count = Counter(row["verdict"] for row in rows if row["run"] == run)
-        said = ", ".join(f"{number} {verdict}" for verdict, number in count.items())
-        lines.append(f"recorded run {run}: {said}")
+        counts = counted(row["verdict"] for row in rows if row["run"] == run)
+        lines.append(f"recorded run {run}: {counts}")
     return lines
 
 

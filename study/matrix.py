@@ -14,16 +14,22 @@ import shutil
 import subprocess
 import sys
 import textwrap
-from collections import Counter
 from pathlib import Path
 
+from study.machines import counted
 from study.report.data import DATA
 from study.report.fingerprints import stamp
 from study.report.sheets import Sheet, number, run
 
 # The sets of a target, by their names in a plain run.
 SETS = {
-    "native": {"default": "default", "archnative": "archnative", "novec": "novec", "o3": "o3"},
+    "native": {
+        "default": "default",
+        "archnative": "archnative",
+        "novec": "novec",
+        "o3": "o3",
+        "zen2": "zen2",  # as in a plain run: a cause may be that the target differs
+    },
     "znver2": {"zen2": "default", "archzen2": "archnative", "novec": "novec", "o3": "o3"},
 }
 COUNTED = "zen2"  # the set whose operations are counted, for both targets
@@ -77,7 +83,7 @@ def build_matrix(build):
         command = [*words, str(build)]
         if "--build" in words:
             command += ["--target", "carom_lab", "ladder_modules", "bounds_driver"]
-            command += ["bounds_latency"]
+            command += ["bounds_latency", "bounds_estimate"]
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode:
             raise NotBuilt(f"'{shlex.join(command)}' failed:\n{done.stdout[-2000:]}{done.stderr}")
@@ -323,9 +329,7 @@ def print_matrix(judged, out):
         print(f"{last:<60} {short(first['paper']):>7}{cells}", file=out)
     print(file=out)
     for name, line in zip(names, judged.values()):
-        count = Counter(row["verdict"] for row in line)
-        said = ", ".join(f"{number} {verdict}" for verdict, number in count.items())
-        print(f"{name}: {said}", file=out)
+        print(f"{name}: {counted(row['verdict'] for row in line)}", file=out)
 
 
 def short(text):

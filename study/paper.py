@@ -41,7 +41,6 @@ import shutil
 import sys
 import tempfile
 import textwrap
-from collections import Counter
 from pathlib import Path
 
 from study import machines, matrix
@@ -186,11 +185,10 @@ def judge(folder, claims="claims.csv"):
 def conclude(folder, rows):
     """Sentences that compare the paper's result with this run's."""
     run = Run(folder)
-    counts = Counter(row["verdict"] for row in rows)
+    verdicts = sorted((row["verdict"] for row in rows), key=VERDICTS.index)
     findings = [
         machines.compilers_of(Sheet(folder / "configs.csv")),
-        f"claims of the paper: {len(rows)}; "
-        + ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS),
+        f"claims of the paper: {len(rows)}; {machines.counted(verdicts)}",
     ]
     try:
         best = run.best_build()

@@ -28,7 +28,8 @@ ROWS = (SOURCE / "tools/site_pages.txt").read_text(encoding="utf-8")
 GROUPS = {
     group: pages_of.split() for group, pages_of in re.findall(r"^(\w.*)\n((?:  .+\n)+)", ROWS, re.M)
 }
-CONTRIBUTE = ["CONTRIBUTING.md", "docs/contributing/extending.md", "CHANGELOG.md"]
+FRONT = ["README.md", "docs/README.md"]
+CONTRIBUTE = ["CONTRIBUTING.md", "docs/contributing/extending.md", "CHANGELOG.md", "SECURITY.md"]
 ROOMS = sorted(
     str(page.relative_to(SOURCE))
     for room in ("bindings", "command", "core", "data", "games", "python", "study", "web")
@@ -174,13 +175,14 @@ if LIVE:
         ],
         check=True,
     )
-add("README.md")
+for page in FRONT:
+    add(page)
 for page in [*sum(GROUPS.values(), []), *CONTRIBUTE, *ROOMS]:
     add(page)
 unnamed = {str(page.relative_to(SOURCE)) for page in SOURCE.glob("docs/*/*.md")}
 unnamed -= {*sum(GROUPS.values(), []), *CONTRIBUTE}
 assert not unnamed, f"no group of tools/site.py has {unnamed}"
-navigation = {"carom": ["README.md"]}
+navigation = {"carom": [FRONT[0], *({title(page): page} for page in FRONT[1:])]}
 navigation |= {name: [{title(page): page} for page in sheets] for name, sheets in GROUPS.items()}
 if EXPLORER.is_file():
     shutil.copytree(EXPLORER.parent, PAGES / "explorer")

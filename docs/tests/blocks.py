@@ -93,6 +93,7 @@ def pages(source):
     """The names of all pages."""
     return [
         "README.md",
+        "docs/README.md",
         *sorted(str(page.relative_to(source)) for page in Path(source, "docs").glob("*/*.md")),
         "examples/README.md",
         "python/README.md",

@@ -3,8 +3,9 @@ the figures that `carom` or a program in C draws have the numbers that it draws 
 
 Numbers are compared, not pixels or bytes: those of the file, and of a plot by matplotlib those of
 the curves. Others compare the rest: study/tests/report the kinds study (by fingerprints) and lab (by
-bytes), the test python/examples the kinds python and notebook, web/package the kinds node and page.
-`measured DATE` and `hand` are compared by none. UPDATE=1 draws the figures anew.
+bytes), docs/conventions the kind docs (by bytes), python/examples the kinds python and notebook, and
+web/package the kinds node and page. `measured DATE` and `hand` are compared by none. UPDATE=1 draws
+the figures anew.
 """
 
 import csv
@@ -17,7 +18,7 @@ import tempfile
 from fnmatch import fnmatchcase
 from pathlib import Path
 
-COMPARED = {"carom", "study", "lab", "python", "notebook", "node", "page", "hand"}
+COMPARED = {"carom", "docs", "study", "lab", "python", "notebook", "node", "page", "hand"}
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 
 

@@ -3,8 +3,10 @@ if it names one.
 
 Checked are the Markdown files, links and pictures alike, and the paths of pages (docs/.../page.md)
 that sources and tests name. Links to other sites are not followed. A page of docs/ begins with a
-sentence, and says at its end where to go next. Links read as a part of the sentence, not as the name
-of a file. README has 170 lines at most.
+sentence that says what it covers, and ends with links to what the reader needs next; the index
+docs/README.md has no such end. Every page can be reached from README by two links, and so can the
+licence, the notice and the citation. Links read as a part of the sentence, not as the name of a file.
+README has 170 lines at most.
 """
 
 import re
@@ -14,6 +16,8 @@ from pathlib import Path
 SOURCE = Path(sys.argv[1])
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 PAGE = re.compile(r"(?<![\w/.-])docs/[\w/.-]+\.md\b")
+INDEX = Path("docs/README.md")
+FAR = 2  # links from README to any page
 TEXT = {".c", ".h", ".py", ".pyi", ".md", ".txt", ".cmake", ".sh", ".toml", ".def", ".in", ""}
 
 
@@ -24,6 +28,33 @@ def anchors(page):
         re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
         for heading in re.findall(r"^#+ (.*)$", text, flags=re.M)
     }
+
+
+def pages_linked(page):
+    """The files of the tree that a page links to; of a folder its README."""
+    found = set()
+    for link in LINK.findall(page.read_text(encoding="utf-8")):
+        to = (page.parent / link.partition("#")[0]).resolve()
+        to = to / "README.md" if to.is_dir() else to
+        if not re.match(r"[a-z]+:|#", link) and to.is_file():
+            found.add(to)
+    return found
+
+
+def too_far(source):
+    """The pages, and what a reader must find, that are more than FAR links from README."""
+    reached = todo = {source.resolve() / "README.md"}
+    for _ in range(FAR):
+        found = set().union(*(pages_linked(page) for page in todo if page.suffix == ".md"))
+        todo = found - reached
+        reached = reached | found
+    wanted = [source / name for name in ("LICENSE", "NOTICE", "CITATION.cff")]
+    wanted += sorted(source.glob("docs/*/*.md"))
+    return [
+        str(page.relative_to(source))
+        for page in wanted
+        if page.is_file() and page.resolve() not in reached
+    ]
 
 
 skipped = {"build", "dist", ".git", "__pycache__", "node_modules"}
@@ -55,9 +86,9 @@ for file in files:
         about_itself = re.match(r"(With|On|From|In) this (page|guide)|This page", first)
         if about_itself or not re.match(r"[A-Z]\w* .*[.:]", first, flags=re.S):
             wrong.append(
-                f"{name}: the first paragraph is no sentence that says what the reader can do"
+                f"{name}: the first paragraph is no sentence that says what the page covers"
             )
-        if not re.match(r"Next: \[", paragraphs[-1]):
+        if name != INDEX and not re.match(r"Next: \[", paragraphs[-1]):
             wrong.append(f"{name}: the last paragraph does not say where to go next ('Next: [...')")
     if file.suffix in TEXT and name.name not in ("links.py", "CHANGELOG.md"):
         for page in PAGE.findall(file.read_text(encoding="utf-8", errors="replace")):
@@ -72,6 +103,7 @@ wrong += [
     for page, text in texts.items()
     for name in re.findall(r"\[\w+\.md\]\(", text)
 ]
+wrong += [f"{page}: README reaches it by more than {FAR} links" for page in too_far(SOURCE)]
 lines = (SOURCE / "README.md").read_text(encoding="utf-8").count("\n")
 if lines > 170:
     wrong.append(f"README.md: {lines} lines; a newcomer reads 170 at most")

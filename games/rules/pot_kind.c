@@ -25,15 +25,15 @@ static const carom_term terms[TERMS] = {
                                  "before it falls."},
     [CAROM_PLAN_KICK] = {"kick", "The cue ball meets a cushion before it meets any ball."},
     [CAROM_PLAN_RAIL_FIRST] = {"rail first",
-                               "The cue ball meets the cushion beside its first ball, and then "
+                               "The cue ball meets the cushion next to its first ball, and then "
                                "that ball. Between the two there is no room for the cue ball."},
     [CAROM_PLAN_BANK] = {"bank",
                          "The cue ball drives the ball, which meets a cushion before it "
-                         "falls. A cushion beside the pocket does not count, nor does one that "
+                         "falls. A cushion next to the pocket does not count, nor does one that "
                          "the ball touches from the start."},
     [CAROM_PLAN_POT] = {"pot", "The ball falls. As the kind of a stroke, the pot is direct: the "
                                "cue ball meets the ball first, and the ball meets nothing else on "
-                               "its way except a cushion beside the pocket."},
+                               "its way except a cushion next to the pocket."},
 
     /* the other kinds of a stroke */
     [CAROM_PLAN_SAFETY] = {"safety", "A stroke that names no ball to pot, and leaves the opponent "
@@ -45,7 +45,7 @@ static const carom_term terms[TERMS] = {
     [CAROM_PLAN_PASS] = {"pass", "The player leaves the stroke to the opponent, where the rules "
                                  "allow it."},
     [CAROM_PLAN_FOUL] = {"foul", "A stroke that breaks a rule. It ends the visit, and the rules of "
-                                 "the game name its price."},
+                                 "the game state the penalty."},
 
     /* values of a plan that are no terms of the game */
     [CAROM_PLAN_SCAN] = {"scan", ""},

@@ -401,9 +401,9 @@ def table(options, out):
     driver = options.build / "study" / "bounds" / "bounds_driver"
     latencies = {"zen2": machine_code.read_latencies()}
     latencies["registers"] = latencies["zen2"] | {"load": 0.0}
-    measured = subprocess.run(
-        [options.build / "study" / "bounds" / "bounds_latency"], capture_output=True, text=True
-    )
+    programs = options.build / "study" / "bounds"
+    measured = subprocess.run([programs / "bounds_latency"], capture_output=True, text=True)
+    estimate = subprocess.run([programs / "bounds_estimate"], capture_output=True, text=True)
     native = {
         row["row"]: float(row["cycles"]) for row in csv.DictReader(measured.stdout.splitlines())
     }
@@ -418,6 +418,8 @@ def table(options, out):
         print(f"# {line}", file=out)
     for row, cycles in native.items():
         print(f"# latency {row}: {cycles:g} cycles", file=out)
+    for row in csv.DictReader(estimate.stdout.splitlines()):
+        print(f"# estimate: {row['bits']} bits, largest relative error {row['error']}", file=out)
     print(f"# counts: {output_of(['valgrind', '--version']).strip()}", file=out)
     print(f"# model: {Path(mca()).name if mca() else 'NA (no llvm-mca: package llvm)'}", file=out)
     print(

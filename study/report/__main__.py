@@ -291,6 +291,7 @@ def write_page(options, data):
         claims=claims,
         conclusion=paper.conclude(options.folder, claims),
         limits_of=paper.limits_of,
+        rounded=rounded,
         picture=picture,
         cells=cells,
         is_number=lambda text: not math.isnan(number(text.replace(",", ""))),
@@ -301,6 +302,14 @@ def write_page(options, data):
     )
     (options.folder / "index.html").write_text(page, encoding="utf-8")
     return missing
+
+
+def rounded(text):
+    """Four significant digits; of large numbers those before the point."""
+    value = number(text)
+    if math.isnan(value):
+        return text
+    return f"{value:,.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
 
 
 def print_speedups(data):

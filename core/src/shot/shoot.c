@@ -422,23 +422,34 @@ static void begin(carom_sim *sim) {
   }
 }
 
-/* Takes note of an event of the struck ball, and returns whether the shot stops after it: where the
- * caller's set of events has its type, or where it is the first contact with another ball, and that
- * is not one of first_of. */
-static bool stops_at(carom_sim *sim, int type, int a, int b) {
-  const bool contact = type == CAROM_EVENT_BALL_BALL && (a == sim->struck || b == sim->struck);
-  const bool cushion = (type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW) && a == sim->struck;
+/* Takes note of an event of the struck ball. Returns whether it is its first contact with another
+ * ball. */
+static bool note_event(carom_sim *sim, const carom_due *event) {
+  const bool of_struck = event->a == sim->struck;
+  const bool contact =
+      event->type == CAROM_EVENT_BALL_BALL && (of_struck || event->b == sim->struck);
+  const bool cushion =
+      (event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW) && of_struck;
   const bool first = contact && !sim->has_hit;
   sim->has_hit |= contact;
   sim->turned |= contact || cushion;
-  int partner = a;
-  if (a == sim->struck)
-    partner = b;
+  return first;
+}
+
+/* Whether the shot stops after an event: where the caller's set of events has its type, or where it
+ * is the first contact of the struck ball, and that is with a ball that is not one of first_of. */
+static bool stops_at(const carom_sim *sim, const carom_due *event, bool first) {
+  const bool of_struck = event->a == sim->struck;
+  const bool contact =
+      event->type == CAROM_EVENT_BALL_BALL && (of_struck || event->b == sim->struck);
+  int partner = event->a;
+  if (of_struck)
+    partner = event->b;
   if (first && sim->opt->first_of != 0 && !(sim->opt->first_of >> partner & 1))
     return true;
   if (contact && (sim->opt->stop_at & CAROM_STOP_AT_CONTACT) != 0)
     return true;
-  return (sim->opt->stop_at & CAROM_STOP_AT(type)) != 0;
+  return (sim->opt->stop_at & CAROM_STOP_AT(event->type)) != 0;
 }
 
 /* The tip touches the struck ball again, or the follow-through ends. *pending_event becomes what
@@ -463,7 +474,8 @@ touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
   if (pushes) {
     sim->turned = false;
     carom_detect_all(sim);
-    if (status == CAROM_OK && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1))
+    const carom_due strike_event = {sim->time, CAROM_EVENT_STRIKE, sim->struck, -1};
+    if (status == CAROM_OK && stops_at(sim, &strike_event, false))
       status = CAROM_STOPPED_AT_EVENT;
   } else if (touches) { /* the cue goes on */
     *f = until_now;
@@ -531,7 +543,9 @@ static carom_status go_on(carom_play *play) {
       status = touch_again(play, &pending_event, &lies);
     else
       status = step(sim, &pending_event);
-    if (status == CAROM_OK && stops_at(sim, pending_event.type, pending_event.a, pending_event.b))
+    /* of a shot that stops at a strike too: the contact beside it turns the ball */
+    const bool first = note_event(sim, &pending_event);
+    if (status == CAROM_OK && stops_at(sim, &pending_event, first))
       status = CAROM_STOPPED_AT_EVENT;
     if (!lies && sim->time < play->follow.end)
       carom_follow_find(play);
@@ -564,8 +578,12 @@ static carom_status start(carom_play *play) {
   if (status != CAROM_OK)
     return status;
   carom_detect_all(sim);
-  bool stops = sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1);
-  stops |= contact.type != CAROM_DUE_NOTHING && stops_at(sim, contact.type, contact.a, contact.b);
+  const carom_due strike_event = {0.0, CAROM_EVENT_STRIKE, sim->struck, -1};
+  bool stops = sim->shot->count > 0 && stops_at(sim, &strike_event, false);
+  if (contact.type != CAROM_DUE_NOTHING) {
+    const bool first = note_event(sim, &contact);
+    stops |= stops_at(sim, &contact, first);
+  }
   if (play->follow.end > 0.0)
     carom_follow_find(play);
   if (stops)

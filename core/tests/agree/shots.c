@@ -557,6 +557,47 @@ TEST(stopped_and_continued) {
   ck_assert_int_gt(stops, 2000);
 }
 
+/* A shot that is stopped at every event of one type, or at every contact of the cue ball, has the
+ * bits of the unbroken one: random shots of all kinds, whose cues follow through and touch again. */
+TEST(stopped_at_each_type_of_event) {
+  static random_shot s;
+  long stops = 0, touches = 0;
+  const int kinds_of_shots = random_shot_kinds_in_space();
+  for (int n = 0; n < 60 * kinds_of_shots; n++) {
+    random_shot_make(n % kinds_of_shots, test_seed(), (uint64_t)(n / kinds_of_shots), &s);
+    s.cue.follow = 0.03;
+    s.cue.tip_time = 0.0; /* the default */
+    const carom_shot_options options = {0};
+    broken *whole = make_broken();
+    whole->status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &whole->shot);
+    const bool kept = whole->status == CAROM_OK && whole->shot.count <= ROOM;
+    uint64_t types = CAROM_STOP_AT_CONTACT;
+    long strikes = 0;
+    for (int64_t k = 0; kept && k < whole->shot.count; k++) {
+      types |= CAROM_STOP_AT(whole->events[k].type);
+      strikes += whole->events[k].type == CAROM_EVENT_STRIKE;
+    }
+    touches += strikes > 1;
+    const bool tried = kept && (strikes > 1 || n < 6 * kinds_of_shots);
+    for (int type = 0; tried && type <= CAROM_EVENT_LEFT_TABLE; type++) {
+      if (!(types >> type & 1))
+        continue;
+      const carom_shot_options stop = {.stop_at = CAROM_STOP_AT(type)};
+      broken *parts = make_broken();
+      parts->status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &stop, &parts->shot);
+      while (parts->status == CAROM_STOPPED_AT_EVENT) {
+        parts->status = carom_shot_continue(&s.table, s.ball, s.count, &stop, &parts->shot);
+        stops++;
+      }
+      same_shot(whole, parts, s.count);
+      free(parts);
+    }
+    free(whole);
+  }
+  ck_assert_int_gt(stops, 2000);
+  ck_assert_int_gt(touches, 10);
+}
+
 /* A ball that is stopped right before any cushion, jaw or pocket goes on to it. */
 TEST(stopped_before_every_part) {
   static carom_event events[2][ROOM];

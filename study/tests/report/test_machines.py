@@ -58,7 +58,7 @@ def test_columns_are_kernels():
     """A column that names no kernel and no solver would never be filled."""
     ladder = (ROOT / "study/ladder/kernels.def").read_text(encoding="utf-8")
     for column in machines.read_machines()[1][0]:
-        if column not in (*machines.ABOUT, "exact", "fast"):
+        if column not in machines.ABOUT:
             assert f"\nRUNG({column.partition('@')[0]}, " in ladder, column
 
 
@@ -141,8 +141,8 @@ def test_verdicts_of_a_run(tmp_path):
     assert "| float_vec is slower | | 0.98 **fails** | |" in table
     assert "| number: holds | | 1 | 1 |" in table
     assert machines.summary(path) == [
-        "recorded run one-clang19-native: 1 holds, 1 does not hold here",
-        "recorded run two-clang19-native: 1 holds",
+        "recorded run one-clang19-native: 1 hold, 1 do not hold here",
+        "recorded run two-clang19-native: 1 hold",
     ]
 
 
@@ -156,15 +156,46 @@ def test_chains_of_a_run(tmp_path):
 
 
 def test_sentence(tmp_path):
-    """README cites the latest run that has timed `exact`, and says how many claims hold in it."""
+    """README cites the latest run with verdicts, says how many claims hold in it, and how the slip
+    of `base` differs from the solvers'.
+    """
     path = copied(tmp_path)
-    ladder = "kernel,config,isa,speedup\nexact,library,scalar,44.6\n"
+    ladder = (
+        "kernel,config,isa,slip,speedup,ns_median,error_exact_max\n"
+        "exact,library,scalar,pooltool,40.1,660,4.11e-08\n"
+        "exact,library,scalar,paper,44.6,600,2.82e-08\n"
+    )
     folder = run_with(tmp_path / "run", lambda text: text.replace("2026-11-20", "2999-01-01"))
     (folder / "ladder.csv").write_text(ladder, encoding="utf-8")
     machines.record([(folder, "One", JUDGED)], path)
     said = " ".join(machines.sentence(path).split())
-    assert "On the One with clang 19.1.7" in said and "`exact` 45 x" in said
+    assert "On the One with clang 19.1.7, the paper's fastest kernel reaches 1.95 x" in said
     assert "`one-clang19-native`" in said and "Of the paper's 2 claims, 1 hold" in said
+    assert "takes 1.10 times as long" in said and "at most 4.1e-8." in said
+
+
+def test_tables_of_the_page(tmp_path):
+    """The page's tables have the numbers of the sheets that the run was measured into."""
+    path = copied(tmp_path)
+    stored = Sheet(STORED / "configs.csv")
+    machines.record([(STORED, "One", JUDGED)], path)
+    rows = machines.read_rows(machines.beside(path, "measured"))[1]
+    run = "one-clang19-native"
+    heads, *lines = machines.measured.table_of_configurations(rows, run)
+    for kernel, *cells in lines:
+        for head, shown in zip(heads[1:], cells):
+            row = stored.first(kernel=kernel.strip("`"), config=head.replace(" ", "-"))
+            assert shown == (f"{float(row['speedup']):.2f}" if row else ""), (kernel, head)
+    assert heads[1:3] == ["clang default", "clang archnative"] and heads[-1].startswith("gcc")
+    counted = Sheet(STORED / "bounds.csv")
+    for line in machines.measured.table_of_operations(rows, run)[1:]:
+        row = counted.first(kernel=line[0].strip("`"))
+        assert line[2] == f"{float(row['flops_amd']):,.0f}", line
+    errors = machines.measured.table_of_errors(rows, run)
+    verified = Sheet(STORED / "verify.csv").first(kernel="float", config="clang-default")
+    assert [line[2] for line in errors if "`float`" in line[0]] == [
+        verified[column] for column in machines.measured.ERRORS.values()
+    ]
 
 
 def test_new_kernel_becomes_a_column(tmp_path):
