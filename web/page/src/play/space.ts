@@ -299,9 +299,13 @@ export class Space implements SpaceView {
     if (canvas.clientWidth === clientWidth && canvas.clientHeight === clientHeight) return;
     // The padding keeps free of controls what is between.
     const style = getComputedStyle(this.felt);
-    const [top, right, bottom, left] = ["Top", "Right", "Bottom", "Left"].map((side) =>
-      parseFloat(style[`padding${side}` as "paddingTop"]),
-    ) as [number, number, number, number];
+    const paddings = ["paddingTop", "paddingRight", "paddingBottom", "paddingLeft"] as const;
+    const [top, right, bottom, left] = paddings.map((side) => parseFloat(style[side])) as [
+      number,
+      number,
+      number,
+      number,
+    ];
     scene.size(clientWidth, clientHeight, {
       left,
       top,
