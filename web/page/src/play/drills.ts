@@ -108,15 +108,18 @@ function wordsOfPlace(
   );
 }
 
-/** Whether a stroke made it, failed, or goes on; and of what failed, what was wanted and came. */
+/**
+ * Whether a stroke made the drill, missed it, or continues it; which parts of the goal failed, and
+ * what was wanted and what happened, in words.
+ */
 export function judge(
   { goal }: Drill,
   shot: Shot,
-): { outcome: "made" | "missed" | "on"; why: string[] } {
+): { outcome: "made" | "missed" | "on"; failed: string[]; why: string[] } {
   const { events, final, table } = shot;
-  if (!onTable(final[0]!)) return { outcome: "missed", why: [texts.theCueBallFell] };
+  if (!onTable(final[0]!)) return { outcome: "missed", failed: [], why: [texts.theCueBallFell] };
   if (final.some(({ label }) => label === "off"))
-    return { outcome: "missed", why: [texts.aBallLeftThe] };
+    return { outcome: "missed", failed: [], why: [texts.aBallLeftThe] };
   const meets = events.filter(({ type, a, b }) => type === "ball_ball" && (a === 0 || b === 0));
   const partner = ({ a, b }: (typeof events)[number]): number => (a === 0 ? b : a);
   const isCushion = ({ type }: (typeof events)[number]): boolean =>
@@ -177,9 +180,14 @@ export function judge(
   };
   if (goal[0]![0] === "clear") {
     if (!events.some(({ type }) => type === "ball_pocket"))
-      return { outcome: "missed", why: [texts.noBallFell] };
-    return { outcome: final.some((state, k) => k > 0 && onTable(state)) ? "on" : "made", why: [] };
+      return { outcome: "missed", failed: [], why: [texts.noBallFell] };
+    const areLeft = final.some((state, k) => k > 0 && onTable(state));
+    return { outcome: areLeft ? "on" : "made", failed: [], why: [] };
   }
-  const why = goal.flatMap(([word, value]) => (checks[word]!(value) ? [] : words[word]!(value)));
-  return { outcome: why.length === 0 ? "made" : "missed", why };
+  const failed = goal.filter(([word, value]) => !checks[word]!(value));
+  return {
+    outcome: failed.length === 0 ? "made" : "missed",
+    failed: failed.map(([word]) => word),
+    why: failed.map(([word, value]) => words[word]!(value)),
+  };
 }
