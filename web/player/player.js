@@ -65,14 +65,14 @@ function parts() {
   ]);
   const pace = make(
     "select#rate",
-    { "aria-label": translate("Speed of the film") },
+    { "aria-label": translate("Playback speed") },
     ...paces.map(([value, text]) => make("option", { value }, text)),
   );
   const slider = make("input#time", {
     type: "range",
     min: "0",
     step: "0.001",
-    "aria-label": translate("Time of the film"),
+    "aria-label": translate("Playback time"),
   });
   const output = make("output#time-value", { for: "time" });
   const controls = make("div.row.film", play, back, forward, pace, slider, output);

@@ -28,7 +28,8 @@ export function importLine(d: Desk): void {
 /** Lays the balls of a line and aims as it says. Throws where it cannot be read. */
 export function take(d: Desk, text: string): Read<Line> {
   const read = fromLine(d.carom, text);
-  if (read.cue.ball !== 0) throw new TypeError(texts.cueBallThisPage);
+  const { ball } = read.cue;
+  if (ball !== 0) throw new TypeError(texts.cueBallThisPage(ball));
   return use(d, gameOf(read, d.gameName));
 }
 function use<L extends Line>(d: Desk, read: Read<L>): Read<L> {

@@ -196,9 +196,9 @@ async function unpacked(packed: string): Promise<Drawn> {
       drawn.cue.every(Number.isFinite)
     )
   )
-    throw new TypeError(texts.cueNumbersAreNeeded(SET.length));
+    throw new TypeError(texts.cueNumbersAreNeeded(JSON.stringify(drawn.cue), SET.length));
   if (drawn.ball !== undefined && !Number.isInteger(drawn.ball))
-    throw new TypeError(texts.aBallIsAWholeNumber);
+    throw new TypeError(texts.aBallIsAWholeNumber(JSON.stringify(drawn.ball)));
   if (typeof drawn.notes !== "string" || typeof drawn.at !== "string")
     throw new TypeError(texts.notesAndAtTexts);
   return drawn;

@@ -26,7 +26,7 @@ export function placesOf(
       (place) => place === undefined || (place.length >= 2 && place.every(Number.isFinite)),
     )
   )
-    throw new TypeError(texts.atPlacesXY(balls.length));
+    throw new TypeError(texts.atPlacesXY(text, balls.length));
   return {
     balls: balls.map(({ kind, state }, k) => ({
       kind,
