@@ -1,5 +1,5 @@
-// A ball as it is seen from above: its colour, its stripe, number or dots as it has turned, and the
-// light on it.
+// A ball seen from above: its colour, its stripe, number or dots as it is turned, and the light on
+// it.
 import { disc } from "./table.js";
 import { colourOf, IVORY, POOL } from "./words.js";
 

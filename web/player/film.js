@@ -1,5 +1,5 @@
-// The pictures of a film: its trails and its balls at a time; and the film of a page that the
-// command wrote.
+// Draws the frames of a film, with trails and balls at a time, and reads the film of a page that
+// the command wrote.
 import { drawBall } from "./ball.js";
 import { line } from "./table.js";
 import { colourOf, IVORY, POOL, product, wordsOf } from "./words.js";
@@ -31,7 +31,7 @@ const SHOTS = [
 ];
 
 /**
- * The trails, to the pocket that takes the ball. @param {Film} film
+ * The trails, up to the pocket that a ball falls into. @param {Film} film
  */
 export const trailsOf = ({ balls, shots, apart = false }) =>
   shots.flatMap(({ paths }, index) =>

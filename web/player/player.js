@@ -1,5 +1,5 @@
-// The player of films: a table seen from above, and a clock to play shots by. The page and what
-// `carom shoot --animate` writes both show it.
+// The film player: a table seen from above, and a clock that plays shots. The page and the output
+// of `carom shoot --animate` both contain it.
 import { drawBall } from "./ball.js";
 import { drawBalls, drawTrails } from "./film.js";
 import { clothFor, fitTable, viewOf } from "./table.js";
@@ -85,7 +85,7 @@ function parts() {
   return { canvas, play, back, forward, pace, slider, output, controls, list, events };
 }
 
-/** Tells the time, and marks the event that was last. @param {Parts} of @param {Clock} clock */
+/** Shows the time, and marks the last event. @param {Parts} of @param {Clock} clock */
 function tellTime({ slider, output, list, events }, { time, allEvents }) {
   slider.value = String(time);
   output.textContent = `${time.toFixed(2)} s`;

@@ -97,7 +97,7 @@ export function pocketName({ width, length, pockets }, pocket) {
  * empty. @type {Record<string, string>}
  */
 export const DICTIONARY = {};
-/** A word in the reader's language; one that is not known stays English. @param {string} word */
+/** A text in the reader's language; an unknown one stays English. @param {string} word */
 export const translate = (word) =>
   DICTIONARY[word] ?? word.replace(/^\w+(?= \d)/, (colour) => DICTIONARY[colour] ?? colour);
 

@@ -1,13 +1,11 @@
-// Drills: layouts with a name and what has to happen in one stroke, of data/drills.csv, and how
-// often each was made in this browser. A goal is a list of
-//     pot=N[@POCKET]   ball N falls, in that pocket         bank=N       and has met a cushion
-//                      before
-//     first=N          the cue ball meets ball N first       kick=N       after N cushions or more
-//     hit=N            it meets N balls or more              cushions=N   it meets N cushions or
-//                      more
-//     cue=X,Y,R        it ends within R of a place, m
-//     clear            a ball falls in each stroke, until none is left
-// The cue ball never falls, and no ball leaves the table.
+// Drills: layouts from data/drills.csv with a name and a goal for one stroke, and how often each
+// was made in this browser. A goal is a list of
+//     pot=N[@POCKET]   ball N falls, in that pocket         bank=N       after it hit a cushion
+//     first=N          the cue ball hits ball N first       kick=N       after N or more cushions
+//     hit=N            it hits N or more balls              cushions=N   it hits N or more cushions
+//     cue=X,Y,R        it stops within R of a point, m
+//     clear            each stroke pots a ball, until none is left
+// The cue ball must not fall, and no ball may leave the table.
 import type { Shot } from "carom";
 import { pocketName } from "../../../player/words.js";
 import { onTable } from "../table/filmed.js";
@@ -16,7 +14,7 @@ import { texts, translate } from "../texts/texts.js";
 export interface Drill {
   name: string;
   text: string;
-  /** Places of balls by their numbers, m. */
+  /** Positions of balls by their numbers, m. */
   balls: Map<number, readonly [number, number]>;
   goal: readonly (readonly [string, string])[];
   /** The rating that makes it in half of the tries. */

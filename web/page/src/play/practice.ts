@@ -1,5 +1,5 @@
-// What practice has besides a table: drills with counts, and a table from a photo. Both are parts
-// of the dialog of a new game.
+// What practice offers in addition to a table: drills with counts, and a table from a photo. Both
+// are sections of the dialog of a new game.
 import type { AimOf, Carom, Table } from "carom";
 import { button, choice, el } from "../ui.js";
 import { atOf, drillsOf, judge } from "./drills.js";
