@@ -1,4 +1,4 @@
-// The table without balls, and its position on the canvas.
+// The table without balls, and where it lies on its canvas.
 
 /** @import { Point, Table } from "./words.js" */
 /** @typedef {ReturnType<typeof viewOf>} View */

@@ -181,7 +181,7 @@ describePages("a game by link", () => {
     const secondPage = await open(phone, new URL(url).hash);
     await says(secondPage, "said", "1 shot replayed: every bit agrees.");
     // It shows the last stroke before it tells whose turn it is.
-    await expect.poll(() => turn(secondPage)).not.toContain("plays …");
+    await expect.poll(() => turn(secondPage)).not.toContain("shoots …");
     expect(url.length).toBeLessThan(address.length + 330);
     const game = JSON.parse(unpacked(url)) as { lines: [string, string][] };
     expect(game.lines.filter(([name]) => name === "stroke")).toHaveLength(1);

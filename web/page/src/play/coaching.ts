@@ -382,7 +382,8 @@ async function wordsOfCost(request: Request, cue: Cue, review: Review): Promise<
   const { value } = review.ball >= 0 ? review : await chancesOf(request, cue);
   const cost = value - review.came;
   const words = cost < 0 ? texts.itWon(percent(-cost)) : texts.itCost(percent(cost));
-  return texts.whatCame(percent(value), percent(review.came), Math.abs(cost) < 0.005 ? "" : words);
+  const change = Math.abs(cost) < 0.005 ? "" : words;
+  return texts.whatCame(percent(value), percent(review.came), change).trim();
 }
 
 export const coaching = (s: Session): Coach => ({
