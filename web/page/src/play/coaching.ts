@@ -383,7 +383,8 @@ async function wordsOfCost(request: Request, cue: Cue, review: Review): Promise<
   const cost = value - review.came;
   const words = cost < 0 ? texts.itWon(percent(-cost)) : texts.itCost(percent(cost));
   const change = Math.abs(cost) < 0.005 ? "" : words;
-  return texts.whatCame(percent(value), percent(review.came), change).trim();
+  const told = texts.whatCame(percent(value), percent(review.came), change);
+  return told.trim();
 }
 
 export const coaching = (s: Session): Coach => ({
