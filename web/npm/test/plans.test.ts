@@ -419,7 +419,7 @@ test("arguments in error", () => {
     k === 0 ? ball : { ...ball, state: { ...ball.state, label: "pocketed" as const } },
   );
   refuses(
-    [() => carom.plan(table, down, { rules: "nineball" }), /no ball is left to be played/],
+    [() => carom.plan(table, down, { rules: "nineball" }), /no ball is left to play/],
     [
       () => carom.ballsOn({ rules: "nineball", group: "stripe" as "open", opening: false }, balls),
       /group/,

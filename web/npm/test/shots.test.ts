@@ -328,7 +328,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     expect([error.status, error.shot!.count]).toEqual(["too_many_events", 50]);
     expect(carom.continue(error.shot!).bytes).toEqual(whole.bytes);
     expect(() => carom.continue(rail, { timeMost: rail.time / 2 })).toThrow(
-      /^timeMost: it must be .* not before the time of a shot that goes on$/,
+      /^timeMost: it must be .* not before the time of the shot to continue$/,
     );
     const changed = carom.simulate(table, balls, { speed: 20 }, { timeMost: 0.01 });
     (changed.balls[1]!.kind as { mass: number }).mass *= 1.1;
