@@ -482,7 +482,7 @@ namespace Carom {
       fixed(byte *to = line) size =
           (int)Native.carom_record_write(Open, kind, to, (UIntPtr)line.Length);
       if (size == 0)
-        throw new CaromException(Status.ErrorRecord, "this line cannot stand here");
+        throw new CaromException(Status.ErrorRecord, "this line is not allowed here");
       return Encoding.ASCII.GetString(line, 0, size);
     }
 

@@ -198,13 +198,13 @@ test.each(builds)("partners, a set, limits and time, by $name", ({ carom }) => {
 test("beginnings that are refused", () => {
   const begin = (options: object) => () => carom.match("eightball", carom.table("9ft"), options);
   refuses(
-    [begin({ seats: 1 }), "seats: this game is not played by 1"],
+    [begin({ seats: 1 }), "seats: 1 seats cannot play this game"],
     [begin({ seats: [{ nam: "Ann" }, "Bo"] }), "seats[0].nam: there is no such key"],
     [begin({ seats: [{ side: 1 }, { side: 3 }] }), "begin: seats: side must be 0, 1 and so on"],
     [begin({ seats: [{ side: "a" }, "Bo"] }), 'seats[0].side: a number is needed, not "a"'],
     [begin({ limits: { speeds: 1 } }), "limits.speeds: there is no such key"],
     [begin({ set: { race: 1001 } }), "begin: set.race must be 1 to 1000"],
-    [begin({ set: { race: 1, order: "loosers" } }), "set.order: it must be one of alternate"],
+    [begin({ set: { race: 1, order: "loosers" } }), 'set.order: unknown name "loosers"; did you mean "loser"? Use one of alternate'],
   );
 });
 

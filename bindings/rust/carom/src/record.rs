@@ -118,7 +118,7 @@ impl Recording {
         if size == 0 {
             return Err(Error {
                 status: Status::ErrorRecord,
-                fault: "this line cannot stand here".to_string(),
+                fault: "this line is not allowed here".to_string(),
             });
         }
         line.truncate(size);
