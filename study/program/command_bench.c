@@ -925,8 +925,8 @@ OPTION(
     bench_job, option_isa, "isa", isas, "NAME,...", set_isas, 0,
     "only these instruction sets: scalar (single calls), plain, sse2, avx2, avx512, neon, or best");
 OPTION(bench_job, option_slips, "slip", slips, "NAME,...", set_slips, 0,
-       "sign of the spin in the slip over the cloth: paper, pooltool (default: that of each "
-       "kernel's reference, pooltool for the ladder, paper for exact and fast); adds the column "
+       "sign of the spin in the slip over the cloth: paper, pooltool (default: the slip of each "
+       "kernel's reference: pooltool for the ladder, paper for exact and fast); adds the column "
        "slip");
 OPTION(bench_job, option_one_precision, "precision", shared.precision, "double|single", set_choice,
        0, "only this precision (default: both)");
@@ -949,22 +949,23 @@ FLAG(bench_job, option_counters, "counters", counters,
      "more columns: what the processor counts for each collision, such as cycles and operations; "
      "NA where the kernel or the processor does not count it");
 OPTION(bench_job, option_shots, "shots", shots, "IN.jsonl", set_text, 0,
-       "instead: time the whole shots of this file, beside pooltool's recorded times");
+       "instead: time the shots of this file, next to pooltool's recorded times");
 FLAG(bench_job, option_cushions, "cushions", cushions,
-     "instead: time impacts on a cushion with each model, beside Han's");
+     "instead: time impacts on a cushion with each model, relative to Han's");
 static const char about[] =
-    "Times kernels on the 204 reference collisions, one call each, in turns: A B C A B C ... Each "
-    "kernel is verified first; one whose error is above its bound is not timed. Times are "
+    "Times kernels on the 204 reference collisions, one call each, interleaved: A B C A B C ... "
+    "Each kernel is verified first; a kernel whose error is above its bound is not timed. Times "
+    "are "
     "nanoseconds per collision, the mean over the collisions; median and spread are over the "
     "rounds. The speedup of a round is relative to the ladder's first kernel in the default "
     "configuration with the same number of steps (1000 for kernels without steps). The exact "
     "solver is also timed in batches, with every instruction set.\n";
 
 static const char details[] =
-    "Spread is the median absolute deviation: half of the rounds lie within it. "
+    "Spread is the median absolute deviation: half of the rounds are within it. "
     "docs/study/measuring.md explains how to read the figures.\n"
     "\n"
-    "exit code: 0 if all kernels were timed; 1 if some were refused (the others are timed); 2 for "
+    "exit code: 0 if all kernels were timed; 1 if some were rejected (the others are timed); 2 for "
     "bad usage or unreadable data\n";
 
 static const command_form form = {

@@ -364,7 +364,7 @@ OPTION(stress_job, option_kind, "kind", kind, DRAW_KIND_NAMES, set_choice, 0,
        "realistic: collisions of play (default); regimes: the special cases of the tests; extreme: "
        "everything that carom accepts");
 OPTION(stress_job, option_cushions, "cushion", cushions, "N", set_count, 1,
-       "instead: number of impacts on a cushion of each kind, those of play and any");
+       "instead: number of impacts on a cushion of each kind, impacts of play and arbitrary ones");
 OPTION(stress_job, option_coincidences, "coincidences", coincidences, "N", set_count, 1,
        "instead: number of impacts of each kind of coincidence, of two balls and on a cushion: "
        "numbers that are exactly equal, zero or at the edge of a friction cone; planar motion; "
@@ -380,7 +380,7 @@ static const command_form form = {
         (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_cushions,
                                     &option_coincidences, &option_threads, &option_output, NULL},
     .details = "exit code: 0; 1 if an error is larger than carom.h promises, or if a batch has "
-               "bits other than those of single calls; 2 for bad usage\n",
+               "other bits than single calls; 2 for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
 };
 
