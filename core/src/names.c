@@ -1,5 +1,5 @@
 /* Names and texts of the public enumerations. carom.h spells the enumerators out, and the compiler
- * says where one has no name. packaging/tests/abi keeps their values. */
+ * reports where one has no name. packaging/tests/abi keeps their values. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 

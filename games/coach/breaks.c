@@ -1,4 +1,4 @@
-/* Breaks of a rack: each has a rack of its own, and the errors of a player. */
+/* Breaks of a rack: each has its own rack, and the errors of a player. */
 #include "carom_coach.h"
 #include "coach.h"
 #include "platform/ranges.h"
@@ -78,7 +78,7 @@ carom_status carom_break_stroke(const carom_break_job *job, int64_t number, caro
   balls[0].state = job->balls[0].state;
   *cue = *job->cue;
 
-  /* A cut is that in the job's own rack; others have the cue as far beside the ball in front. */
+  /* A cut is that in the job's own rack; others have the cue as far off the ball in front. */
   if (job->aim != CAROM_BREAK_DIRECTION)
     cue->phi = direction_of_front(balls, job->count);
   if (job->aim == CAROM_BREAK_CUT)
@@ -234,7 +234,7 @@ static double even_number(int k, int dimension) {
   return x - floor(x);
 }
 
-/* The job's balls, with the cue ball on the place of a choice. */
+/* The job's balls, with the cue ball on the position of a choice. */
 static const carom_shot_ball *place_balls(const carom_break_job *job,
                                           const carom_break_choice *choice) {
   carom_shot_ball *balls = ((workspace *)job->memory)->placed;
@@ -245,7 +245,7 @@ static const carom_shot_ball *place_balls(const carom_break_job *job,
   return balls;
 }
 
-/* Candidate k: a place behind the head string, a speed and a height of the tip; every other one
+/* Candidate k: a position behind the head string, a speed and a height of the tip; every other one
  * cuts the ball in front. The first candidate is the stroke of the job. Apart, so that shots have
  * its stack. */
 __attribute__((noinline)) static void make_candidate(const carom_break_job *job, int k,
@@ -265,7 +265,7 @@ __attribute__((noinline)) static void make_candidate(const carom_break_job *job,
   choice->cue.phi = direction_of_front(balls, job->count);
   choice->aim = CAROM_BREAK_FULL;
   if (k % 2 == 1) {
-    /* beside the middle of the ball by up to a radius, a length of a table's half away */
+    /* off the middle of the ball by up to a radius, a length of a table's half away */
     const double most_beside = carom_asin(2.0 * radius / job->table->length) / degree;
     choice->cue.phi += most_beside * (2.0 * even_number(k, 4) - 1.0);
     choice->aim = CAROM_BREAK_CUT;

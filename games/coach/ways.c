@@ -111,7 +111,7 @@ int carom_way_succeeds(const carom_ways_job *job, const carom_shot *shot, const 
 }
 
 /* Sets the chance of a way, by strokes in batches, each of which draws the errors of the stroke and
- * of the places of balls, as plans do; false after an error. */
+ * of the positions of balls, as plans do; false after an error. */
 static bool find_chance(ways_search *s, way *w) {
   workspace *work = s->work;
   const double eye = carom_player_bounded(s->job->player, &w->cue).eye;
@@ -226,7 +226,7 @@ static bool is_neighbour(const pot_chain *chain, int n, int ball) {
   return false;
 }
 
-/* Rails of a way, and the last ones of them, beside the pocket, that the ball touches as it
+/* Rails of a way, and the last ones of them, next to the pocket, that the ball touches as it
  * falls. */
 typedef struct rail_count {
   int total, at_pocket;
@@ -282,7 +282,8 @@ static bool read_pot(const ways_search *s, const carom_shot *shot, way *w) {
   return w->kind >= 0 && rails.total - rails.at_pocket <= s->job->rails;
 }
 
-/* The way of a point or to a place: what the cue ball meets, of a point up to the second ball. */
+/* The way of a point or to a position: what the cue ball meets, of a point up to the second
+ * ball. */
 static bool read_point(const ways_search *s, const carom_shot *shot, way *w) {
   const int cue = cue_ball_of(s);
   int balls = 0, rails = 0, hit_balls[2] = {-1, -1};
@@ -460,7 +461,7 @@ static bool is_better(const way *a, const way *b) {
 }
 
 /* Of the ways of pots those that are wide enough stay, each once where directions end; and of those
- * that differ by the stroke alone, unless each is asked for, that with the best chance. */
+ * that differ by the stroke alone, unless each is requested, that with the best chance. */
 static void keep_best(ways_search *s, double step) {
   int64_t retained = 0;
   for (int64_t k = 0; k < s->result.ways; k++) {
@@ -478,7 +479,7 @@ static void keep_best(ways_search *s, double step) {
   s->result.ways = retained;
 }
 
-/* Whether a shot pots a ball that is asked for into a pocket that is. */
+/* Whether a shot pots a ball that is requested into a pocket that is. */
 static bool is_asked(const ways_search *s, const carom_facts *facts, int ball) {
   return ball != cue_ball_of(s) && (s->job->ball < 0 || ball == s->job->ball) &&
          (s->job->pocket < 0 || facts->pocket[ball] == s->job->pocket);

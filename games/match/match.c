@@ -1,6 +1,6 @@
 /* A match: acts, rulings and lines of a recording.
  *
- * An act is checked against the phase, the player and the choices, and refused with nothing
+ * An act is checked against the phase, the player and the choices, and rejected with nothing
  * changed; else it is applied to the record, and its line is written to match->text. A stroke that
  * ends, a choice that is played instead of one, and a clock that ran out are ruled by
  * carom_referee(); the ruling makes further lines: "balls" where balls lie elsewhere than the shot
@@ -58,7 +58,7 @@ static const char *list_choices(int32_t choices, char text[128]) {
   return text;
 }
 
-/* Whether a match goes on, and this player may act. */
+/* Whether a match continues, and this player may act. */
 static carom_status check_player(carom_match *match, int player, const char *act) {
   if (match->phase == CAROM_MATCH_NONE)
     return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, act, "the match has not begun");
@@ -187,7 +187,7 @@ static void give_hand(carom_match *match, int32_t leave) {
 
 /* ---- Beginning */
 
-/* Refuses to begin, with the match all zero but for the fault. */
+/* Rejects the beginning, with the match all zero except for the fault. */
 static carom_status refuse_beginning(carom_match *match, const char *right) {
   memset(match, 0, sizeof *match);
   return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin", right);
@@ -522,7 +522,7 @@ static void apply(carom_match *match, bool struck) {
   carom_record *record = &match->record;
   carom_ruling *ruling = &match->ruling;
 
-  /* where any ball may be struck, one that was in hand and was not placed comes back */
+  /* where any ball may be struck, one that was in hand and was not placed returns */
   if (record->hand != 0 && match->rules.any_cue_ball != 0)
     carom_spot_ball_of((carom_rack_kind)match->rules.rack, &record->table, ruling->balls,
                        (int)record->count, match->cue_ball);
@@ -817,7 +817,7 @@ carom_status carom_match_choose(carom_match *match, int player, carom_choice cho
   return take_choice(match, player, choice);
 }
 
-/* The acts before the stroke, up to one that is refused. */
+/* The acts before the stroke, up to one that is rejected. */
 static carom_status prepare(carom_match *match, int player, const carom_plan_stroke *stroke) {
   if (stroke->kind == CAROM_PLAN_PASS)
     return take_choice(match, player, CAROM_CHOICE_PASS);

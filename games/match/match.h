@@ -4,7 +4,7 @@
 
 #include "carom_match.h"
 
-/* Refuses an act: fault[] becomes its name and what would be right. */
+/* Rejects an act: fault[] becomes its name and what would be right. */
 carom_status carom_match_refuse(carom_match *match, carom_refusal why, const char *act,
                                 const char *right);
 

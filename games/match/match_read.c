@@ -1,6 +1,6 @@
 /* Lines of a match, read back and judged.
  *
- * A line that says what a player did is done again, as a call of his would be: the rules refuse it,
+ * A line that says what a player did is done again, as a call of his would be: the rules reject it,
  * or make its line and those of the ruling, which wait in match->text. The lines of the file must
  * be these, byte for byte. */
 #include "match.h"
@@ -75,7 +75,7 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
   if (kind != CAROM_RECORD_GAME)
     return CAROM_OK;
 
-  /* how the game stands at its beginning */
+  /* how the game is at its beginning */
   const char *range = "";
   if (match->rules.judge == NULL) {
     if (carom_rules_about_of((carom_rules_kind)record->rules) == NULL)

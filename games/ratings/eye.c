@@ -10,7 +10,7 @@
  *
  * so balls that touch do so in each play, along another direction, and a rack stays as tight as it
  * is. Balls that overlap, as layouts may by 0.05 mm, keep at most half of the overlap. The referee
- * says whether a ball touches the cue ball (CAROM_RULES_TOUCH), so that stays too.
+ * reports whether a ball touches the cue ball (CAROM_RULES_TOUCH), so that stays too.
  *
  * The bounds (1) are met by projections in turn (L. M. Bregman, Doklady 162, 1965): two balls whose
  * gap is beyond a bound are moved along their line of centres, each by half, and a ball at a

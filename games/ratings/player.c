@@ -28,12 +28,12 @@ carom_player carom_player_of(double scale) {
 }
 
 /* The numbers of players by rating, in steps of 100 from 200. Between them shots and the share are
- * linear, and the error of aim is exponential, which also goes on beyond the ends where a game has
- * greater steps: a difference of 100 points in the game is one of steps[0] points of
+ * linear, and the error of aim is exponential, which also continues beyond the ends where a game
+ * has greater steps: a difference of 100 points in the game is one of steps[0] points of
  * carom_player_fargo() below a rating of 500, and of steps[1] above it. docs/understanding/plan.md
  * has the games of which they come. */
 static carom_player player_stepped(double rating, const double steps[2]) {
-  /* the error of aim of a stroke of 2 m/s, degrees; shots; the share of strokes that only pot */
+  /* the error of aim of a stroke of 2 m/s, degrees; shots; the fraction of strokes that only pot */
   static const double at_rating[][3] = {
       {0.978, 146.0, 1.0},  {0.621, 163.0, 0.97}, {0.394, 183.0, 0.92}, {0.25, 205.0, 0.79},
       {0.159, 230.0, 0.57}, {0.101, 257.0, 0.31}, {0.05, 500.0, 0.0},   {0.012, 500.0, 0.0}};

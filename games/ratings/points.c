@@ -2,7 +2,7 @@
  *
  * The player at the table needs n points, the other one m. Of the balls that are on the one whose
  * pot is worth most is taken: with the chance p, as chances.c has it, it makes w points, and each
- * later pot w' with the chance a. A visit that goes on to the end, K pots, wins with the chance
+ * later pot w' with the chance a. A visit that continues to the end, K pots, wins with the chance
  * q = p a^(K - 1); in the mean a visit makes
  *
  *     u = p (w + w' (a + a^2 + ... + a^(K - 1))).
@@ -18,9 +18,9 @@
  * Phi being the normal distribution. All of it is an estimate: a, e and w' are those of a usual
  * layout, and the number of pots K supposes w' each.
  *
- * Where the other makes every ball, as in a plan to run out, the value is the share of the points
- * on the table, or of those needed, that the visit makes. The chance q of all points of a game is
- * too small to choose a stroke by. */
+ * Where the other makes every ball, as in a plan to run out, the value is the fraction of the
+ * points on the table, or of those needed, that the visit makes. The chance q of all points of a
+ * game is too small to choose a stroke by. */
 #include "platform/elementary.h"
 #include "platform/promise.h"
 #include "random_draws.h"

@@ -39,8 +39,8 @@ static void find_rail(const carom_table *table, const double jaw[3], double dire
   }
 }
 
-/* Finds the middle of the mouth, its left jaw, and whether the rails beside it lead into it, as
- * those beside a side pocket do not. */
+/* Finds the middle of the mouth, its left jaw, and whether the rails next to it lead into it, as
+ * those next to a side pocket do not. */
 static void find_rails(const carom_table *table, carom_mouth *mouth) {
   double(*jaw)[3] = mouth->jaw;
   const double x = jaw[1][0] - jaw[0][0], y = jaw[1][1] - jaw[0][1];
@@ -129,7 +129,7 @@ static double overlap_at(bool corner, double turn, double roundness) {
   return fmin(straight[corner] - (farther[corner] + rounder[corner] * roundness) * turn, 0.6);
 }
 
-/* How far behind the tangent to the jaw at `side` a way by the rail beside it still leads into the
+/* How far behind the tangent to the jaw at `side` a way by the rail next to it still leads into the
  * pocket, rad; `tangent` is its angle to the rail. A rail returns 0.68 of the angle to it. */
 static double by_rail(const carom_mouth *mouth, int side, const double o[2], double R,
                       double tangent) {

@@ -52,7 +52,7 @@ __attribute__((noinline)) static double edge(const carom_score *row, int64_t cou
   return outside;
 }
 
-/* The rating below which is a share of the mass, by densities that are linear in a cell. */
+/* The rating below which is a fraction of the mass, by densities that are linear in a cell. */
 static double below(const double f[2 * CELLS + 1], double low, double cell, double mass) {
   int k = 0;
   for (double next; k < CELLS - 1; k++, mass -= next)

@@ -97,8 +97,8 @@ carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double
  * anywhere. A chance of at most `least` is told as 0. */
 carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                        int k, int pocket, int seat, bool in_hand, double least);
-/* The cue ball's contact with a ball that goes through a window: its place, half the range of its
- * directions there, rad, and the chance. */
+/* The cue ball's contact with a ball that goes through a window: its position, half the range of
+ * its directions there, rad, and the chance. */
 typedef struct carom_hit {
   double ghost[2], half, chance;
 } carom_hit;

@@ -5,7 +5,7 @@
  * or three balls that the cue ball meets count 1 or 2; from 90 to 100, exactly, only the latter.
  * The last point is the cue ball off the 1 alone into the pocket that is called with it. A
  * stroke that would pass 90 or 100 is a foul. Penalties: a foul costs the points of the visit.
- * Balls that fall or leave the table come back to their spots; a ball whose spot is taken stays
+ * Balls that fall or leave the table return to their spots; a ball whose spot is taken stays
  * off until the end of a stroke that frees it. Where that is the 1, and the player has 100, all
  * stand as at first, with the cue ball in hand behind the head string. After a scratch it is
  * there too. Opening break: it meets the 3 first; else the other breaks, or has it repeated, or

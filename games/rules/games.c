@@ -164,7 +164,7 @@ const char *carom_rules_fault(carom_rules_kind kind, const carom_rules_state *st
                               const char **range) {
   if (!is_game(kind) || state == NULL || range == NULL)
     return NULL;
-  const int32_t *value = &state->opening; /* all members, one behind the other */
+  const int32_t *value = &state->opening; /* all members, consecutively */
   for (size_t k = 0; k < MEMBERS; k++)
     for (size_t i = 0; i < members[k].count; i++, value++) {
       const bool has = k == PLACE_OF_SEAT || (games[kind].members >> k & 1);

@@ -6,7 +6,7 @@
  * the next seat.
  *
  * Clubs differ: here a scratch costs one life, not two, and no ball gives a life back. Balls that
- * fall on a foul stay down, and those that left the table come back, on which no page speaks. */
+ * fall on a foul stay down, and those that left the table return, on which no page speaks. */
 #include "games.h"
 #include "rules.h"
 

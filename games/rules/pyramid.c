@@ -4,7 +4,7 @@
  * Any of the 16 balls may be struck, but for the opening, which strikes the yellow one from behind
  * the head string. Each ball that falls without a foul counts one and keeps the turn, also the
  * struck one after it met another (5.4, 5.5); eight win. A foul gives the other one point (6).
- * Balls that fall on a foul or leave the table come back to the foot spot, the struck one too, and
+ * Balls that fall on a foul or leave the table return to the foot spot, the struck one too, and
  * touch no other there. An opening that pots none drives two balls to cushions, else the other may
  * have the balls racked and break.
  *

@@ -32,7 +32,7 @@ static bool is_whole(const carom_plan_rules *rules, const carom_table *table,
   return shot == NULL || (shot->facts != NULL && shot->final != NULL);
 }
 
-/* The layout that the turn leaves, before balls come back; shot NULL: there is none. */
+/* The layout that the turn leaves, before balls return; shot NULL: there is none. */
 static void lay_out(const carom_shot_ball *balls, int count, const carom_shot *shot,
                     carom_ruling *ruling) {
   const bool taken_back = shot == NULL || ruling->turn.leave == CAROM_LEAVE_BEFORE;
@@ -56,7 +56,7 @@ static uint32_t moved_by_referee(const carom_shot_ball *balls, int count, const 
   return moved;
 }
 
-/* Whether the game goes on after a turn. */
+/* Whether the game continues after a turn. */
 static bool goes_on(const carom_turn *turn) {
   return turn->outcome < CAROM_TURN_WIN;
 }
@@ -115,7 +115,7 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
         rules->judge(&ruling->state, carom_on_table(balls, count), cue_ball, &ruling->facts, call);
   ruling->turn = carom_turn_seen(rules, &ruling->state, ruling->turn);
 
-  /* the layout, with balls that come back */
+  /* the layout, with balls that return */
   lay_out(balls, count, shot, ruling);
   carom_status status;
   if (spots)
@@ -137,8 +137,8 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
   return status;
 }
 
-/* What the next player may do besides a stroke, in words, each behind "; ". A cue ball that may be
- * placed in the D is in hand, which the leave says. */
+/* What the next player may do in addition to a stroke, in words, each behind "; ". A cue ball that
+ * may be placed in the D is in hand, which the leave says. */
 static void write_choices(int32_t choices, carom_leave leave, char *text, size_t room) {
   size_t size = 0;
   text[0] = '\0';

@@ -72,7 +72,7 @@ static int32_t may_stay(const carom_facts *facts, int cue_ball) {
 }
 
 /* The turn after a foul in blackball: the cue ball comes in baulk or stays, balls that left the
- * table come back, and the next stroke is free. */
+ * table return, and the next stroke is free. */
 static carom_turn free_stroke_for(carom_rules_state *game, const carom_facts *facts, int cue_ball,
                                   int32_t foul, int32_t choices) {
   game->free_ball = 1;
@@ -80,7 +80,7 @@ static carom_turn free_stroke_for(carom_rules_state *game, const carom_facts *fa
   return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_BAULK, foul, facts->off & 0xfffe, 0.0};
 }
 
-/* The break, by the WPA, 3.3: nothing is called, the eight comes back, and the table is open. */
+/* The break, by the WPA, 3.3: nothing is called, the eight returns, and the table is open. */
 static carom_turn eightball_break(carom_rules_state *game, const carom_facts *facts, int cue_ball,
                                   int32_t foul) {
   const uint32_t eight_gone = (facts->down | facts->off) & eight;
@@ -223,7 +223,7 @@ static carom_turn judge_eight(const eight_game *as, carom_rules_state *game, uin
   if (opening)
     return eightball_break(game, facts, cue_ball, foul);
 
-  /* an eight that left the table comes back in blackball */
+  /* an eight that left the table returns in blackball */
   uint32_t gone = facts->down;
   if (!as->free_strokes)
     gone |= facts->off;
@@ -303,10 +303,11 @@ static void blackball_settle(carom_rules_state *game, const carom_table *table,
 /* Blackball: the rules of the WPA, of 2005 by the titles of the sections 4 (play) and 5 (fouls),
  * and section 8 of those of 2025: the break (8.5), balls that touch, the fouls (8.13), and the
  * black, which loses on a foul or while a ball of the group remains after the stroke. A new rack
- * after a break that is a foul is of 2005; who asks for it breaks. A player who is snookered needs
- * no cushion (definition 11, 5g): balls alone hide others, the jaws of pockets do not. A ball is
- * jumped where the cue ball passes over a part of it before it meets any ball: so clubs that print
- * the English rules of eight-ball define the foul, and the WPA's words for it were not at hand. */
+ * after a break that is a foul is of 2005; the player who requests it breaks. A player who is
+ * snookered needs no cushion (definition 11, 5g): balls alone hide others, the jaws of pockets do
+ * not. A ball is jumped where the cue ball passes over a part of it before it meets any ball: so
+ * clubs that print the English rules of eight-ball define the foul, and the WPA's words for it were
+ * not at hand. */
 CAROM_RULES_OBJECT(carom_blackball) = {.on = eightball_on,
                                        .judge = blackball_judge,
                                        .left = eightball_left,
@@ -391,7 +392,7 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
   if (passes)
     return carom_give(game, carom_pass);
 
-  /* the nine wins, or the highest ball of a game without it; it comes back after a foul or a
+  /* the nine wins, or the highest ball of a game without it; it returns after a foul or a
    * push-out */
   const uint32_t wins = carom_highest_of(in_play & 0x3fe);
   const int32_t foul =

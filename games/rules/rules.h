@@ -110,13 +110,13 @@ static inline void carom_add(int32_t *sum, int more) {
 int32_t carom_rotation_foul_of(const carom_facts *facts, uint32_t targets, int cue_ball,
                                bool opening, bool pushes);
 carom_turn carom_give_hand(carom_rules_state *game, int32_t foul, uint32_t spot);
-/* Whether a break pots or drives to the head string fewer balls than the state asks for: by the
+/* Whether a break pots or drives to the head string fewer balls than the state requires: by the
  * three-point rule (WPA, regulation 18) three. Then the other may hand the table back, without a
  * push-out; this is read from practice, as only paragraph 1 of the text was at hand. */
 bool carom_is_below_target(const carom_rules_state *game, const carom_facts *facts, uint32_t balls);
 
 /* Games in which eight balls win: a ball that counts, or is no more owed; one that a foul costs, or
- * is owed; what each player needs; and the balls that come back after a stroke. */
+ * is owed; what each player needs; and the balls that return after a stroke. */
 enum { CAROM_BALLS_THAT_WIN = 8 };
 void carom_count_ball(carom_rules_state *game, int seat);
 void carom_pay_ball(carom_rules_state *game);

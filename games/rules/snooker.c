@@ -3,7 +3,7 @@
  * A red and a colour in turn, then the colours from the lowest on. A foul gives the other the value
  * of the ball on, or of the highest ball that it concerns, at least 4; he may let the offender play
  * on. A player who is snookered after a foul may name any ball for one on: a free ball. The first
- * pot or foul on the last black ends the frame, but for equal scores: then the black comes back,
+ * pot or foul on the last black ends the frame, but for equal scores: then the black returns,
  * and the other plays from the D; by the rules they draw lots. Who comes to the last black more
  * than its seven points ahead claims the frame. Who plays away from a ball on that touches the cue
  * ball has met it first. To meet a ball before the tip has left the cue ball is a push stroke, also
@@ -101,7 +101,7 @@ static double points(const carom_rules_state *game, uint32_t in_play, int ball) 
   return (double)on_table / pots;
 }
 
-/* The last black is gone: who has more has won; else it comes back. */
+/* The last black is gone: who has more has won; else it returns. */
 static carom_turn finish(const carom_rules_state *game, carom_turn turn) {
   turn.spot = 0;
   turn.leave = CAROM_LEAVE_AFTER;
@@ -195,7 +195,7 @@ static carom_turn judge_foul(carom_rules_state *game, uint32_t balls, int cost, 
   if (scratch)
     turn.leave = CAROM_LEAVE_D;
 
-  /* a black that comes back is a new beginning */
+  /* a black that returns is a new beginning */
   if (balls == black)
     return carom_end_turn(game, finish(game, turn));
   game->may = CAROM_CHOICE_PASS;
@@ -238,7 +238,8 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     return carom_give(game, turn);
   }
 
-  /* Reds count one each, and a free ball beside them as one; of others the ball on counts alone. */
+  /* Reds count one each, and a free ball potted with them as one; of others the ball on counts
+   * alone. */
   const bool red = !colour && (targets & reds) != 0;
   int points = n.value;
   turn.spot = fell & colours;
@@ -282,7 +283,7 @@ static bool is_behind(const carom_shot_ball *balls, uint32_t targets, uint32_t o
   return true;
 }
 
-/* Whether the cue ball is snookered; in hand from all free places of the D: some are tried. */
+/* Whether the cue ball is snookered; in hand from all free positions of the D: some are tried. */
 static bool is_snookered(const carom_table *table, const carom_shot_ball *balls, uint32_t in_play,
                          uint32_t targets, uint32_t others, bool hand) {
   enum { STEPS = 6 };
@@ -304,7 +305,7 @@ static bool is_snookered(const carom_table *table, const carom_shot_ball *balls,
   return true;
 }
 
-/* Colours come back: first those whose own spots are free, then the others, the highest first. */
+/* Colours return: first those whose own spots are free, then the others, the highest first. */
 static void put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set) {
   for (int k = YELLOW; k <= BLACK; k++) {
     double spot[2];

@@ -35,7 +35,7 @@
   WORD(FOUL, FOUL_DOUBLE_HIT, "double_hit",                                                        \
        "the tip was still on the cue ball, or touched it again, as it met a ball")                 \
   WORD(FOUL, FOUL_JUMP, "jump", "the cue ball jumped over a ball")                                 \
-  /* what a player may decide besides strokes; the text is of the player */                        \
+  /* what a player may decide in addition to strokes; the text is of the player */                 \
   WORD(CHOICE, CHOICE_PASS, "pass", "may pass")                                                    \
   WORD(CHOICE, CHOICE_PUSH, "push", "may push out")                                                \
   WORD(CHOICE, CHOICE_FREE_BALL, "free_ball", "has a free ball")                                   \
@@ -54,14 +54,14 @@
   WORD(PHASE, MATCH_PLACE, "place", "a place of the cue ball in hand, or a choice")                \
   WORD(PHASE, MATCH_MOVING, "moving", "the rest of a shot that was stopped")                       \
   WORD(PHASE, MATCH_OVER, "over", "nothing: the match is over")                                    \
-  /* the acts of a match besides strokes and places */                                             \
+  /* the acts of a match in addition to strokes and places */                                      \
   WORD(ACT, ACT_CHOOSE, "choose", "one of the choices")                                            \
   WORD(ACT, ACT_CALL, "call", "the ball and the pocket of the next stroke")                        \
   WORD(ACT, ACT_CONCEDE, "concede", "the player gives the game to the opponent")                   \
   WORD(ACT, ACT_CLOCK, "clock", "the time for the stroke is over")                                 \
   WORD(ACT, ACT_EXTEND, "extend", "the player takes an extension of the time")                     \
   WORD(ACT, ACT_TIMEOUT, "timeout", "the player takes a timeout")                                  \
-  /* why an act was refused */                                                                     \
+  /* why an act was rejected */                                                                    \
   WORD(REFUSAL, REFUSED_NOT, "not", "")                                                            \
   WORD(REFUSAL, REFUSED_NOT_BEGUN, "not_begun", "the match has not begun")                         \
   WORD(REFUSAL, REFUSED_OVER, "over", "the match is over")                                         \

@@ -2,12 +2,12 @@
  *
  * The way is a row of links: the cue ball meets rails or ball 1, which meets rails or ball 2, up to
  * the ball that is wanted, which meets rails. A direction phi of the cue does the first few of
- * them. Where it does all, the ball goes on to the pocket, and
+ * them. Where it does all, the ball continues to the pocket, and
  *
  *   e(phi) = psi(o) - the direction of v,
  *
  * v being its velocity just before anything ends this last piece: a jaw, a cushion, the pocket,
- * or rest. o is the place on the line of v that is as far from the pocket as the place of the
+ * or rest. o is the position on the line of v that is as far from the pocket as the position of the
  * last link. psi, of pots.c, is the middle of the directions from there that pass the jaws. So
  * a path may curve on its way.
  *
@@ -48,13 +48,13 @@ typedef struct way {
   carom_shot_options options;
   const carom_pocket *pocket;
   carom_mouth mouth;
-  const carom_shot_ball *layout; /* the whole layout, of `count` balls */
+  const carom_shot_ball *layout; /* the complete layout, of `count` balls */
   int count, balls, links;
   bool raised;                      /* the caller leaves the elevation to the stick */
   bool swept;                       /* the cue ball may touch a rail just before the first ball */
   carom_part link[LINKS];           /* balls and rails, as they are met */
   int ball[LINKS + 1];              /* indices in the layout */
-  carom_shot_ball alone[LINKS + 1]; /* the balls as a layout of their own */
+  carom_shot_ball alone[LINKS + 1]; /* the balls as their own layout */
   carom_brief_event *events;        /* room for those of one shot */
   double *jump;                     /* the greatest elevation at a jump of e, degrees */
 } way;
@@ -236,7 +236,7 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
   const double *c = w->mouth.centre;
   const carom_ball_state *s = &states[w->balls - 1];
   states_at(w, &cue, p.last_contact, states);
-  /* a ball that lay still was met there, and starts from another place where contacts last */
+  /* a ball that lay still was met there, and starts from another position where contacts last */
   const bool lay = w->link[w->links - 1].kind == CAROM_PART_BALL;
   const double *from = lay ? w->alone[w->balls - 1].state.r : s->r;
   const double x = c[0] - from[0], y = c[1] - from[1], far = sqrt(x * x + y * y);
@@ -259,7 +259,7 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
   return p;
 }
 
-/* Whether a cushion that the ball met is beside the pocket. */
+/* Whether a cushion that the ball met is next to the pocket. */
 static bool is_beside(const way *w, const carom_brief_event *e) {
   const int pocket = (int)(w->pocket - w->table->pocket);
   if (e->type == CAROM_EVENT_JAW)
@@ -267,7 +267,7 @@ static bool is_beside(const way *w, const carom_brief_event *e) {
   return carom_is_beside(w->table, e->b, pocket);
 }
 
-/* What comes of a cue, of the whole layout. */
+/* What comes of a cue, of the complete layout. */
 static carom_pot_outcome fate(const way *w, const carom_shot_ball *balls, int count,
                               const carom_cue *cue, carom_brief_event *contact) {
   carom_facts facts;
@@ -278,7 +278,7 @@ static carom_pot_outcome fate(const way *w, const carom_shot_ball *balls, int co
   const bool falls = facts.pocket[last] >= 0 && &w->table->pocket[facts.pocket[last]] == w->pocket;
   *contact = p.end;
 
-  /* After the last link it may touch what is beside the pocket, and nothing else. */
+  /* After the last link it may touch what is next to the pocket, and nothing else. */
   const int type = p.end.type;
   const bool done = p.links == w->links, ends_free = type == 0 || type == CAROM_EVENT_POCKET;
   const bool at_cushion = type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW;
@@ -400,10 +400,10 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
     const bool roots = best == w->links;
     double low = 0.0, high = 0.0, last = mid - wide, previous = (double)NAN;
     int most = -1;
-    bool short_of = true; /* whether all that do most come to rest */
+    bool short_of = true; /* whether all that do most stop */
     progress at_rest = {0};
 
-    /* directions at the places of a sine, from one end of the range to the other */
+    /* directions at the positions of a sine, from one end of the range to the other */
     for (int k = 0; k <= SAMPLES; k++) {
       double sine, cosine, e, half, phi;
       carom_sincos(pi * k / (double)SAMPLES - 0.5 * pi, &sine, &cosine);
@@ -481,7 +481,7 @@ static void sweep(way *w, const carom_shot_ball *balls, int count, double mid, d
     c = *cue;
     c.phi = mid + wide * sine;
     c.theta = elevation_of(w, &c);
-    /* the whole layout where the balls of the way alone come so far */
+    /* the complete layout where the balls of the way alone come so far */
     carom_cue single = c;
     single.ball = 0;
     const bool falls = alone(w, &single, &unused).links == w->links &&
@@ -562,7 +562,7 @@ static bool take_alone(const carom_shot_ball *balls, int count, way *w) {
   return true;
 }
 
-/* The way as the caller asks for it; false where that cannot be. */
+/* The way as the caller requests it; false where that cannot be. */
 static bool way_of(const carom_table *table, const carom_shot_ball *balls, int count,
                    const carom_shot_options *options, const carom_pot *pot, int cue_ball, way *w) {
   if (pot->pocket < 0 || pot->pocket >= table->pockets || pot->vias < 0 ||
@@ -583,7 +583,8 @@ static bool way_of(const carom_table *table, const carom_shot_ball *balls, int c
   return list_balls(table, w) && take_alone(balls, count, w);
 }
 
-/* The place of the first ball, or its image in the rails before it, of which there are *rails. */
+/* The position of the first ball, or its image in the rails before it, of which there are
+ * *rails. */
 static void image_of_first(const way *w, double image[2], int *rails) {
   const carom_shot_ball *first = &w->alone[1];
   image[0] = first->state.r[0];

@@ -36,7 +36,7 @@ void carom_search_tables(carom_search *search, carom_drawn_table *room) {
     for (int n = 0; n < NUMBERS; n++)
       factor[n] = carom_exp(search->options.unsure * spread[n] * sign * z[n]);
 
-    /* the numbers of the balls; and those that a rail or a jaw has of its own, which are 0 where it
+    /* the numbers of the balls; and those that a rail or its own jaw has, which are 0 where it
      * has none */
     carom_drawn_table *drawn = &room[k];
     for (int ball = 0; ball < search->plays; ball++) {

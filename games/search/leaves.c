@@ -7,9 +7,9 @@
  * worth 1 - V'. The values of value.c know direct pots alone and are nearly the same for all L, so
  * both chances come from plans of their own, which search the leave with the errors of who plays.
  *
- * The places where push-outs leave the cue ball are spread over the table: the first is that of the
- * softest push-out, and each other one is as far as possible from those before it. Each is searched
- * where a stroke with errors leaves it, and the best two again where further ones do.
+ * The positions where push-outs leave the cue ball are spread over the table: the first is that of
+ * the softest push-out, and each other one is as far as possible from those before it. Each is
+ * searched where a stroke with errors leaves it, and the best two again where further ones do.
  *
  * Measured on 2026-11-30, by plans of 800 shots of both sides: in 30 layouts of nine-ball after dry
  * breaks, plans of 300 shots for ratings of 750 chose push-outs that were worth 0.052 +- 0.013 more
@@ -136,7 +136,7 @@ static bool is_worth_search(const carom_leaves *leaves, const candidate *c) {
   return c->chose.seen > 0 && mean_of(c) >= leaves->best - worse_most;
 }
 
-/* Finds the place of the next push-out; one that is not worth a search is dropped. */
+/* Finds the position of the next push-out; one that is not worth a search is dropped. */
 static void find_place(carom_search *search) {
   carom_leaves *leaves = search->leaves;
   carom_handed_over *h = &leaves->item[leaves->placed];
@@ -148,7 +148,7 @@ static void find_place(carom_search *search) {
   }
 }
 
-/* The square of the distance from a place to the nearest one of the first n. */
+/* The square of the distance from a position to the nearest one of the first n. */
 static double distance_of(const carom_handed_over *item, int n, const double place[2]) {
   double nearest = INFINITY;
   for (int k = 0; k < n; k++)
@@ -266,7 +266,7 @@ void carom_leaves_take(carom_search *search) {
   leaves->chance[leaves->side] = value;
   if (leaves->side == 0) {
     /* nobody gives a pass back; equal players have the same chance there; and what the opponent
-     * takes with more than he has at the best leave so far he does not give back */
+     * takes with more than he has at the best leave so far he does not return */
     double best = -1.0;
     for (int k = 0; k < leaves->index && !leaves->is_again; k++)
       best = fmax(best, worth_of(&leaves->item[k]));

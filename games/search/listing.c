@@ -44,7 +44,7 @@ static shot_chances told_by(const carom_tally *t) {
 }
 
 /* The shots of a candidate. Fresh ones are few, so as many of those that chose as count `shots`
- * stand beside them. */
+ * are next to them. */
 static shot_chances told_of(const candidate *c) {
   static const double shots = 10.0;
   const shot_chances chose = told_by(&c->chose);
@@ -152,7 +152,7 @@ static carom_plan_stroke with_kind(carom_search *search, candidate *c) {
   return choice;
 }
 
-/* Whether a candidate is worth a place in the list. One that was not played tells nothing; one
+/* Whether a candidate is worth a position in the list. One that was not played tells nothing; one
  * without a ball is none to a player who is alone; and one that looks better than the best was
  * played too seldom. */
 static bool is_listed(const carom_search *search, const candidate *c) {
@@ -235,7 +235,7 @@ static void sort_in(carom_plan_stroke *choices, int n, const carom_plan_stroke *
   choices[index] = *choice;
 }
 
-/* A first choice that was worth nothing in its fresh shots gives its place to one that was worth
+/* A first choice that was worth nothing in its fresh shots gives its position to one that was worth
  * something in its own: small plans of carom games chose strokes that make no point. */
 static void promote(carom_plan_stroke *first, carom_plan_stroke *second) {
   if (first->value > 0.0 || second->value <= 0.0)
@@ -262,7 +262,7 @@ int carom_search_give(carom_search *search, carom_plan_stroke *choices, int room
     sort_in(choice_list, n++, &choice);
   }
 
-  /* the best of each ball, pocket and kind; the best safety takes the last place at least, and a
+  /* the best of each ball, pocket and kind; the best safety takes the last position at least, and a
    * player who may pass is told so */
   for (int k = 0; k < n; k++) {
     const bool safety = choice_list[k].kind == CAROM_PLAN_SAFETY;

@@ -130,7 +130,7 @@ static void add_combinations(const carom_search *search, int falls, const carom_
   for (int k = 0; k < view->count; k++) {
     if (!(search->targets >> k & 1) || k == falls)
       continue;
-    /* the ball that drives it, in the place of the cue ball */
+    /* the ball that drives it, in the position of the cue ball */
     carom_hit hit;
     const double *driver = search->state[k].r;
     if (!carom_way_into(view, o, view->radius[falls], driver, window, 0, &hit) ||

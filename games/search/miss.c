@@ -202,7 +202,7 @@ static double miss_at(const carom_search *search, const candidate *c, const caro
   return (double)m.miss;
 }
 
-/* The slope of a miss, by the stroke beside it; infinite where that leaves the way. */
+/* The slope of a miss, by the stroke next to it; infinite where that leaves the way. */
 static float slope_of(const carom_search *search, const candidate *c, const carom_miss *m,
                       carom_trail *path) {
   const double slope = (miss_at(search, c, m, c->phi + step, path) - (double)m->miss) / step;

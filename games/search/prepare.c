@@ -163,7 +163,7 @@ static carom_status check_layout(carom_search *search, bool in_hand) {
   return CAROM_OK;
 }
 
-/* Candidates, outcomes and tables stand behind the plan in the caller's memory. */
+/* Candidates, outcomes and tables are behind the plan in the caller's memory. */
 static void share_memory(carom_search *search) {
   const int64_t shots = carom_search_shots(&search->options);
   const double scan = carom_scan_of(&search->options);

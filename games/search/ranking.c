@@ -14,7 +14,8 @@ typedef carom_outcome outcome;
  * 0.001 and 0.018 lost 281 */
 static const double softer = 0.001;
 
-/* With a goal: for a foul, and for coming near a place, where strokes reach the goal as often. */
+/* With a goal: for a foul, and for coming near a position, where strokes reach the goal as
+ * often. */
 static const double legal = 0.01, nearer = 0.1;
 
 static double merit_of(const carom_search *search, const candidate *c) {
@@ -85,7 +86,7 @@ static int64_t next_gap(int64_t gap) {
 
 /* Sorts the first n candidates, by Shell's method, without memory. The order is total, so that it
  * does not matter how it is found. To sort half a million takes longer than a plan has to stop; a
- * sort that is stopped leaves the first in its place if that is the best. */
+ * sort that is stopped leaves the first in its position if that is the best. */
 void carom_search_sort(const carom_search *search, int64_t n) {
   candidate *c = search->found;
   for (int64_t gap = n / 2; gap > 0; gap = next_gap(gap))

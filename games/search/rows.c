@@ -149,7 +149,7 @@ static outcome outcome_of(const carom_facts *facts, carom_call call, const carom
   return o;
 }
 
-/* Whether a turn has a worth of its own, whatever the layout: it ends the game or the visit, or a
+/* Whether a turn has its own worth, whatever the layout: it ends the game or the visit, or a
  * shot that was stopped at a wrong ball or is in error has left no layout. */
 static bool has_worth(const carom_search *search, const carom_turn *turn, carom_status status,
                       double *worth) {

@@ -16,7 +16,7 @@ void carom_search_stage(carom_search *search, int64_t first, int64_t candidates,
 bool carom_search_play(carom_search *search);
 /* Takes the cost of a shot with so many events from the slice. */
 void carom_search_spend(carom_search *search, int64_t events);
-/* The layout of a row of a candidate, whose cue ball lies where it is put; draws above 0: as the
+/* The layout of a row of a candidate, whose cue ball is where it is put; draws above 0: as the
  * player may see it. */
 carom_prepared carom_search_layout(const carom_search *search, const carom_candidate *c,
                                    uint32_t draws, int64_t row,
@@ -38,7 +38,7 @@ double carom_search_leave(const carom_search *search, const carom_rules_state *g
                           const carom_ball_state *layout, const carom_turn *turn);
 /* The worth of a stroke that was ruled: of its turn, or of what it leaves. */
 double carom_search_ruled(const carom_search *search, const carom_ruling *ruling);
-/* Points as a share of the balls left before the shot. */
+/* Points as a fraction of the balls left before the shot. */
 double carom_search_share(const carom_search *search, double points);
 
 #endif

@@ -1,5 +1,5 @@
-/* The state of a search for the best shot: all that its sources share. What they do stands in a
- * header of each. A source knows this file, coach.h and the headers that stand before its own, in
+/* The state of a search for the best shot: all that its sources share. What they do is in a
+ * header of each. A source knows this file, coach.h and the headers that are before its own, in
  * this order: goals.h, drawn_tables.h, rows.h, prepare.h, ranking.h, choice_kind.h, listing.h,
  * places.h, miss.h, candidates.h, mirrors.h, steer.h, leaves.h, search.h, anytime.h. */
 #ifndef CAROM_PLAN_SEARCH_STATE_H
@@ -23,7 +23,7 @@ static const double carom_luck = 0.1;
 /* What shots with errors came to. */
 typedef struct carom_tally {
   double sum, squares;      /* of the worths of the shots, and of their squares */
-  double near;              /* sum of how near they came to a goal that is a place */
+  double near;              /* sum of how near they came to a goal that is a position */
   int32_t seen;             /* number of shots */
   int32_t keep, foul, lose; /* shots by which the player keeps his turn, fouls, loses */
 } carom_tally;
@@ -68,7 +68,7 @@ typedef struct carom_outcome {
   int16_t cushions;    /* impacts of that ball on cushions */
   int8_t first;        /* the ball that was met first, or -1 */
   uint16_t events;     /* of the shot */
-  float near;          /* 1 on the place that is the goal, 0 from 1 m on */
+  float near;          /* 1 on the position that is the goal, 0 from 1 m on */
   carom_miss miss;     /* where the stage measures misses */
 } carom_outcome;
 
@@ -111,7 +111,7 @@ typedef enum carom_search_next {
   NEXT_DUEL,   /* it sorts the few best, which were played against each other */
   NEXT_LOOK,   /* it compares another pot, which was played again, with the best */
   NEXT_LEAVE,  /* it searches the leaves of push-outs and of a pass, */
-  NEXT_SEARCH, /* each by a plan of its own, */
+  NEXT_SEARCH, /* each by its own plan, */
   NEXT_REPLAY, /* it takes the shots of the best that have chosen nothing, */
   NEXT_LIST,   /* it looks for other choices among the candidates, */
   NEXT_LISTED, /* and takes their shots that have chosen nothing */
@@ -124,7 +124,7 @@ typedef struct carom_pot_found {
   int ball, pocket;
 } carom_pot_found;
 
-/* A place of a cue ball in hand, and the value of the layout with it. */
+/* A position of a cue ball in hand, and the value of the layout with it. */
 typedef struct carom_place_in_hand {
   double r[2], value;
 } carom_place_in_hand;
@@ -206,7 +206,7 @@ struct carom_search {
   int places, tries;                               /* places 0: the cue ball is not in hand */
   /* The state of a plan in slices between two calls. */
   uint64_t fingerprint;  /* of the job; 0: no plan */
-  carom_crew_caller *go; /* the function that goes on with it */
+  carom_crew_caller *go; /* the function that continues with it */
   bool ended;
   bool late;      /* its seconds are over */
   bool joins;     /* `best` is of a round of doubling, and joins the next one */
@@ -232,10 +232,10 @@ struct carom_search {
   int64_t neighbours;            /* and strokes near the best that join it; -1: none yet */
   int round, look, duels;        /* that have begun */
   int place, raced;              /* from which candidates are made; how many places are tried */
-  int choices_most, listed;      /* choices that the caller has room for; that stand first */
+  int choices_most, listed;      /* choices that the caller has room for; that are first */
   carom_plan_stroke listing[LISTED_MOST]; /* the choices of the list while it is made */
   int64_t examined;      /* candidates that have been asked whether they are listed */
-  uint64_t drawn_places; /* places of a cue ball in hand that have been drawn */
+  uint64_t drawn_places; /* positions of a cue ball in hand that have been drawn */
   int tried_places;      /* and those of them that could be tried */
   carom_candidate best;  /* of the rounds of doubling before */
 };
@@ -244,7 +244,7 @@ struct carom_search {
  * which shots can be played. */
 carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int choices,
                                   carom_search **prepared);
-/* Does a part of a search, `work`, with the threads that the options ask for. */
+/* Does a part of a search, `work`, with the threads that the options request. */
 void carom_search_with_crew(carom_search *search, carom_crew_caller *work);
 
 static inline bool carom_is_stopped(const carom_search *search) {

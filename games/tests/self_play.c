@@ -5,7 +5,7 @@
 
 static carom_match match;
 
-/* What a ruling says besides of the turn: falls in their order, who plays, words. */
+/* What a ruling has in addition to the turn: falls in their order, who plays, words. */
 static void check_ruling(const carom_ruling *r) {
   char words[300];
   uint32_t down = 0;

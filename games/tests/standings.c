@@ -40,7 +40,7 @@ TEST(standings_come_back) {
   ck_assert_mem_eq(&again.standing, &game.standing, sizeof game.standing);
 }
 
-/* What no game can be is refused, and named. */
+/* What no game can be is rejected, and named. */
 TEST(standings_that_are_refused) {
   static const struct {
     const char *part;
@@ -76,7 +76,7 @@ static bool is_written(void) {
     ck_assert_msg(!is_written(), #number " = " #value); \
   } while (0)
 
-/* What the reader refuses is not written. */
+/* What the reader rejects is not written. */
 TEST(standings_that_are_not_written) {
   NOT_WRITTEN(game.rules, -5);
   NOT_WRITTEN(game.player, 77);

@@ -1,4 +1,4 @@
-/* The one place where the arguments of a collision are checked.
+/* The only place where the arguments of a collision are checked.
  *
  * Two passes: a branch-free one that every call takes and nearly every call passes, and a slow
  * one that finds the first field at fault and names it. Both state the same conditions, those of
@@ -14,7 +14,7 @@
 #include <stddef.h>
 
 /* Radii, heights and vertical velocities come out of other programs' arithmetic; an amount below
- * this share of the radius, of the distance or of the speed moves no result beyond rounding of
+ * this fraction of the radius, of the distance or of the speed moves no result beyond rounding of
  * the solvers' own size. */
 static const double level = 1e-9;
 

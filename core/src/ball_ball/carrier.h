@@ -55,7 +55,7 @@ enum { MOST_REGS = MOST_NODES / REG_NODES };
 #define QUAD_AT(row) ((quad) * (const quad_unaligned *)(row))
 /* Any of its numbers, where all are the same. */
 #define ONE_OF(x) ((x)[0])
-/* A number at nodes replaced: in the lanes of a mask, where a collision is in a lane of its own;
+/* A number at nodes replaced: in the lanes of a mask, where a collision is in its own lane;
  * a single call does not come here if not. */
 #define REG_MOVE(m, to, x) (*(to) = (x))
 #else
@@ -378,7 +378,7 @@ always reg exponential(reg x) {
       1 / REAL(24.0),        1 / REAL(120.0),       1 / REAL(720.0),     1 / REAL(5040.0),
       1 / REAL(40320.0),     1 / REAL(362880.0),    1 / REAL(3628800.0), 1 / REAL(39916800.0),
       1 / REAL(479001600.0), 1 / REAL(6227020800.0)};
-  /* adding 1.5 2^FRACTION_BITS rounds to an integer, which then stands in the lowest bits */
+  /* adding 1.5 2^FRACTION_BITS rounds to an integer, which then is in the lowest bits */
   const real rounder = REAL(1.5) * (real)((lane_int)1 << FRACTION_BITS);
   const reg shifted = MADD(x, REAL(1.4426950408889634), rounder), n = shifted - rounder;
   const reg r = MADD(n, -LOG_2_LOW, MADD(n, -LOG_2_HIGH, x));

@@ -1,5 +1,5 @@
 /* The public entry points of one collision: collocation, and for other inputs: check, go to the
- * collision frame, solve, come back, say how it went. */
+ * collision frame, solve, return, say how it went. */
 #include "carom.h"
 #include "platform/arithmetic.h"
 
@@ -15,7 +15,7 @@
 
 /* ---- carom_detail ---------------------------------------- */
 
-/* The impulses over a whole collision follow from the changes. With Δ the change, C = 5/(2 M
+/* The impulses over a complete collision follow from the changes. With Δ the change, C = 5/(2 M
  * R) of each ball, P the normal impulse, P1 and P2 those of friction along x and z on ball i,
  * and those of the cloth on i and on j:
  *

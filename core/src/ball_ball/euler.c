@@ -26,7 +26,7 @@
  * Termination. pooltool's loop never ends when the steps are so small that rounding swallows
  * them. Here the number of steps is bounded. Per unit normal impulse v_n rises by 1/M_i + 1/M_j,
  * less at most k/M_p by the friction of the cloth, where p is the pressed ball and k = μ_p μ_b
- * <= 1. So v_n' lies between A = 1/M_i + 1/M_j - k/M_p > 0 and values above it, compression
+ * <= 1. So v_n' is between A = 1/M_i + 1/M_j - k/M_p > 0 and values above it, compression
  * takes at most |v_n|/A, restitution at most e |v_n|/A, and with ΔP as above the steps number at
  * most
  *

@@ -33,7 +33,7 @@
 
 /* ---- The nodes ------------------------------------------------------------------------------- */
 
-/* Where the nodes of a step lie: X, the share of its length, over the variable x of the rule. In
+/* Where the nodes of a step lie: X, the fraction of its length, over the variable x of the rule. In
  * steps of four and six nodes X is x. Those of eight nodes have one of two maps:
  *
  *     graded    drawn together towards where |u| would reach zero: 1 - q X = (1 - h x)^4
@@ -92,7 +92,7 @@ always node_map turned_map(const turn_step *p, vreal length) {
   return m;
 }
 
-/* X and its slope at the nodes of a rule from 0 to a share of x. */
+/* X and its slope at the nodes of a rule from 0 to a fraction of x. */
 always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m, vreal share,
                       mapped_nodes *target) {
   if (!turned) {
@@ -146,7 +146,7 @@ always real estimate_scale(int n, bool turned) {
 }
 
 /* Coefficients of the equations, times L (S_in_d: of S_x in u_x and S in d; ...); and q, the
- * share of |u| that the step loses at its first rate. */
+ * fraction of |u| that the step loses at its first rate. */
 typedef struct coefficients {
   vreal length, mu_b, mu_mu_b, mu_mu_b_y, S_in_d, Z_in_d_y, C_in_u_x, Z_in_u_z, S_in_u_z, q;
 } coefficients;
@@ -194,7 +194,7 @@ typedef struct impulse_step {
  *     w'' / w' = b (f_1 + h) / r       w^(3) / w' = b^2 ((f_1 + h) (f_1 + 2 h) + f_0 f_2) / r^2
  *
  * and so w = w_1 X (1 + X b (f_1 + h) / 2 + X^2 w^(3) / (6 w')). In powers of x = X / (1 - alpha
- * X) with alpha = b h / 2 about, whose singularity stands for that of 1 / r, the series w_1 x (1
+ * X) with alpha = b h / 2 about, whose singularity represents that of 1 / r, the series w_1 x (1
  * + x (second + x third)) converges faster. by_t: the term of a turning t, by_t X (X - 1). */
 typedef struct turning {
   vreal alpha, w_1, second, third, by_t;
@@ -370,7 +370,7 @@ always void end_iterations(int n, const gauss_rule *r, impulse_step *p, vreal *d
 
 /* The directions c, sigma and s = sigma t at a state, and their slopes in p, by the equations.
  * bend_u, bend_d: a sixth of the second derivatives of the direction of u, about, and of s, at
- * most. fall: share of |u| that is lost per p. */
+ * most. fall: fraction of |u| that is lost per p. */
 typedef struct end_slopes {
   vreal c, z, x, y, dc, dz, dx, dy, bend_u, bend_d, fall;
 } end_slopes;
@@ -440,7 +440,7 @@ always vreal extrapolate_to_end(const problem *a, const state *s, const end_slop
  * of the second, 1 % more collisions of its regimes go to the precise solver. */
 static const real MOST_EXTRAPOLATION = REAL(0.03);
 static const real MOST_EXTRAPOLATION_TURN = REAL(0.1);
-/* The share of |u| that may be lost there. After a step with four nodes, much more of |u| is
+/* The fraction of |u| that may be lost there. After a step with four nodes, much more of |u| is
  * left. */
 static const real MOST_FALL = REAL(0.5);
 

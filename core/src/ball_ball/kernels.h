@@ -41,7 +41,7 @@ typedef lane_column step_outputs[OUT_COLUMNS];
 typedef lane_column lane_state[LANE_COLUMNS];
 
 /* Kinds of steps (collocate.c), FULL over even or over graded nodes; and the other things that may
- * come next: a collision is solved, or collocation refuses it. */
+ * come next: a collision is solved, or collocation rejects it. */
 enum step_kind {
   EASY,
   FULL,
@@ -87,7 +87,7 @@ typedef uint32_t carom_rows_out(const row_context *context, const step_outputs s
  * step is EASY again. spin: 5/2 s. */
 typedef void carom_first_step(step_inputs in, uint32_t good, double spin, float tolerance,
                               step_outputs out, lanes_by_step next);
-/* A step of a kind, for collisions that are at their start, or stand at *at, which becomes where
+/* A step of a kind, for collisions that are at their start, or are at *at, which becomes where
  * they stand after it. */
 typedef void carom_next_step(enum step_kind kind, int at_start, step_inputs in, double spin,
                              float tolerance, lane_state gathered, step_outputs out,

@@ -53,7 +53,7 @@ always state choose_state(vmask m, const state *yes, const state *no) {
   return s;
 }
 
-/* The solution: those integrals over the whole collision, the overshoot of p beyond 1 + e, p
+/* The solution: those integrals over the complete collision, the overshoot of p beyond 1 + e, p
  * where the balls stuck (-1: they did not), K_c. */
 typedef struct solution {
   vreal J_c, J_z, I_x, I_y, overshoot, stick, K_c;
@@ -63,7 +63,7 @@ typedef struct solution {
 typedef struct prediction {
   vreal inverse_u, c, z; /* 1 / |u| and the direction of u */
   vreal t_x, t_y;        /* direction of d half way */
-  vreal rate;            /* share of |u| lost per p; its inverse is about p to stick */
+  vreal rate;            /* fraction of |u| lost per p; its inverse is about p to stick */
 } prediction;
 
 /* sqrt(x^2 + y^2) inverted, as closely as needed. */
@@ -71,7 +71,7 @@ always vreal inverse_length(vreal x, vreal y) {
   return v_reciprocal_sqrt(v_fma(x, x, v_fma(y, y, v_splat(TINY))));
 }
 
-/* A pressed ball has no slip on the cloth if mu mu_b |d| is below this share of the tolerance;
+/* A pressed ball has no slip on the cloth if mu mu_b |d| is below this fraction of the tolerance;
  * in sensitive collisions, if its square is below this number, which holds of a ball that lies
  * still. */
 static const real NO_SLIP = REAL(0.03);

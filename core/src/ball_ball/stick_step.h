@@ -138,7 +138,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
     T_factor[k] = mu * reg_reciprocal(lambda_b[k]);
     W_homogeneous[k] = MADD(s->u_x - A, l2 * lambda_b[k], A);
     /* the predictor of W: tau has the weight lambda^-3 in W, so that the mean of a linear tau
-     * lies at 2 lambda / (1 + lambda)
+     * is at 2 lambda / (1 + lambda)
      */
     const reg passed_mean = SPREAD(AT(r->gone_mean, k));
     reg mean_tau_x, mean_tau_y;

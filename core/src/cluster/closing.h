@@ -45,7 +45,7 @@ static inline bool slate_ends(carom_cluster_state *cluster, double step) {
   const carom_cluster_ball *ball = &cluster->ball[tip->ball];
   const double least = too_slow * tip->first, closing = tip_closing(tip, ball),
                up = slate_releases(&cluster->slate[tip->ball], ball->v[2], step) - ball->v[2];
-  /* the condition of the head: the ball would come back to the tip */
+  /* the condition of the head: the ball would return to the tip */
   if (!tip->gone && closing <= least && closing - tip_upward(tip) * up > least)
     return false;
   slate_lets_go(cluster, step);
@@ -68,7 +68,7 @@ static inline bool follows_through(const carom_cluster_state *cluster) {
   return tip_closing(tip, ball) - by_slate > too_slow * tip->first;
 }
 
-/* Nothing acts: all goes on to the next touch of balls, which need `of_balls`, or under a raised
+/* Nothing acts: all continues to the next touch of balls, which need `of_balls`, or under a raised
  * cue of tip or slate. Returns whether there is one in the push. */
 static inline bool go_to_touch(bool flat, carom_cluster_state *cluster, double of_balls,
                                double *tau) {

@@ -27,7 +27,7 @@
  *     h = (sum (steps/(e T))^32)^(-1/32)
  *
  * So which of equal contacts comes first does not count, and h has the derivatives of all. A step
- * in which others touch is taken again, as short as these ask for. Where nothing acts, contacts
+ * in which others touch is taken again, as short as these require. Where nothing acts, contacts
  * that have touched and close again at `slow` or faster touch at once, as positions stay. It ends
  * where there are none: contacts that never touched are met later, as other events.
  *
@@ -55,7 +55,7 @@ enum { ITERATIONS = 2 };
 
 /* The contacts that are pressed in a step, those of them that act, and the balls of these. */
 typedef struct pushes {
-  int pressed, contacts, balls; /* how many; their places in contact[] and ball[]: */
+  int pressed, contacts, balls; /* how many; their positions in contact[] and ball[]: */
   uint8_t press[CAROM_CLUSTER_CONTACTS], push[CAROM_CLUSTER_CONTACTS], pushed[CAROM_CLUSTER_BALLS];
 } pushes;
 
@@ -72,7 +72,7 @@ static const double open_overlap = 1e-12;
 
 /* ---- A contact's geometry and motion */
 
-/* All go on along their velocities: s of a time. */
+/* All continue along their velocities: s of a time. */
 static inline void move(bool flat, cluster_state *cluster, double time) {
   for (int index = 0; index < cluster->balls; index++)
     cluster_add(flat, cluster->ball[index].s, time, cluster->ball[index].v);
@@ -266,7 +266,7 @@ static inline double find_pressed(bool flat, cluster_state *cluster, double step
     if (overlap + 0.5 * step * closing <= open_overlap)
       continue;
 
-    /* it is pressed by now, or will be at the end of the step: its size asks for a step */
+    /* it is pressed by now, or will be at the end of the step: its size requires a step */
     if (overlap > open_overlap && (meets || !first))
       pushed->press[pushed->pressed++] = (uint8_t)index;
     contact->size = closing > 0.0
@@ -748,7 +748,7 @@ static inline bool solve(bool flat, cluster_state *cluster) {
     pushes pushed;
     move(flat, cluster, 0.5 * step);
 
-    /* a touch that is faster than what acts asks for a shorter step */
+    /* a touch that is faster than what acts requires a shorter step */
     const double longest = find_pressed(flat, cluster, step, &pushed);
     if (longest < step) {
       move(flat, cluster, 0.5 * (longest - step));

@@ -20,7 +20,7 @@
  *     |f| <= mu F, f against u;  mu = a + b exp(-c U), U the greatest |u| so far;  f on i, -f on j
  *     m v' = sum(-F n + f)      (2/5) m W' = sum(n x f)
  *
- * d_max and U are the greatest since the touch. Both branches of F together give back e^2 of the
+ * d_max and U are the greatest since the touch. Both branches of F together return e^2 of the
  * work of compression, for any course. Where F has reached 0 the set that is left recovers as d
  * falls: d_max = d/(1 - e^2). A contact that closes before loads along the line of unloading, so
  * that e is paid once for each compression; one at d < 0 is open, and touches anew. A contact
@@ -34,10 +34,10 @@
  *     m v' += g,  (2/5) m W' -= z x g
  *
  * IN SPACE v_z is free and the cloth takes no part: a ball that is pressed down lands
- * afterwards, as an event of its own.
+ * afterwards, as its own event.
  *
  * BETWEEN THE TWO a contact has the freedom phi. With h the greater height of the two balls above
- * the cloth, 0 for a ball that lies on it, and n_z the tilt of the line of centres, which unlike
+ * the cloth, 0 for a ball that is on it, and n_z the tilt of the line of centres, which unlike
  * radii have too,
  *
  *     phi = min(1, h / 1 mm + (n_z / 0.1)^2).
@@ -159,10 +159,10 @@ typedef struct carom_cluster_tip {
   double inverse_mass, V;  /* 1/M; the speed of the cue, m/s */
   double duration, stiffness,
       restitution;    /* duration with the ball alone, s; stiffness, N/m; restitution */
-  double reach;       /* m: how far the cue goes on after it has parted; the caller sets it */
+  double reach;       /* m: how far the cue continues after it has parted; the caller sets it */
   int ball;           /* of ball[] */
   bool slides;        /* a further touch: n, kappa, mu and end are read, c' and q are not */
-  double n[3], kappa; /* from the place of the touch to the centre; n . c */
+  double n[3], kappa; /* from the position of the touch to the centre; n . c */
   double mu, end;     /* friction; 1/m_e */
   double place[3];    /* of the touch, from the centre, R */
   /* of the integrator */
@@ -171,7 +171,7 @@ typedef struct carom_cluster_tip {
   double travel, delay; /* int V dtau, m; how far the ball is behind, along the axis, as contacts of
                            balls last, m: places.c */
   double impulse;       /* sum of J */
-  bool gone;            /* it has parted, and does not go on */
+  bool gone;            /* it has parted, and does not continue */
   int touches, touch;   /* how many times it has touched; its last one, in touch[] */
   double first, second; /* closing speeds of the first and the second of them, m/s */
   double last;          /* tau at which it acts last */
@@ -238,8 +238,8 @@ void carom_cluster_push_alone(carom_cluster_state *cluster);
 void carom_cluster_put_on_slate(carom_cluster_state *cluster);
 double carom_cluster_slate_impulse(const carom_cluster_state *cluster, int ball);
 
-/* places.c: takes note of a touch of a contact that begins, -1 of the tip, and returns its place in
- * touch[], which for one too many is that of the `last` touch of the contact, -1 where it is the
+/* places.c: takes note of a touch of a contact that begins, -1 of the tip, and returns its position
+ * in touch[], which for one too many is that of the `last` touch of the contact, -1 where it is the
  * first; what the touches move the balls by, their `shift`; and how far the tip of a push is ahead
  * of the ball then, if both are seen to move from the start as they do after it. */
 int carom_cluster_begin_touch(carom_cluster_state *cluster, int contact, int last, double time,

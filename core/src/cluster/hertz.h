@@ -14,11 +14,11 @@
  *       0    (1 - e^2) d_max     d_max
  *            the set that is left
  *
- * Unloading gives back e^2 of the work of compression, for any course of d. A contact that closes
+ * Unloading returns e^2 of the work of compression, for any course of d. A contact that closes
  * at v, with B the inverse of the reduced mass, is pressed delta = (5 v^2 / (4 K B))^0.4 deep, and
  * lasts CAROM_HERTZ_DURATION delta / v.
  *
- * Tip and slate have linear branches instead, k d and k/e^2 (d - (1 - e^2) d_max), which give back
+ * Tip and slate have linear branches instead, k d and k/e^2 (d - (1 - e^2) d_max), which return
  * e^2 of the work too. */
 #ifndef CAROM_SRC_CLUSTER_HERTZ_H
 #define CAROM_SRC_CLUSTER_HERTZ_H

@@ -38,7 +38,7 @@ static inline bool slate_acts(carom_cluster_state *cluster, double step) {
   return any;
 }
 
-/* The share of the friction `most` of two balls that the tip presses the struck one on the slate
+/* The fraction of the friction `most` of two balls that the tip presses the struck one on the slate
  * by. */
 static inline double share_of_tip(const carom_cluster_state *cluster, int i, int j, double most) {
   const carom_cluster_tip *tip = &cluster->tip;
@@ -88,7 +88,7 @@ static inline double slate_releases(const carom_cluster_slate *slate, double v_z
   const double stiffness = carom_linear_stiffness(CAROM_SLATE_TIME, slate->restitution),
                returned = slate->restitution * slate->restitution;
 
-  /* it loads: all of this energy and of the speed comes back by e^2 */
+  /* it loads: all of this energy and of the speed returns by e^2 */
   if (overlap >= slate->overlap_max && v_z < 0.0)
     return slate->restitution * sqrt(stiffness * overlap * overlap + v_z * v_z);
 

@@ -7,10 +7,10 @@
  *     g = G_0 / (1 - G_1 t_y)
  *     G_0 = g_0 - g_1 A_0 / K_y           G_1 = mu_c g_1 C_y / K_y
  *
- * so the cloth bears a load if and only if G_0 > 0. Where b = 0, b' = 0 asks for F = -(L_x f_x,
+ * so the cloth bears a load if and only if G_0 > 0. Where b = 0, b' = 0 requires F = -(L_x f_x,
  * B_0 + L_y f_y) / H. If friction holds both, f_x = F_x = 0, and v' = 0 for a cushion: the ball
  * is JAMMED, nothing changes any more, and the impact ends. A contact is held if this friction
- * lies within the cone, |f| <= mu or |F| <= mu_c g. It is held until it leaves the cone.
+ * is within the cone, |f| <= mu or |F| <= mu_c g. It is held until it leaves the cone.
  *
  * LEAVING. Where friction cannot hold, the slip begins in a direction to which its own rate is
  * parallel. On the cloth that is the direction of (0, B_0) + L f, which does not depend on F. At
@@ -21,7 +21,7 @@
  *
  * UNSTABLE. Where H < 0 friction drives the slip on the cloth. Let it begin at b = 0 with the
  * rate d without friction, and let friction alone have the rate h. A slip that is not zero but
- * an error e goes on in its own direction if h > d. If not, its component across d grows like
+ * an error e continues in its own direction if h > d. If not, its component across d grows like
  * |b|^(h / (d + h)), to e^(d / (d + h)). At h = MOST_DRIVEN d a rounding error of 1e-16 becomes
  * 2.5e-10; beyond that there is no result.
  *
@@ -30,7 +30,7 @@
 
 #include <math.h>
 
-static const double EDGE = 1e-9;          /* share of the cone that is not used */
+static const double EDGE = 1e-9;          /* fraction of the cone that is not used */
 static const double MOST_DRIVEN = 2. / 3; /* h / d: see the head */
 static const double NEARLY_JAMMED = 5e-8; /* v and both slips together, of a ball that is about
                                              to be jammed */
@@ -95,7 +95,7 @@ static bool both_hold(const carom_law *law) {
 }
 
 /* The regime where both slips are zero: the first of these that is consistent with its own
- * rates. Everything lies along y. False if none is. */
+ * rates. Everything is along y. False if none is. */
 static bool from_rest(const carom_law *law, carom_regime *regime) {
   const double mu = law->mu;
   if (both_hold(law)) {

@@ -29,9 +29,9 @@
 /* Found by trial with `carom-lab stress --cushion 20000`. With an ellipse of 2.2 errors in play
  * reach 7.3e-7 instead of 1.1e-7, and with one of 6 impacts of any kind take 5 % longer. With
  * twice of SINH_LENGTH they take 13 % longer. */
-static const double ELLIPSE = 3; /* b passes near zero if its complex zero lies within this
+static const double ELLIPSE = 3; /* b passes near zero if its complex zero is within this
                                     ellipse: see nearest() */
-/* least d, as a share of the distance to p_c */
+/* least d, as a fraction of the distance to p_c */
 static const double LEAST_D = 1e-3, LEAST_D_UNSTABLE = 1e-14;
 static const double SINH_LENGTH = 3; /* length of a step in x */
 /* Less than these would divide by 0: D of a drive, and the sine of psi_0 */
@@ -65,7 +65,7 @@ static void even_map(planned_step *step, double length) {
 /* Where a straight line is nearest to zero. */
 typedef struct passage {
   double p_c, d;
-  bool matters; /* a step of the length asked for has to take account of it */
+  bool matters; /* a step of the length requested has to take account of it */
 } passage;
 
 static passage nearest(const carom_point *point, double rate_x, double rate_y, double length) {

@@ -164,7 +164,7 @@ always void invert(double (*matrix)[NODES]) {
         EACH ROW(matrix[other], i) =
             (part_of_row)madd(column[i], splat(row), PART(matrix[other], i));
       }
-    /* that column of the inverse takes its place */
+    /* that column of the inverse takes its position */
     AT(column, step) = pivot;
     EACH ROW(matrix[step], i) = (part_of_row)column[i];
   }

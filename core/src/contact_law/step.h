@@ -29,7 +29,7 @@
  *
  * ITERATION. The directions give a and b, whose directions differ from u and t by angles. Let r
  * be that of a to u. A rotation of u by d rotates a too, by (1/|a|) times the component across u
- * of the integral of z da'/dphi d. Newton's method asks for
+ * of the integral of z da'/dphi d. Newton's method requires
  *
  *     d = r - (1/|a|) M(z k d),     k = -(component of da'/dphi across u)
  *
@@ -59,7 +59,7 @@ static const double CONVERGED = 4e-8;       /* error that the iteration may leav
 static const double TOLERANCE = 4e-7;       /* square of the error estimate, over the length of
                                                the step, */
 static const double TOLERANCE_EXACT = 1e-9; /* and where the step is exact */
-static const double SETTLED = 1e-6;         /* last correction of the length, as a share of it */
+static const double SETTLED = 1e-6;         /* last correction of the length, as a fraction of it */
 static const double EVENT_TOLERANCE = 1e-8; /* event function that does not yet end a regime, */
 static const double LATE = 1e-5;            /* and within a step that ends at its event */
 static const double NEARLY_STOPPED = 1e-8;  /* v that counts as 0 where the cloth's slip has come
@@ -77,9 +77,10 @@ static const double LATER_SHARE = 0.3;
 /* An iteration has diverged where its correction is larger than LOST, or after PATIENCE iterations
  * where it converges slowly and is still coarse. A coarse one has not converged in any case. */
 static const double LOST = 10, SLOW_RATE = 0.6, COARSE = 1e-3;
-/* One correction of the length is within these shares of it. */
+/* One correction of the length is within these fractions of it. */
 static const double MOST_SHORTENED = -0.4, MOST_LENGTHENED = 0.5;
-/* The share of the length by which a step grows that sees no way to its work, or to its event. */
+/* The fraction of the length by which a step grows that sees no way to its work, or to its
+ * event. */
 static const double BLIND_WORK = 0.3, BLIND_EVENT = 0.2;
 /* SOFTENED: the first iterations, which compute `ease`. */
 enum { MOST_ITERATIONS = 12, PATIENCE = 3, SOFTENED = 2 };
@@ -352,7 +353,7 @@ always double to_goal(const carom_terms *terms, const carom_point *start, const 
 }
 
 /* Takes a step from *point. driving_slips: that contact slips; loaded: the cloth bears a load, and
- * slips. A refused step leaves *point as it is; then *advice is, for INACCURATE, the squared error
+ * slips. A rejected step leaves *point as it is; then *advice is, for INACCURATE, the squared error
  * estimate over the tolerance, and for EVENT_WITHIN the p from here to the event. */
 always enum outcome collocate(const carom_terms *regime_terms, const planned_step *step,
                               const bool driving_slips, const bool loaded, const enum exact exact,
@@ -364,7 +365,7 @@ always enum outcome collocate(const carom_terms *regime_terms, const planned_ste
   double for_u[NODES][NODES] __attribute__((aligned(PART_BYTES))),
       for_t[NODES][NODES] __attribute__((aligned(PART_BYTES)));
 
-  /* the planned directions; 1/E; `ease`, which stands for E(X)/E(X') of t; the weights of the
+  /* the planned directions; 1/E; `ease`, which represents E(X)/E(X') of t; the weights of the
    * work */
   EACH {
     guess.u_x[i] = step->u_x[i];

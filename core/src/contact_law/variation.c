@@ -40,7 +40,7 @@
  * int (F - F_h) dp = -db/H. Where the load may change its sign on the way, the derivatives
  * depend on the direction of da.
  *
- * Where these equations do not say how an impact goes on, its derivatives are central
+ * Where these equations do not say how an impact continues, its derivatives are central
  * differences of order 4: motion in a plane, whose perturbations leave it; balls that jam; a
  * slip that passes through zero. A kink is seen there by the differences to each side. */
 #include "contact_law/variation.h"
@@ -52,7 +52,7 @@
 static const double TOLERANCE = 1e-2;   /* of the solver: see impact.h */
 static const double UNRESOLVED = 1e-5;  /* of a slip's derivative, that is left where the slip
                                            ends */
-static const double COEFFICIENT = 1e-5; /* share of a variable by which coefficients are
+static const double COEFFICIENT = 1e-5; /* fraction of a variable by which coefficients are
                                            differentiated */
 static const double CONE = 0.02;        /* 1 - (|f| / mu)^2 of a slip that friction hardly holds:
                                            core/tests/agree/tangents.c */
@@ -97,7 +97,7 @@ static double changed_terms(const carom_trajectory *path, enum carom_variable va
   const carom_law *law = &path->law, *d_law = path->variation->d_law;
   carom_law changed[2] = {*law, *law};
 
-  /* a friction by a share of itself; else all coefficients along their derivatives */
+  /* a friction by a fraction of itself; else all coefficients along their derivatives */
   double step = COEFFICIENT;
   for (int side = 0; side < 2; side++) {
     const double share = side == 0 ? COEFFICIENT : -COEFFICIENT;
@@ -232,7 +232,7 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *start, bo
             ? -(u_x * variation->d[first][variable] + u_y * variation->d[first + 1][variable]) /
                   falls
             : 0;
-    /* the rest of da, which has to be 0, tells how well the end of the slip was resolved */
+    /* the rest of da, which has to be 0, reports how well the end of the slip was resolved */
     const double x = variation->d[first][variable] + variation->rate[first] * d_p,
                  y = variation->d[first + 1][variable] + variation->rate[first + 1] * d_p;
     if ((variation->requests >> variable & 1) &&
@@ -462,7 +462,7 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   memset(&variation, 0, sizeof variation);
   memset(out, 0, sizeof *out);
 
-  /* each variable asked for begins as its own derivative */
+  /* each variable requested begins as its own derivative */
   variation.d_law = d_law;
   variation.requests = requests;
   for (int variable = BY_A_X; variable <= BY_B_Y; variable++)

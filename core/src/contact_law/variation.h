@@ -47,7 +47,7 @@ typedef struct carom_variation {
   double d_W_c[CAROM_VARIABLES]; /* of the work of compression */
   double rate[CAROM_VARIED];     /* y' at the end of the last step, by its regime */
   double lead[4];                /* directions of a and b there */
-  bool lost;                     /* the equations do not say how it goes on: planar motion, a
+  bool lost;                     /* the equations do not say how it continues: planar motion, a
                                     jammed ball */
   bool kink;                     /* a slip begins from zero, and there is a seed by it */
 } carom_variation;
@@ -73,11 +73,12 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
 void carom_variation_begin_regime(carom_trajectory *path);
 /* Directions of the slips at a point; `otherwise` where a slip is zero. */
 void carom_variation_leads(const carom_point *point, const double otherwise[4], double lead[4]);
-/* The rates at one place, from directions. */
+/* The rates at one position, from directions. */
 void carom_variation_rates(const carom_terms *k, const double lead[4], double v,
                            double rate[CAROM_VARIED]);
 
-/* Called by advance.c, besides variation_step() of variation_step.h: after a straight step; */
+/* Called by advance.c, in addition to variation_step() of variation_step.h: after a straight
+ * step; */
 void carom_variation_straight(carom_trajectory *path, const carom_point *start, bool planar);
 /* and after either, once the regime is decided. phase_ended: compression or restitution has. */
 void carom_variation_follow(carom_trajectory *path, const carom_point *start, bool phase_ended);

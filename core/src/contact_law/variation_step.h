@@ -28,7 +28,7 @@ static const double ESTIMATE_AT_STICK = 1e-12; /* of one at whose end a slip is 
                                                   solutions are not smooth */
 static const double SHORTEST = 1e-8;           /* length of a step that is taken in any case */
 static const double SHARE = 0.8;  /* of the longest step that slides: a longer one would often be
-                                     refused, or be inaccurate */
+                                     rejected, or be inaccurate */
 static const double SMALL = 0.05; /* a slip that may turn fast: the change by a shift along
                                      the motion is split off */
 
@@ -375,7 +375,7 @@ static double variation_step(carom_trajectory *path, const carom_point *start, b
   if (at_nodes.loaded)
     solve_t(&path->terms, start, &at_nodes, d, of_u, phi, psi);
 
-  /* refused where the estimate is too large, and the step can be shorter */
+  /* rejected where the estimate is too large, and the step can be shorter */
   nodes end[CAROM_VARIED];
   EACH end[OF_W][i] = length * d[OF_V][i];
   const double error = integrate_rates(variation, &at_nodes, length, phi, psi, end);

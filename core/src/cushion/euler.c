@@ -7,7 +7,7 @@
  * steps until the work sum |v_y| cos(theta) dP reaches e^2 of that of compression; the last step
  * is as long as its work should be. The work of a step is taken with the v_y after it.
  *
- * The steps of restitution are e M v_y / N. pooltool takes the number of joules to give back,
+ * The steps of restitution are e M v_y / N. pooltool takes the number of joules to return,
  * over N, for newton seconds, and so does its convention here. No step is below `least`. As
  * there, a phase of more than 10 N steps is given up.
  *

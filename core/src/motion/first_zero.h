@@ -24,7 +24,7 @@
 
 #include <math.h>
 
-/* The root of the discriminant is the slope but for this share of its square: then their
+/* The root of the discriminant is the slope but for this fraction of its square: then their
  * difference has lost half of its digits. */
 #define CAROM_ROOT_IS_SLOPE 1e-8
 

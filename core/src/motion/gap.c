@@ -18,7 +18,7 @@
  *
  *     gap     ____
  *      |    .'    `.         Things that touch and part: `turn` is where the gap is greatest. The
- *      |  .'        `.       contact is where it has come back to 0, and has fallen by CAROM_SLACK
+ *      |  .'        `.       contact is where it has returned to 0, and has fallen by CAROM_SLACK
  *      | /            \      at least.
  *    --+/------|-------\---- time
  *      0      turn   contact
@@ -29,7 +29,7 @@
 
 #include <math.h>
 
-/* A gap below this share of reach^2 is at its zero, but for one last step: first_zero.h. */
+/* A gap below this fraction of reach^2 is at its zero, but for one last step: first_zero.h. */
 static const double SMALL = 1e-12;
 
 /* c0 + c1 t + ... + c4 t^4 */

@@ -18,7 +18,7 @@
 /* Of the cube of the speed that a pair with drag takes. T is longer than the estimate by the
  * slowing at the start of the pair, so the speed has to be smaller. */
 #define CUBE_WITH_DRAG 0.6
-/* Drag counts if it slows a ball by more than this share of its rolling friction. */
+/* Drag counts if it slows a ball by more than this fraction of its rolling friction. */
 #define NEGLIGIBLE_DRAG 1e-16
 
 /* Of pairs on a slope. core/tests/physics/slope.c measures the errors of positions that they leave.

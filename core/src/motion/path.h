@@ -60,7 +60,7 @@
  *       0   T/2      T
  *
  * Errors do not accumulate from pair to pair. Within one, where J is v'' (J = 2 k v (A + k v^2),
- * largest at the start, and nearly constant), the place differs from the exact one by J T^3 /
+ * largest at the start, and nearly constant), the position differs from the exact one by J T^3 /
  * 324 at most, at T/3 and 2T/3, and by nothing at T/2. The speed v0 - v1 that a pair takes is
  * chosen for an error of 1e-5 m. Where that is v0 the pair ends at rest.
  *
@@ -78,9 +78,9 @@
  *   W = q^2 (e0 (2A + h) / (4A^2 - c^2) + c (1 + 3h (2A + h) / (4A^2 - c^2)) / (4 (A^2 - c^2))):
  *
  * by the rule of products |u| (A + h) falls at A^2 - c^2, and |u|^2 times a polynomial of e at the
- * components of u. A slope below mu_r and mu_s leaves c < 5/7 A, so every ball comes to rest.
+ * components of u. A slope below mu_r and mu_s leaves c < 5/7 A, so every ball stops.
  *
- * A pair ends in the state where u is 0, if the place within it is good to 1e-5 m. Otherwise it
+ * A pair ends in the state where u is 0, if the position within it is good to 1e-5 m. Otherwise it
  * ends after a part h of its speed, in the state of RUNGE_STEPS steps of Runge's and Kutta's
  * method, which is good to 1e-6 m. Its two accelerations are those of a pair with drag, as vectors.
  * core/tests/physics/slope.c measures both errors. With drag the last pair has A (1 + 0.35 y), y =
@@ -109,7 +109,7 @@ typedef struct carom_ball_rates {
 carom_ball_rates carom_rates_of(const carom_ball_kind *kind);
 carom_ball_rates carom_rates_on_slope(const carom_ball_kind *kind, double slope_x, double slope_y);
 
-/* Whether the cloth slopes, or derivatives by its slope are asked for. */
+/* Whether the cloth slopes, or derivatives by its slope are requested. */
 static inline bool carom_is_sloped(const carom_ball_rates *rates) {
   return !carom_absent(rates->downhill[0]) || !carom_absent(rates->downhill[1]);
 }
@@ -146,7 +146,7 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double st
 
 /* The second piece of a pair, from the state in path->from. */
 void carom_path_second(carom_path *path, double start);
-/* At the end of a path that goes on: the next piece. */
+/* At the end of a path that continues: the next piece. */
 void carom_path_go_on(carom_path *path, const carom_ball_rates *rates);
 
 /* Goes on to the piece that has a time. False where that takes more pieces than any shot: 1000 s of
@@ -163,7 +163,7 @@ void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double
 int64_t carom_label_of(carom_ball_state *state, double radius);
 
 /* The same where the ball may have left the cloth: airborne with v_z other than 0 or above the
- * cloth. A ball on the cloth that moves down or up by rounding, less than 1e-9 m/s, lies on it. */
+ * cloth. A ball on the cloth that moves down or up by rounding, less than 1e-9 m/s, is on it. */
 int64_t carom_label_in_space(carom_ball_state *state, double radius);
 
 static inline bool carom_flies(const carom_ball_state *state) {

@@ -1,5 +1,5 @@
 /* Run-time choice of the instruction set: the highest that the processor has, or a lower one
- * where that is asked for.
+ * where that is requested.
  *
  * The one piece of global state of the library is here: the set in force, an atomic that the
  * first use fills. Asking for a lower set is for tests, comparisons and bug reports; the results

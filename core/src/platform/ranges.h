@@ -17,7 +17,7 @@ static inline double carom_greater(double a, double b) {
   return a > b ? a : b;
 }
 
-/* A number of the caller's, or the usual one that 0 stands for. It has the derivatives of the
+/* A number of the caller's, or the usual one that 0 represents. It has the derivatives of the
  * number in both cases. */
 static inline double carom_or_usual(double value, double usual) {
   return value > 0.0 ? value : usual + value;

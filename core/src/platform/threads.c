@@ -59,7 +59,7 @@ enum {
 };
 
 struct carom_crew {
-  size_t threads;               /* beside the calling one */
+  size_t threads;               /* next to the calling one */
   atomic_size_t begun, working; /* jobs so far; threads that are not done with the last one */
   atomic_bool over;             /* there are no more */
   /* the last one */

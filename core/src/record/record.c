@@ -1,9 +1,9 @@
 /* Recordings: lines of JSON, read and written by one table of keys.
  *
  * A line is {"KIND": {"KEY": VALUE, ...}}. A field of the table below is a key, the type of its
- * value and its place in carom_record. A key that is missing has the value 0; in an object of a
+ * value and its position in carom_record. A key that is missing has the value 0; in an object of a
  * list, the value of the object before it. So a writer leaves out the fields that have the bytes of
- * that default, and a reader begins with it. Every other key is refused, and every one that comes
+ * that default, and a reader begins with it. Every other key is rejected, and every one that comes
  * twice.
  *
  * The command has a second reader of balls and cues, command/shots/shot_file.c, because its files
@@ -162,9 +162,9 @@ static uint64_t stir_text(uint64_t hash, const unsigned char *text) {
   return hash;
 }
 
-/* Adds an object to a hash: each of its numbers that is not 0, behind its place among them, counted
- * from 1; of a list the number of its objects and these; and 0 as its end. So a key that a later
- * version adds behind the others changes no hash where it is missing. */
+/* Adds an object to a hash: each of its numbers that is not 0, behind its position among them,
+ * counted from 1; of a list the number of its objects and these; and 0 as its end. So a key that a
+ * later version adds behind the others changes no hash where it is missing. */
 static uint64_t stir_object(uint64_t hash, const carom_field *fields, const unsigned char *object) {
   uint64_t place = 0;
   for (const carom_field *f = fields; f->key != NULL; f++) {
@@ -995,7 +995,7 @@ static bool can_be_written(const carom_record *record, int kind) {
   return true;
 }
 
-/* Numbers that a line says beside what the record has. Returns the hash behind the line. */
+/* Numbers that a line has in addition to the record. Returns the hash behind the line. */
 static uint64_t complete_line(carom_record *record, int kind) {
   if (kind == CAROM_RECORD_HEAD) {
     record->format = FORMAT;

@@ -6,7 +6,7 @@
  *
  * key:    in files of `carom shoot`.
  * low, high: both ends belong to the range.
- * other:  a value beside the range; NAN: there is none. Where it is 0, that is a default.
+ * other:  an allowed value outside the range; NAN: there is none. Where it is 0, that is a default.
  * ERROR:  the status of a number that is neither.
  * READER: ALWAYS, BY_CUSHION(MODEL) or BY_FRICTION(LAW): what reads it. WITH(MODEL, number): a
  *         cushion too, and where that other number is 0, this one must be 0.
@@ -182,7 +182,7 @@
   LATER(w, "", "rad/s", -1e6, 1e6, NAN, SPIN, "angular velocity") \
   LATER(label, "", "", 0, 6, NAN, LABEL, "how it moves, a carom_label")
 
-/* What a number of a ball stands for where it is 0 and 0 is a default: carom_ball_kind_resolve()
+/* What a number of a ball represents where it is 0 and 0 is a default: carom_ball_kind_resolve()
  * writes these, and whoever reads a number takes them from here. That of the law of friction is
  * carom_alciatore(). */
 #define CAROM_USUAL_OMEGA_RATIO 1.8

@@ -15,7 +15,7 @@
 #include <stdint.h>
 
 /* Options of carom_shot_options that decide the motion, in the order of recordings. The number
- * behind the text is the place of the option's 32 bits in the fingerprint of a stopped shot. */
+ * behind the text is the position of the option's 32 bits in the fingerprint of a stopped shot. */
 #define CAROM_MOTION_OPTIONS(OPTION)                                                               \
   OPTION(world, "world", WORDS(WORLD), 0, CAROM_WORLD_POOLTOOL, WORLD,                             \
          "rules of contact, and the default models", 0)                                            \
@@ -85,7 +85,7 @@
          "sign of the spin in the slip over the cloth")                 \
   CAROM_CALL_OPTIONS(OPTION)
 
-/* Options of carom_cushion_options, beside the numbers of numbers.h. */
+/* Options of carom_cushion_options, in addition to the numbers of numbers.h. */
 #define CAROM_RAIL_OPTIONS(OPTION)                                                              \
   OPTION(model, "model", WORDS(CUSHION_MODEL), 0, CAROM_CUSHION_MODEL_COUNT - 1, CUSHION_MODEL, \
          "model of the impact")                                                                 \

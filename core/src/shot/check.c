@@ -1,4 +1,4 @@
-/* The one place where the arguments of a shot are checked, by the conditions of the comments in
+/* The only place where the arguments of a shot are checked, by the conditions of the comments in
  * carom_shot.h: the table and the options once for a batch; a layout, its cue, and whether the
  * table suits the radius of its balls, for each. */
 #include "cushion/list.h"
@@ -163,7 +163,7 @@ typedef struct row_rules {
   bool flat, one_mass;
 } row_rules;
 
-/* A ball by itself, beside the first one, and for the table. */
+/* A ball by itself, next to the first one, and for the table. */
 static carom_status check_alone(const carom_prepared *prepared, const row_rules *rules, int index) {
   const carom_ball_kind *kind = prepared->kind[index], *first = prepared->kind[0];
   /* most balls are of the kind of the one before, which is good */
@@ -186,7 +186,7 @@ static carom_status check_alone(const carom_prepared *prepared, const row_rules 
   return check_state(prepared->state[index], kind->radius, rules->flat);
 }
 
-/* Where a ball is: on the table or above it, and beside the balls before it, whose centres have
+/* Where a ball is: on the table or above it, and next to the balls before it, whose centres have
  * these heights. */
 static carom_status check_position(const carom_prepared *prepared, int index,
                                    const double *height) {

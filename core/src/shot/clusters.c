@@ -34,7 +34,7 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
     member.v[2] = 0.0;
   }
 
-  /* what it is made of, where 0 stands for usual */
+  /* what it is made of, where 0 means the usual value */
   member.flies = flies;
   member.index = (int8_t)ball;
   member.radius = kind->radius;
@@ -66,7 +66,7 @@ static int in_order(const carom_cluster_state *cluster, uint8_t order[CAROM_CLUS
   for (int index = 0; index < cluster->contacts; index++) {
     if (!(cluster->contact[index].impulse > 0.0))
       continue;
-    /* put in its place from behind: before all that touch later by more than a tie */
+    /* put in its position from behind: before all that touch later by more than a tie */
     int place = count++;
     for (;
          place > 0 && cluster->contact[index].time < cluster->contact[order[place - 1]].time - tie;
@@ -272,7 +272,7 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_in_turn *turn,
                       carom_cluster_state *cluster, uint8_t order[CAROM_CLUSTER_CONTACTS]) {
   CAROM_PROMISE(i < j);
 
-  /* all balls in play, as they are now; the two that meet, by their places in the list */
+  /* all balls in play, as they are now; the two that meet, by their positions in the list */
   cluster->balls = 0;
   cluster->struck = cluster->on_slate = false;
   cluster->steps = steps_of(sim->opt);

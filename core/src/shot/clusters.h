@@ -40,7 +40,7 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_in_turn *turn,
 /* The motion of a ball after its cluster. */
 void carom_cluster_take(const carom_cluster_ball *ball, carom_ball_state *state);
 
-/* The contact of two balls, each of which is as given at a time of its own, s from now on: they
+/* The contact of two balls, each of which is as given at its own time, s from now on: they
  * become as they are after it, these times that of the touch, and the impulse counts it. Nothing
  * changes where they do not touch by the `last` time. */
 void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball_state *state_a,
@@ -68,12 +68,12 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
 int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
                          carom_cluster_state *cluster, uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
-/* follow_through.c. The cue goes on from now at a speed, its tip `lead` m ahead of where the
+/* follow_through.c. The cue continues from now at a speed, its tip `lead` m ahead of where the
  * ball has it, as places.c has it. */
 void carom_follow_on(carom_play *play, double speed, double lead);
 /* Sets play->follow.time: when its tip touches the struck ball again. */
 void carom_follow_find(carom_play *play);
-/* *moved_cue becomes the cue with the place of its tip and its speed. Returns whether that is a
+/* *moved_cue becomes the cue with the position of its tip and its speed. Returns whether that is a
  * touch. */
 bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue);
 

@@ -8,7 +8,7 @@
  * CHORD. On [0, T] the separation d = p + e t + a t^2 has the chord T c, c = e + T a, and differs
  * from it by -a t (T - t), which is a T^2/4 at most. So it stays farther from the origin than
  *
- *            .--''''--.     the path, T^2/4 a at most beside its chord
+ *            .--''''--.     the path, T^2/4 a at most off its chord
  *          o---- T c --->o
  *        p  \           /  p + T c
  *            \         /
@@ -276,7 +276,7 @@ static void meet_balls(carom_sim *sim, int ball, int done) {
     end[partner] = common;
   }
 
-  /* those that may meet; each pair stands at the lower index */
+  /* those that may meet; each pair is at the lower index */
   for (int partner = 0; partner < count; partner++) {
     if (partner == ball || partner == done)
       continue;

@@ -108,7 +108,7 @@ static void meet(carom_facts *facts, const carom_sim *sim, int ball) {
   }
 }
 
-/* Whether a ball that meets a cushion is frozen to it: the ball lies where it lay at first. */
+/* Whether a ball that meets a cushion is frozen to it: the ball is where it lay at first. */
 static bool is_frozen(const carom_sim *sim, int ball) {
   const double *first = sim->layout->state[ball]->r;
   const carom_ball_state current = state_now(sim, ball);
@@ -127,7 +127,7 @@ static void meet_cushion(carom_facts *facts, const carom_sim *sim, const carom_d
     facts->rails[ball] |= set_of(part);
 }
 
-/* Whether a ball that falls into a pocket has met a rail that does not end beside it. */
+/* Whether a ball that falls into a pocket has met a rail that does not end next to it. */
 static bool is_banked(const carom_sim *sim, int ball, int pocket) {
   const uint32_t rails = sim->shot->facts->rails[ball];
   for (int rail = 0; rails >> rail != 0; rail++)
@@ -137,7 +137,7 @@ static bool is_banked(const carom_sim *sim, int ball, int pocket) {
 }
 
 /* A ball has an event: where it has been. Its last event was at the start of its path; where it
- * comes to rest, it has no other one. */
+ * stops, it has no other one. */
 static void been_at(carom_facts *facts, const carom_sim *sim, int ball, bool rests) {
   double y = sim->path[ball].from.r[1];
   if (rests)

@@ -214,7 +214,7 @@ static bool find_states(replay *state, double *left, carom_ball_state *states,
   return true;
 }
 
-/* The shot whose frames are asked for. */
+/* The shot whose frames are requested. */
 typedef struct shown_shot {
   const carom_shot_ball *balls;
   int count;
@@ -256,7 +256,7 @@ static bool has_moving_ball(const replay *state) {
   return false;
 }
 
-/* One frame, whose states and turns go to the places given; turned may be NULL. */
+/* One frame, whose states and turns go to the positions given; turned may be NULL. */
 static carom_status show_frame(replay *state, const shown_shot *shown, double time, double *left,
                                carom_ball_state *states, double (*turned)[4]) {
   const double end = shown->shot->time;

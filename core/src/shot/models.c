@@ -1,4 +1,4 @@
-/* Collisions of balls with each other and with cushions, by the model that the options ask for. */
+/* Collisions of balls with each other and with cushions, by the model that the options request. */
 #include "cushion/models.h"
 #include "cluster/cluster.h"
 #include "friction/laws.h"
@@ -341,7 +341,7 @@ static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const
   carom_take_impulse(&touch, kind->radius, (1.0 + c.e) * touch.closing, J_t, state);
 }
 
-/* A ball on the cloth, by the model asked for. */
+/* A ball on the cloth, by the model requested. */
 static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind *kind,
                                     const double normal[2], const carom_nose *nose,
                                     carom_ball_state *state) {
@@ -360,7 +360,7 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
   carom_motion out;
   carom_status status = carom_cushion_solve(&in, &options, &out);
 
-  /* a shot goes on by the same model's steps where its limit is refused, as for a ball whose
+  /* a shot continues by the same model's steps where its limit is rejected, as for a ball whose
    * rolling is exact but for rounding
    */
   if (status == CAROM_ERROR_UNRESOLVED && options.model == CAROM_CUSHION_MATHAVAN) {

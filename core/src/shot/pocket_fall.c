@@ -1,7 +1,7 @@
 /* States for drawing: pocketed balls that fall.
  *
  * For the shot a ball that reaches a pocket's circle is down. For drawing it falls freely from
- * there, until it lies at the pocket's depth, where it stays. Let p be its place from the pocket's
+ * there, until it is at the pocket's depth, where it stays. Let p be its position from the pocket's
  * middle, and v its horizontal velocity, where it reaches the circle. It goes straight,
  *     p(t) = p + v t,
  * to the wall, which is the circle of radius W on which its centre can be; then with the part of
@@ -17,11 +17,11 @@
  *       '.  '---'  .'
  *         '-.....-'
  *
- * A ball that comes down on one that lies, at q, goes on around it in the direction in which it
+ * A ball that comes down on one that lies, at q, continues around it in the direction in which it
  * touched it, at the level distance
  *     D = sqrt((R + R_q)^2 - (z - z_q)^2),
  * or in the nearest direction in which that is within the wall. Where there is none, or it touches
- * a third one, it lies there. */
+ * a third one, it is there. */
 #include "carom_shot.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
@@ -109,7 +109,8 @@ static double distance_from(const pocket_fall *fall, const lying *neighbor, doub
   return sqrt(carom_greater(sum * sum - up * up, 0.0));
 }
 
-/* That one of those that lie, other than the touched one, in which a ball would be at a place. */
+/* That one of those that lie, other than the touched one, in which a ball would be at a
+ * position. */
 static const lying *in_its_way(const pocket_fall *fall, double time, const double place[2]) {
   const double height = height_of(fall, time);
   for (int index = 0; index < fall->count; index++) {
@@ -136,7 +137,7 @@ static double to_middle(const pocket_fall *fall, const lying *neighbor, double t
   return far;
 }
 
-/* The place from the pocket's middle around the one that was touched. Returns whether there is
+/* The position from the pocket's middle around the one that was touched. Returns whether there is
  * one within the wall. */
 static bool around(const pocket_fall *fall, double time, double place[2]) {
   double toward[2];
@@ -156,15 +157,15 @@ static bool around(const pocket_fall *fall, double time, double place[2]) {
   return least <= 1.0;
 }
 
-/* The place from the pocket's middle, and the velocity of a ball that touches none. Returns whether
- * it is free. */
+/* The position from the pocket's middle, and the velocity of a ball that touches none. Returns
+ * whether it is free. */
 static bool place_at(const pocket_fall *fall, double time, double place[2], double velocity[2]) {
   fall_alone(fall, time, place, velocity);
   const bool within = fall->touched == NULL || time < fall->touch || around(fall, time, place);
   return within && in_its_way(fall, time, place) == NULL;
 }
 
-/* The last time up to the end at which the place is still free, from a time on. */
+/* The last time up to the end at which the position is still free, from a time on. */
 static double last_free(const pocket_fall *fall, double start) {
   static const int parts = 200; /* of the time: drawings show no shorter passage */
   enum { BISECTIONS = 40 };     /* to rounding */
@@ -280,7 +281,7 @@ carom_status carom_shot_falls(const carom_table *table, const carom_shot_ball *b
         state_at(&fall, times[instant] - event->time,
                  &states[instant * (size_t)count + (size_t)event->a]);
 
-    /* where it lies at last, for those that fall on it */
+    /* where it is at last, for those that fall on it */
     if (down == CAROM_BALLS_MOST) /* events that no shot has */
       continue;
     carom_ball_state last = event->before[0];

@@ -21,7 +21,7 @@
  * stay.
  *
  * SPRINGS. Both contacts load as k d, and unload as k/e^2 (d - rest) with rest = (1 - e^2) d_max,
- * so that e^2 of the work comes back. Where the force has reached 0 the contact leaves: it has no
+ * so that e^2 of the work returns. Where the force has reached 0 the contact leaves: it has no
  * force, and the set recovers as d falls. If it closes again before d is 0, it loads along the line
  * of unloading from there. It is open where d < 0; what closes then touches anew. A cue without a
  * follow-through does not touch anew.
@@ -33,7 +33,7 @@
  *
  * and C and U of a sum of two times follow from those of both. No step has to be small: steps are
  * taken only to find where a phase ends. That is where a value changes its sign within a step, or
- * dips below 0 and comes back. Hermite's cubic gives the time, and one step of Newton's method on
+ * dips below 0 and returns. Hermite's cubic gives the time, and one step of Newton's method on
  * the modes themselves makes it exact. Slip and impulses follow from the speeds.
  *
  * The law is homogeneous: all speeds over V are the same for each V, and only the ratio of the
@@ -89,7 +89,7 @@ typedef struct push_spring {
 typedef struct push_state {
   double B, S, D, mu;    /* the numbers of the equations */
   double V, mass_ratio;  /* of the cue: speed before the strike, m/s; m/M */
-  double follow;         /* m: how far the cue goes on */
+  double follow;         /* m: how far the cue continues */
   push_spring spring[2]; /* of tip and slate */
   double time;           /* s since the touch */
   double slip;           /* s, m/s */

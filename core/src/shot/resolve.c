@@ -35,7 +35,7 @@
  * IN SPACE. Where a ball flies, or two radii differ, the line of centres and the normal of a
  * nose have a third component, and the models are those of spheres, far enough from the cloth;
  * the rules above are the same. A ball on the cloth may leave it then: pushed down it is airborne
- * with v_z < 0 and lands at the same instant, as an event of its own, since two balls part long
+ * with v_z < 0 and lands at the same instant, as its own event, since two balls part long
  * before ball and cloth do.
  *
  * NEAR THE CLOTH. The cloth holds a ball that a cushion presses down, which takes longer than
@@ -52,7 +52,7 @@
  * through the line of centres then, and leaves velocities across that plane as they are. Both ends
  * part along the line of centres. A ball that is lifted flies, one that is pressed down lands.
  *
- * PRESSED BY WEIGHT. A ball that lies on another, or on a nose, is pressed by its weight, which
+ * PRESSED BY WEIGHT. A ball that is on another, or on a nose, is pressed by its weight, which
  * does not end as spin does. So a slow contact in space takes energy from phi of the motion of
  * the balls past each other, too, as opposite impulses on both. The cloth takes an impulse that
  * pushes a ball down at once, without a landing. The upper ball hops as it rolls off.
@@ -168,7 +168,7 @@ static double part_slowly(const contact_pair *contact, double slow, double m, do
   if (!(lost > 0.0))
     return fmax(closing, 0.0);
 
-  /* the same share of all spins and of the motion past each other */
+  /* the same fraction of all spins and of the motion past each other */
   const double share = sqrt(1.0 - lost / spin) * (1.0 - ROUNDED_ENERGY);
   CAROM_PROMISE(!(share < 0.5 || share > 1.0));
   slow_spin(contact->a, share);

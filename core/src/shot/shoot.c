@@ -12,7 +12,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Counts an event, and gives the place where its states go: in the caller's list, or a spare one
+/* Counts an event, and gives the position where its states go: in the caller's list, or a spare one
  * where that has no room. */
 static inline carom_event *note(carom_sim *sim, carom_event *spare,
                                 const carom_due *pending_event) {
@@ -131,12 +131,12 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *clu
   carom_status status = CAROM_OK;
   const int struck = sim->struck;
   for (int index = 0; index < count; index++) {
-    /* one contact as an event of its own; balls stand in the caller's order */
+    /* one contact as its own event; balls are in the caller's order */
     const carom_cluster_contact_state *touching = &cluster->contact[order[index]];
     const carom_cluster_ball *two[2] = {&cluster->ball[touching->i], &cluster->ball[touching->j]};
     const carom_due contact = {sim->time, CAROM_EVENT_BALL_BALL, two[0]->index, two[1]->index};
     CAROM_PROMISE(contact.a < contact.b);
-    /* whether the shot stops is asked for the first contact of the struck ball */
+    /* the first contact of the struck ball decides whether the shot stops */
     if ((contact.a == struck || contact.b == struck) && pending_event->a != struck &&
         pending_event->b != struck)
       *pending_event = contact;
@@ -177,7 +177,7 @@ static carom_status unresolved(carom_sim *sim) {
 }
 
 /* Those contacts by the cluster; false where its touches have to be taken in turn first. *count
- * becomes that of its contacts. This is a function of its own because a cluster needs 30 KiB of
+ * becomes that of its contacts. This is its own function because a cluster needs 30 KiB of
  * stack. */
 __attribute__((noinline, cold)) static bool step_cluster(carom_sim *sim, carom_due *pending_event,
                                                          carom_in_turn *turn, int *count,
@@ -218,7 +218,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
 typedef enum push_kind { PUSH_OF_SEVERAL, PUSH_OF_ONE, PUSH_AGAIN } push_kind;
 
 /* Resolves the push of a cue together with the contacts of balls that last meanwhile; their events
- * stand behind that of the strike. Returns false, with nothing changed, where no other ball takes
+ * are behind that of the strike. Returns false, with nothing changed, where no other ball takes
  * part in a PUSH_OF_SEVERAL, and where a PUSH_AGAIN closes below CAROM_LEAST_TOUCH. *contact
  * becomes the first contact of the struck ball. */
 __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_cue *cue,
@@ -442,7 +442,7 @@ static bool stops_at(carom_sim *sim, int type, int a, int b) {
 }
 
 /* The tip touches the struck ball again, or the follow-through ends. *pending_event becomes what
- * happens; *lies whether the tip closes too slowly, and lies at the ball. */
+ * happens; *lies whether the tip closes too slowly, and is at the ball. */
 __attribute__((noinline, cold)) static carom_status
 touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
   carom_sim *sim = &play->sim;
@@ -465,18 +465,18 @@ touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
     carom_detect_all(sim);
     if (status == CAROM_OK && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1))
       status = CAROM_STOPPED_AT_EVENT;
-  } else if (touches) { /* the cue goes on */
+  } else if (touches) { /* the cue continues */
     *f = until_now;
     f->time = INFINITY;
   }
-  /* whether the shot stops at the strike is decided here; at a contact beside it, in go_on() */
+  /* whether the shot stops at the strike is decided here; at a contact next to it, in go_on() */
   if (pending_event->type == CAROM_DUE_NOTHING)
     pending_event->type = CAROM_DUE_PIECE;
   return status;
 }
 
 /* From event to event, until nothing moves or the shot is to stop. Nothing is changed by
- * stopping, so the loop goes on later as if it had not. */
+ * stopping, so the loop continues later as if it had not. */
 static carom_status go_on(carom_play *play) {
   carom_sim *sim = &play->sim;
   int64_t events_most = 10000;
@@ -505,7 +505,7 @@ static carom_status go_on(carom_play *play) {
       return out_of_time;
     }
 
-    /* another piece of a path is no event: only what it meets is looked for */
+    /* another piece of a path is not an event: only what it meets is looked for */
     if (pending_event.type == CAROM_DUE_PIECE) {
       sim->shot->time = sim->time = carom_greater(sim->time, pending_event.time);
       sim->round++;
@@ -546,7 +546,7 @@ static carom_status finish(carom_play *play, carom_status status) {
   for (int ball = 0; shot->final != NULL && ball < sim->count; ball++)
     carom_path_at(&sim->path[ball], &sim->rates[ball], shot->time, &shot->final[ball]);
 
-  /* a shot that a bound has cut off goes on with a greater one */
+  /* a shot that a bound has cut off continues with a greater one */
   const bool goes_on =
       status >= 0 || status == CAROM_ERROR_TOO_LONG || status == CAROM_ERROR_TOO_MANY_EVENTS;
   if (shot->state != NULL && goes_on)
@@ -556,7 +556,7 @@ static carom_status finish(carom_play *play, carom_status status) {
   return status;
 }
 
-/* The strike, and whether the shot is to go on after it. */
+/* The strike, and whether the shot is to continue after it. */
 static carom_status start(carom_play *play) {
   carom_sim *sim = &play->sim;
   carom_due contact = {0.0, CAROM_DUE_NOTHING, -1, -1};
@@ -637,7 +637,7 @@ __attribute__((noinline, cold)) static carom_status shoot_with_facts(const carom
   return status;
 }
 
-/* As a result begins: nothing happened, and there is nothing to go on with. */
+/* As a result begins: nothing happened, and there is nothing to continue with. */
 static void clear(carom_shot *shot) {
   shot->count = 0;
   shot->time = 0.0;

@@ -22,7 +22,7 @@ typedef struct carom_prepared {
 /* check.c: the arguments that the shots of a batch share; */
 carom_status carom_check_common(const carom_table *table, int64_t count,
                                 const carom_shot_options *opt, int *where);
-/* what a job needs beside them; */
+/* what a job needs in addition to them; */
 carom_status carom_check_job(const carom_shot_job *job);
 /* one layout on the table and with the same options, for which this prepares *features, unless
  * they are for its radii; */
@@ -60,7 +60,7 @@ static inline int64_t carom_others_of(const carom_table *table, int count, int t
   }
 }
 
-/* The options of a shot that its caller gave, or those that NULL stands for. */
+/* The options of a shot that its caller gave, or those that NULL represents. */
 static inline const carom_shot_options *carom_options_or_usual(const carom_shot_options *opt) {
   static carom_shot_options usual; /* all zero; never written: C++ wants no initializer here */
   return opt != NULL ? opt : &usual;

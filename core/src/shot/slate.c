@@ -21,10 +21,9 @@
  * acts for the same normal impulse as in the motion on the cloth, so |w_z| falls by 5 mu_sp J /
  * (2 m R), not below 0. The top of a rail is taken for slate.
  *
- * END OF HOPS. v' = sqrt(e^2 v_n^2 - s^2), and 0 where e v_n <= s or v' < 1e-9 m/s, s = 0.02
- * m/s: besides e a fixed loss of m s^2/2, a hop of 20 um. It is continuous in v_n, so no hop of
- * finite height vanishes. With v_k^2 = e^2 v_(k-1)^2 - s^2 a ball that falls at v_0 lands at
- * most
+ * END OF HOPS. v' = sqrt(e^2 v_n^2 - s^2), and 0 where e v_n <= s or v' < 1e-9 m/s, s = 0.02 m/s:
+ * in addition to e a fixed loss of m s^2/2, a hop of 20 um. It is continuous in v_n, so no hop of
+ * finite height vanishes. With v_k^2 = e^2 v_(k-1)^2 - s^2 a ball that falls at v_0 lands at most
  *
  *   n = 2 + ln(1 + v_0^2 (1 - e^2) / s^2) / ln(1 / e^2)
  *

@@ -28,7 +28,8 @@ static void take_smooth_law(carom_ball_kind *kind) {
   kind->roll_loss_log = 0.034;
 }
 
-/* Takes away what the default's model of the cushion has beside friction and restitution. */
+/* Takes away what the default's model of the cushion has in addition to friction and
+ * restitution. */
 static void drop_smooth_law(carom_ball_kind *kind) {
 #define DROP(member, usual) kind->member = 0.0;
   CAROM_USUAL_SMOOTH(DROP)
@@ -83,7 +84,7 @@ static void take_billiard(carom_ball_kind *kind) {
   kind->roll_loss = 0.091;
 }
 
-/* Games whose balls are those of another one in a size of their own, a row each. */
+/* Games whose balls are those of another one in their own size, a row each. */
 static const struct sized {
   carom_game game, base;
   double radius, mass;
@@ -233,7 +234,7 @@ int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion, carom_ball_
 /* Conditions of a pool table; 0: the number stays. docs/reference/constants.md has the sources
  * of the signs and of the range of mu_roll. The changes of the cushion are one standard deviation
  * of the tables that public systems of players describe, as in calibrate.c. The friction of old
- * ones has two, because with less the banks of a slower rebound come back longer, not shorter. */
+ * ones has two, because with less the banks of a slower rebound return longer, not shorter. */
 static const struct condition_numbers {
   double mu_roll, restitution, mu_cushion;
 } conditions[] = {[CAROM_CONDITION_SLOW_CLOTH] = {0.015, 0.0, 0.0},

@@ -1,5 +1,5 @@
-/* Where rails and pockets are, in the words of a player at the head of the table, and which of them
- * are beside each other. */
+/* Where rails and pockets are, in the names of a player at the head of the table, and which of them
+ * are next to each other. */
 #include "table/table.h"
 
 #include <math.h>
@@ -7,8 +7,8 @@
 
 /* rails shorter than this part of the longest one are cuts of pockets */
 static const double cut_most = 0.2;
-/* A rail whose end is so near to the centre of a pocket is beside it: radii of the pocket. A corner
- * pocket of a pool table has its rails' ends at 1.2 to 1.6 radii; 6 radii would be 0.4 m. */
+/* A rail whose end is so near to the centre of a pocket is next to it: radii of the pocket. A
+ * corner pocket of a pool table has its rails' ends at 1.2 to 1.6 radii; 6 radii would be 0.4 m. */
 static const double beside_most = 3.0;
 
 static double square_of_length(const carom_rail *rail) {
@@ -52,7 +52,7 @@ static const char *side_of(const carom_table *table, int rail) {
   return NULL;
 }
 
-/* A table of too many parts, which every call refuses, is none. */
+/* A table of too many parts, which every call rejects, is none. */
 static bool is_rectangle(const carom_table *table) {
   if (table->rails > CAROM_RAILS_MOST || table->pockets > CAROM_POCKETS_MOST)
     return false;

@@ -35,7 +35,7 @@ static bool good_height(double height, double radius) {
   return height > 0.0 && height < 2.0 * radius;
 }
 
-/* Sets the place of an error. */
+/* Sets the position of an error. */
 static carom_status place_fault(int *where, int index, carom_status status) {
   *where = index;
   return status;

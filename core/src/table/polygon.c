@@ -94,7 +94,7 @@ static void add_pocket(carom_table *table, const corner_joint *joint, double nos
                      .depth = POCKET_DEPTH};
 }
 
-/* Tells which corner is at fault, and beside which other; -1: none. */
+/* Tells which corner is at fault, and together with which other; -1: none. */
 static carom_status blame(carom_table_fault *fault, int corner, int second, carom_status status) {
   fault->part = (carom_part){CAROM_PART_CORNER, corner};
   if (second >= 0)

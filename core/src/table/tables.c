@@ -273,10 +273,10 @@ carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
 
 /* ---- Tables of one's own */
 
-/* The place of a member among the rows of measures. */
+/* The position of a member among the rows of measures. */
 #define AT(member) ((int32_t)(offsetof(carom_measures, member) / sizeof(double)))
 
-/* Tells which measure is at fault beside which other, and its bound by the others. */
+/* Tells which measure is at fault together with which other, and its bound by the others. */
 static carom_status blame(carom_table_fault *fault, int32_t measure, int32_t second, double bound) {
   fault->part = (carom_part){CAROM_PART_MEASURES, measure};
   if (second >= 0)

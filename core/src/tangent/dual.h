@@ -1,5 +1,5 @@
 /* A number with its derivatives in CAROM_DUAL_WIDTH directions, which the includer chooses: what
- * stands for `double` in the copies of the sources of motion and contacts (text.h).
+ * represents `double` in the copies of the sources of motion and contacts (text.h).
  *
  * x is the value and d has the derivatives, one for each direction. Arithmetic follows the rules
  * of differentiation:

@@ -7,10 +7,10 @@
  * core/src/contact_law has the derivatives by these eight variables. Everything before and behind
  * is arithmetic.
  *
- * A ball that rolls is taken to go on rolling: by the slip of a ball that rolls and is pressed
+ * A ball that rolls is taken to continue rolling: by the slip of a ball that rolls and is pressed
  * there is no derivative. A direction that has it slide is flagged as a kink. */
 
-/* A slip at most this share of a ball's speeds is that of a ball that rolls; of derivatives, a
+/* A slip at most this fraction of a ball's speeds is that of a ball that rolls; of derivatives, a
  * rounding error. */
 static const real rolls = 1e-12, rounding = 1e-9;
 
@@ -196,7 +196,7 @@ carom_status carom_mathavan(carom_contact *c, int plain) {
 
 /* ---- Euler's steps ---- */
 
-/* A contact by the numbers of which its derivatives are taken: the slips on the cloth stand for
+/* A contact by the numbers of which its derivatives are taken: the slips on the cloth represent
  * W_x and W_y, so that those of a ball that rolls do not change. */
 enum { EULER_INS = 9, EULER_OUTS = 5 };
 
@@ -247,7 +247,7 @@ carom_status carom_cushion_euler(carom_contact *c, int steps, number least, int,
       to[r]->d += (more[r] - less[r]) / (forward ? h : 2 * h) * in[k].d;
   }
 
-  /* steps are counted in whole numbers */
+  /* steps are counted in integers */
   watched.note.flags |= ::CAROM_TANGENT_EULER | ::CAROM_TANGENT_DIFFERENCES | ::CAROM_TANGENT_KINK;
   return (carom_status)status;
 }

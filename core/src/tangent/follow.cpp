@@ -15,7 +15,7 @@
  * path begins, at T + dT.
  *
  * CLUSTERS. All balls of a cluster change at the time of the contact that starts it. Their
- * states there stand in the rows of the result, from which each direction is taken through the
+ * states there are in the rows of the result, from which each direction is taken through the
  * cluster by itself.
  *
  * LABELS. A ball that rolls after an event, or lies, keeps doing so where a change of the first
@@ -229,7 +229,7 @@ CAROM_APART void take_part(scene *s) {
   const bool rail =
       e->type == CAROM_EVENT_RAIL || (e->type == CAROM_EVENT_RAIL_TOP && e->b < w->table->rails);
 
-  /* its place has no seeds */
+  /* its position has no seeds */
   if (rail) {
     real line[3];
     ::carom_rail_line(&w->table->rail[b], line);
@@ -274,8 +274,8 @@ CAROM_APART void load_cue(const carom_tangent_work *w, text::carom_cue *cue) {
   cue->follow = w->cue->follow;
 }
 
-/* The tip that goes on, at the time of an event, from the middle of the struck ball; the cue, with
- * the speed that it has then. */
+/* The tip that continues, at the time of an event, from the middle of the struck ball; the cue,
+ * with the speed that it has then. */
 CAROM_APART void tip_at(const scene *s, text::carom_cue *cue, number *along, number axes[3][3],
                         number p[3]) {
   const carom_tangent_work *w = s->w;
@@ -306,7 +306,7 @@ CAROM_APART void to_tip(const scene *s, number d[3], number v[3]) {
 }
 
 /* Of a ball that leaves the table in flight: how far it is from the nearest edge of the rails. No
- * flight begins beyond them: a layout there is refused. */
+ * flight begins beyond them: a layout there is rejected. */
 CAROM_APART number edge(scene *s, const carom_ball_state *a) {
   ::carom_features f;
   ::carom_features_of(s->w->table, s->w->ball[s->event->a].kind->radius, s->w->reference, &f);
@@ -537,7 +537,7 @@ CAROM_APART text::carom_status strike(scene *s) {
   if (status < 0)
     return status;
 
-  /* the cue goes on */
+  /* the cue continues */
   const text::carom_ball_kind *kind = &s->ball[0].kind;
   carom_ball_state *state = &s->ball[0].state;
   text::carom_raised raised = {};
@@ -579,7 +579,7 @@ real apart(const ::carom_ball_state *played, carom_ball_state *s) {
   return off / most;
 }
 
-/* A cushion. Where the exact model refuses an impact a shot takes it in steps; the derivatives
+/* A cushion. Where the exact model rejects an impact a shot takes it in steps; the derivatives
  * of the impact may be known all the same, but are those of another motion. */
 CAROM_APART text::carom_status meet_cushion(scene *s) {
   const text::carom_due due = {s->event->time, s->event->type, 0, 0};
@@ -756,7 +756,7 @@ int place_of(const cluster *c, int ball) {
 }
 
 /* The cue that pushes: at the start the caller's; of a further touch with the speed that is left,
- * at the place that it touches. */
+ * at the position that it touches. */
 CAROM_APART void take_cue(const scene *s, const row &dT, cluster *c) {
   carom_tangent_tip *tip = &s->w->tip;
   text::carom_cue cue;

@@ -11,13 +11,13 @@ enum { CAROM_MEMBER_NUMBERS = 17, CAROM_MEMBER_MOTION = 3, CAROM_MOTION_NUMBERS 
 enum { CAROM_TANGENT_TOUCHES = 54 }; /* of a cluster, at most */
 
 typedef struct carom_tangent_cluster {
-  int balls, first, second; /* members; the places of the two of the contact that starts it; of a
+  int balls, first, second; /* members; the positions of the two of the contact that starts it; of a
                                push second is -1 */
   double steps, slow;       /* as in carom_cluster_state */
   int friction;             /* the law of its balls, friction/laws.h */
   bool on_slate;
   double tip_time, reach; /* of the cue that pushes ball `first`, where `second` is below 0; how far
-                             it goes on, m; */
+                             it continues, m; */
   double tip_friction;    /* of a further touch; 0: it is the first */
   /* gives the numbers of the cue and their tangents, in the order of carom_cue; */
   void (*give_cue)(void *context, double x[8], double d[8]);
@@ -30,7 +30,7 @@ typedef struct carom_tangent_cluster {
   void *context;
   /* written before `take` is called: how far its touches are apart, places.c, and how long the
      integration lasts, with their tangents; the
-     touches in their order, each by the places of its two balls */
+     touches in their order, each by the positions of its two balls */
   double separation, separation_rate, duration;
   int touches;
   int8_t touch[CAROM_TANGENT_TOUCHES][2];

@@ -120,7 +120,7 @@ static carom_tangent_pass pass_of(int m, int first) {
 
 static const carom_tangent_row zeros;
 
-/* Tangents of a state into rows of the caller's; NULL stands for zeros. */
+/* Tangents of a state into rows of the caller's; NULL represents zeros. */
 static void put(const work *w, carom_tangent_row *d, double *rows, int64_t index) {
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
     memcpy(carom_tangent_columns(&w->pass, rows, index * CAROM_STATE_NUMBERS + k),
@@ -191,7 +191,7 @@ __attribute__((noinline)) static bool is_in_pile(const work *w, const carom_even
   return false;
 }
 
-/* Whether the struck ball meets a ball or a cushion, so that it may come back to the tip. */
+/* Whether the struck ball meets a ball or a cushion, so that it may return to the tip. */
 static bool turns_to_tip(const carom_event *e, int struck) {
   const bool ball = e->type == CAROM_EVENT_BALL_BALL && (e->a == struck || e->b == struck);
   return ball || ((e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW) && e->a == struck);
@@ -250,7 +250,7 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
     tangent->error = fmax(tangent->error, w->note.error);
   }
 
-  /* the end of the shot, where balls may still move; how they go on is not known */
+  /* the end of the shot, where balls may still move; how they continue is not known */
   for (int i = 0; i < w->count && tangent->times_count > 0; i++) {
     const int64_t label = w->ball[i].origin.label;
     if (tangent->times[tangent->times_count - 1] > shot->time && label != CAROM_BALL_STATIONARY &&
@@ -377,7 +377,7 @@ carom_status carom_shot_tangent_batch(const carom_tangent_job *job) {
 
 /* ---- Single contacts ---- */
 
-/* What following a contact that the call has solved gives: rounding, or Euler's steps beside it,
+/* What following a contact that the call has solved gives: rounding, or Euler's steps next to it,
  * may end in an error that the call has not. */
 static carom_status found(carom_status followed) {
   if (followed < 0)
