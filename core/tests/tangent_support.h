@@ -1,4 +1,4 @@
-/* What tests of derivatives of whole shots share: a layout, its numbers as directions, and
+/* What tests of derivatives of complete shots share: a layout, its numbers as directions, and
  * differences of shots.
  *
  * Differences are of order 4, by 15 steps from 1e-9 to 1e-2 of each number. Of adjacent steps at
@@ -194,7 +194,7 @@ static inline double slope_of_four(double f_2, double f_1, double f1, double f2,
 static double least_error; /* of the last comparison, by any of its steps */
 
 /* Largest difference of the tangents in column j of m from the best plateau, and by how much
- * that itself disagrees; false if there is none. Beside a kink there are two plateaus, of which
+ * that itself disagrees; false if there is none. Next to a kink there are two plateaus, of which
  * the better one may be that of larger steps. */
 static inline bool compare(const layout *l, const direction *by, const double *tangent, int j,
                            int m, double *error, double *plateau) {

@@ -33,11 +33,11 @@ enum {
  * hence the weights of "flops"; they include least and greatest, and approximations of 1/x.
  *
  * The paper's token stalls are cycles in which an instruction could be dispatched, and a resource
- * is missing: a place in a scheduler, a register, a place in the retire queue. AMD has an event for
- * each of them. Intel has one for all of them together, "stalls_resources": a cycle on Skylake, and
- * a slot on its successors, which issue in 5 or 6 slots a cycle, hence the weights. Another event,
- * "stalls_execution", counts cycles in which no unit begins anything. The paper reads no such
- * event. */
+ * is missing: an entry in a scheduler, a register, an entry in the retire queue. AMD has an
+ * event for each of them. Intel has one for all of them together, "stalls_resources": a cycle on
+ * Skylake, and a slot on its successors, which issue in 5 or 6 slots a cycle, hence the weights.
+ * Another event, "stalls_execution", counts cycles in which no unit begins anything. The paper
+ * reads no such event. */
 const counter_row counter_table[] = {
     {CORE_ANY, COUNTER_CYCLES, "PERF_COUNT_HW_CPU_CYCLES", PERF_TYPE_HARDWARE,
      PERF_COUNT_HW_CPU_CYCLES, 1.0},
@@ -85,7 +85,7 @@ const char *counter_column_name(counter_column column) {
 
 /* ---- The processor */
 
-/* The models are those of Linux's mapfile.csv, beside the tables of events. */
+/* The models are those of Linux's mapfile.csv, next to the tables of events. */
 counter_core counter_core_of(const char *vendor, unsigned family, unsigned model) {
   static const struct {
     const char *vendor;
@@ -330,7 +330,7 @@ static void explain(int error, FILE *out) {
   fprintf(out, "%s (perf_event_open: errno %d, perf_event_paranoid %s)", why, error, paranoid);
 }
 
-/* Names the columns that are counted (`error` 0), have no event (-1), or are refused with that
+/* Names the columns that are counted (`error` 0), have no event (-1), or are rejected with that
  * errno; false where there are none. */
 static bool name_columns(const counter_set *set, int error, FILE *out) {
   bool any = false;

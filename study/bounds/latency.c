@@ -16,7 +16,7 @@
 
 #include <stdio.h>
 
-/* X(name, row, instructions of one link, its helper or itself, how often the row stands in a
+/* X(name, row, instructions of one link, its helper or itself, how often the row is in a
  * link). The value of the chain is in xmm0 or rax and begins with 1.618...; 2.718... is in xmm2,
  * 0 in xmm3, 1 in xmm4, scratch memory is at -512(rsp): as compilers address it, and below what
  * the function may use itself. */

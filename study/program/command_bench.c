@@ -168,7 +168,7 @@ static bool compare_file(const workload *w, const char *folder, const char *name
 }
 
 /* What a kernel must reach on the cases at its claim's steps: for batches that of their
- * precision, if it is wider; 0 asks for the same bits. */
+ * precision, if it is wider; 0 requires the same bits. */
 static double bound_of(const workload *w) {
   static const double of_batches[][2] = {[CAROM_SOLVER_EXACT] = {1e-6, 2e-5},
                                          [CAROM_SOLVER_EULER] = {0.0, 1e-2},
@@ -243,7 +243,7 @@ static bool verify(workload *w, const char *folder, bool *good) {
   return compare_file(w, folder, name, &w->exact);
 }
 
-/* ---- What is asked for */
+/* ---- What is requested */
 
 static bool names(const name_list *list, const char *name) {
   bool named = false;
@@ -362,7 +362,7 @@ static void add_lanes(const kernel *candidate, const kernel_claim *claim,
   free(rows);
 }
 
-/* By the sizes of batches that are asked for, or the rung's own. */
+/* By the sizes of batches that are requested, or the rung's own. */
 static void add_all_lanes(const bench_job *job, const kernel *candidate, const kernel_claim *claim,
                           const ladder_module *module, int steps) {
   const bool has_sizes = job->pairs.room > 0;
@@ -372,7 +372,7 @@ static void add_all_lanes(const bench_job *job, const kernel *candidate, const k
     add_lanes(candidate, claim, module, steps, 0);
 }
 
-/* Is it the kernel's first claim with its slip, and is the slip asked for? Without --slip, a kernel
+/* Is it the kernel's first claim with its slip, and is the slip requested? Without --slip, a kernel
  * is timed with its own, that of its first claim. */
 static bool wants_claim(const bench_job *job, const kernel *candidate, const kernel_claim *claim) {
   for (const kernel_claim *earlier = candidate->claims; earlier < claim; earlier++)
@@ -551,7 +551,7 @@ static bool verify_all(bench_job *job, const char *folder) {
       return false;
     progress_show("kernels verified", (double)(k + 1), (double)timing.count);
     const workload passed = timing.work[k];
-    timing.work[k] = timing.work[count]; /* those that are refused come to the end */
+    timing.work[k] = timing.work[count]; /* those that are rejected come to the end */
     timing.work[count] = passed;
     count += good;
     if (!good)
@@ -767,7 +767,7 @@ static void show_time(double done, double total) {
   progress_show("seconds measured", done, total);
 }
 
-/* The hardware counters, if they are asked for, and a note on what they count. */
+/* The hardware counters, if they are requested, and a note on what they count. */
 static counter_set *open_counters(const bench_job *job, FILE *out) {
   if (!job->counters)
     return NULL;
@@ -822,7 +822,7 @@ static bool bench_all(bench_job *job) {
 
 /* ---- Arguments */
 
-/* Adds to a list what stands between commas, each good. */
+/* Adds to a list what is between commas, each good. */
 static bool add_each(const option_row *row, char *text, name_list *list,
                      bool good(const option_row *row, char *word)) {
   char *rest, *word = strtok_r(text, ",", &rest);

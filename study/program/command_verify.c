@@ -142,7 +142,7 @@ static void resolve_cases(verification *v, const kernel *candidate, const ladder
     v->status[k] = (int8_t)carom_collide(&v->cases.impact[k], options, &v->result[k]);
 }
 
-/* Compares the cases that the kernel solves; with other steps than the claim's it may refuse some,
+/* Compares the cases that the kernel solves; with other steps than the claim's it may reject some,
  * because its precision does not resolve a step. */
 static void compare(verification *v, const kernel *candidate, const ladder_module *module,
                     comparison *c, const carom_result *reference) {

@@ -53,7 +53,7 @@ void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double
   tip->inverse_mass = 1.0 / cue[MASS];
   tip->V = cue[SPEED];
   tip->duration = duration;
-  /* a restitution of 0 represents 1, and keeps its derivatives */
+  /* a restitution of 0 means 1, and keeps its derivatives */
   tip->restitution = least_tip_restitution;
   if (cue[RESTITUTION] > least_tip_restitution)
     tip->restitution = cue[RESTITUTION];

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* The restitution of the tip. Where it is 0, which represents 1, its derivative is that of 1. */
+/* The restitution of the tip. Where it is 0, which means 1, its derivative is that of 1. */
 static inline double carom_tip_of(const carom_cue *cue) {
   return cue->tip_restitution == 0.0 ? 1.0 + cue->tip_restitution : cue->tip_restitution;
 }

@@ -1,4 +1,4 @@
-/* What a ball is played with where 0 represents a default: the one reading of a game's numbers.
+/* What a ball is played with where 0 means a default: the one reading of a game's numbers.
  * The functions that play a shot read a number by its row of CAROM_USUAL_... (schema/numbers.h), or
  * by the law of friction of models.c; here the same rows are written into the ball, so a shot of
  * the ball that comes out has the bits of the shot of the ball that went in. */

@@ -120,7 +120,7 @@ static carom_tangent_pass pass_of(int m, int first) {
 
 static const carom_tangent_row zeros;
 
-/* Tangents of a state into rows of the caller's; NULL represents zeros. */
+/* Tangents of a state into rows of the caller's; NULL means zeros. */
 static void put(const work *w, carom_tangent_row *d, double *rows, int64_t index) {
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
     memcpy(carom_tangent_columns(&w->pass, rows, index * CAROM_STATE_NUMBERS + k),

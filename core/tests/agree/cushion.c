@@ -144,7 +144,7 @@ TEST(euler_as_recorded) {
 }
 
 /* Not where friction may lift the ball, sin < mu cos: there steps that chatter about stick load
- * the cloth by turns, on the mean more than sticking does. */
+ * the cloth alternately, on the mean more than sticking does. */
 TEST(euler_converges_at_first_order) {
   double mean[3] = {0};
   for (uint64_t k = 0; k < 100; k++) {

@@ -514,7 +514,7 @@ TEST(tips) {
     carom_motion out;
     expect_ok(carom_strike(&cue, &kind, &out));
 
-    /* the point that is struck recedes at V (1 + 5/2 (a^2 + b^2)), the cue goes on at U */
+    /* the point that is struck recedes at V (1 + 5/2 (a^2 + b^2)), the cue continues at U */
     const double arm = 2.5 * (cue.a * cue.a + cue.b * cue.b), V = planar_size(out.v),
                  U = V0 - m / M * V;
     ck_assert_double_eq_tol(V * (1.0 + arm) - U, part * V0, 1e-14);

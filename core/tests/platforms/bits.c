@@ -436,7 +436,7 @@ static void shots(void) {
   }
 }
 
-/* Goes on with the hash of a shot of a cue ball at (x, 0.6) at another at (0.5, y). */
+/* Continues the hash of a shot of a cue ball at (x, 0.6) at another at (0.5, y). */
 static uint64_t add_near_ball(uint64_t hash, const carom_cue *cue, double x, double y) {
   static carom_table table;
   static carom_event events[ROOM];
@@ -483,7 +483,7 @@ static void no_follow_through(void) {
 
 /* ---- Places and aims ------------------------------------------------------------------------- */
 
-/* Which places of a grid are on a table of one's own, whose rails are short. */
+/* Which positions of a grid are on a table of one's own, whose rails are short. */
 static void places(void) {
   static const carom_corner corner[9] = {
       {0, 0.9375, 0.125},     {0.125, 0.625, 0.125}, {0.25, 0.28125, 0.125},
@@ -501,7 +501,7 @@ static void places(void) {
 }
 
 #ifndef CAROM_WITHOUT_PLAN
-/* Aims of a cue that is left to the stick, beside the head cushion. */
+/* Aims of a cue that is left to the stick, next to the head cushion. */
 static void aims(void) {
   static carom_table table;
   carom_shot_ball balls[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_POOL)},

@@ -69,7 +69,8 @@ static size_t stack_used(void *(*body)(void *)) {
   return STACK - untouched;
 }
 
-/* Measures what a body uses besides `own` bytes, by each instruction set, and prints the most. */
+/* Measures what a body uses in addition to `own` bytes, by each instruction set, and prints the
+ * most. */
 static void measure(void *(*body)(void *), const char *name, size_t own) {
   size_t most = 0;
   carom_isa_limit(CAROM_ISA_ANY);

@@ -306,7 +306,7 @@ static size_t play_some(const void *context, size_t start, size_t end) {
 
 /* ---- The fit */
 
-/* Solves H d = g for a positive definite H by Gauss's method; d comes in the place of g. */
+/* Solves H d = g for a positive definite H by Gauss's method; d comes in place of g. */
 static void solve(int n, double H[][NEXT_NUMBERS], double *g) {
   for (int i = 0; i < n; i++)
     for (int k = i + 1; k < n; k++) {

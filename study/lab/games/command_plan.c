@@ -1,6 +1,6 @@
 /* `carom-lab plan`: how strong the planner is. Racks after a break that pots nothing, run out from
- * ball in hand by a player who errs, or played to the end by two; and how often shots come off
- * and games are won beside the chances that were predicted for them. Of games of points also how
+ * ball in hand by a player who errs, or played to the end by two; and how often shots come off and
+ * games are won compared with the chances that were predicted for them. Of games of points also how
  * many a visit makes. */
 #include "comparison.h"
 #include "game/ratings.h"
@@ -109,7 +109,7 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
     sums->seconds += 1e-9 * (processor_ns() - begin);
     sums->plans++;
 
-    /* what was predicted beside what came */
+    /* what was predicted compared with what came */
     visit += turn.points;
     if (turn.outcome != CAROM_TURN_KEEP) {
       sums->visits++;

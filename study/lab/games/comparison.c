@@ -1,4 +1,4 @@
-/* Chances beside what came of them. */
+/* Chances compared with what came of them. */
 #include "comparison.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Chances that plans report, beside what came of their strokes. */
+/* Chances that plans report, compared with what came of their strokes. */
 #ifndef CAROM_LAB_COMPARISON_H
 #define CAROM_LAB_COMPARISON_H
 
@@ -9,7 +9,7 @@ typedef struct lab_comparison {
   long strokes;
 } lab_comparison;
 
-/* Puts a chance beside what came: 1, 0, or 0.5 of a draw. */
+/* Puts a chance compared with what came: 1, 0, or 0.5 of a draw. */
 void lab_compare(lab_comparison *row, double chance, double came);
 /* Ends a game of `count` rows. */
 void lab_compare_end(lab_comparison *rows, int count);

@@ -1,5 +1,5 @@
-/* Matches of two rated players: the share that the first one wins, beside the share that is due,
- * 1/(1 + 2^((d - r)/100)) of a player of rating r against one of rating d. Both play as
+/* Matches of two rated players: the share that the first one wins, compared with the share that is
+ * due, 1/(1 + 2^((d - r)/100)) of a player of rating r against one of rating d. Both play as
  * carom_match_plan() lets the seat of a rating play. They break in turn, and match k has seeds of
  * its own, so that no result depends on the number of threads. */
 #include "rated_match.h"
@@ -34,7 +34,7 @@ void lab_interval(double wins, double count, double bounds[2]) {
   bounds[1] = middle + half;
 }
 
-/* A stroke of a match: the side that played it, and its chances beside what came. */
+/* A stroke of a match: the side that played it, and its chances compared with what came. */
 typedef struct told_stroke {
   int side, kind;
   double told[CHANCES], came[CHANCES];
@@ -212,7 +212,7 @@ bool lab_play_ratings(const lab_ratings *wanted) {
   }
   progress_clear();
 
-  /* the share of the first player, and what is due */
+  /* the fraction of the first player, and what is due */
   const double count = wanted->matches, *rating = wanted->rating;
   const double due = 1.0 / (1.0 + exp2(0.01 * (rating[1] - rating[0])));
   double bounds[2];

@@ -21,9 +21,10 @@ typedef struct lab_ratings {
  * false if a match cannot be played, and complains. */
 bool lab_play_ratings(const lab_ratings *wanted);
 
-/* Plays them with plans of so many shots, and with places of balls that err in each stroke as the
- * players see them. Prints rows of CSV by kind of stroke: the chances that plans predict, what came
- * of these strokes, and the difference with its standard error by matches. Returns as above. */
+/* Plays them with plans of so many shots, and with positions of balls that err in each stroke as
+ * the players see them. Prints rows of CSV by kind of stroke: the chances that plans predict, what
+ * came of these strokes, and the difference with its standard error by matches. Returns as
+ * above. */
 bool lab_play_told(const lab_ratings *wanted);
 
 #endif
