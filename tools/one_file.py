@@ -8,7 +8,7 @@ CAROM_ERROR_NO_TANGENTS. -DCAROM_WITHOUT_AVX512 (AVX2, SSE2, NEON) leaves sets o
 -DCAROM_WITHOUT_THREADS the threads.
 
 In one translation unit the names that two sources have for themselves would meet. So a source's own
-macros are undefined behind it, and names that another source has too stand for longer ones
+macros are undefined behind it, and names that another source has too are replaced by longer ones
 meanwhile.
 """
 
@@ -174,7 +174,7 @@ def bare(text):
 
 
 def expanded(name, remaining):
-    """A source with the headers that are wanted in their places, each once."""
+    """A source with the headers that are wanted in place, each once."""
 
     def header(found):
         if found[1] not in remaining:
@@ -348,7 +348,7 @@ def main():
 
 
 # The headers of systems and processors, by the condition under which carom.c includes them. Those
-# of `elsewhere` stand in carom.c beside what is made of them.
+# of `elsewhere` are in carom.c next to what is made of them.
 SYSTEM_HEADERS = {
     "everywhere": "math stdbool stddef stdint string float limits stdlib stdio stdatomic",
     "posix": "pthread sched signal unistd fcntl time",

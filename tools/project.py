@@ -133,7 +133,7 @@ def with_lines(text, anchor, new_lines):
 
 
 def places(p):
-    """What stands once or more in the text of a file: (file, pattern of what is before and after,
+    """What is once or more in the text of a file: (file, pattern of what is before and after,
     what is between).
     """
     minor = p["version"].rpartition(".")[0]

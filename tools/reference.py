@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def plain(words):
-    """A comment as Markdown: only what stands between backquotes is code."""
+    """A comment as Markdown: only what is between backquotes is code."""
     parts = re.split(r"(`[^`]*`)", " ".join(words.split()))
     return "".join(
         part if part.startswith("`") else re.sub(r"([\[\]<>*_|`#])", r"\\\1", part)
@@ -122,7 +122,7 @@ def of_c(source):
     return text + "## Constants\n\n" + rows(["name", "value", ""], constants)
 
 
-# Modules of the package whose names stand in `carom` itself.
+# Modules of the package whose names are in `carom` itself.
 WITHIN_CAROM = {
     "collisions",
     "cushions",

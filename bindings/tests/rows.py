@@ -1,6 +1,6 @@
 """rows.py SOURCE SHARED: the rows of numbers and words say what the headers and the library say.
 
-Each member of a struct or an enumeration has a comment that stands alone, as editors of other
+Each member of a struct or an enumeration has a comment that is complete by itself, as editors of other
 languages show it by itself: it does not continue that of the member before, and is not continued.
 The comment of each member names the unit of its row, every number of its range, and its default.
 bindings/rows.py has the texts and the ranges that the library tells. Each value of an enumeration

@@ -147,7 +147,7 @@ def test_verdicts_of_a_run(tmp_path):
 
 
 def test_chains_of_a_run(tmp_path):
-    """Counts of the run's kernels stand in the table by compiler."""
+    """Counts of the run's kernels are in the table by compiler."""
     path = copied(tmp_path)
     machines.record([(STORED, "One", [])], path)
     counted = Sheet(STORED / "bounds.csv").first(kernel="double")
@@ -156,7 +156,8 @@ def test_chains_of_a_run(tmp_path):
 
 
 def test_sentence(tmp_path):
-    """README cites the latest run that has timed `exact`, and says how many claims hold in it."""
+    """README cites the latest run that has timed `exact`, and reports how many claims hold in
+    it."""
     path = copied(tmp_path)
     ladder = "kernel,config,isa,speedup\nexact,library,scalar,44.6\n"
     folder = run_with(tmp_path / "run", lambda text: text.replace("2026-11-20", "2999-01-01"))
