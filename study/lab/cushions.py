@@ -1,9 +1,9 @@
 """cushions.py LIBRARY MEASURED.csv, which `carom-lab published --cushions` runs: the
 cushions of pool and snooker in tables of Markdown, for docs/.
 
-1. The errors of the sets of data/pool_systems.csv on the three tables of pool.
-2. The sizes of pockets by speed, compared with those of Alciatore's TP 3.5 and TP 3.6.
-3. Snooker: the directions of balls that roll once they have met a cushion, compared with the exact model,
+1. The errors of the sets of data/pool_systems.csv on the three tables of pool. 2. The sizes of
+pockets by speed, compared with those of Alciatore's TP 3.5 and TP 3.6. 3. Snooker: the directions
+of balls that roll once they have met a cushion, compared with the exact model,
    and the rebound by speed compared with the measured one.
 4. What three banks tell of a table (carom_calibrate): tables are drawn, their banks are read with
    an error, and the other kicks and banks of the systems are played on them. With other laws of the

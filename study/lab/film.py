@@ -1,5 +1,5 @@
-"""film.py LIBRARY FILM.csv, which `carom-lab published --film FILM.csv` runs: filmed shots compared with
-those of carom, in tables of Markdown. data/README.md has the columns.
+"""film.py LIBRARY FILM.csv, which `carom-lab published --film FILM.csv` runs: filmed shots compared
+with those of carom, in tables of Markdown. data/README.md has the columns.
 
 1. Each shot with its strike alone fitted: speed, direction, follow, side and the time of the
    strike. The loss is robust: an error e counts as 2 (sqrt(1 + (e/s)^2) - 1) with s = 4 mm.
@@ -194,8 +194,8 @@ class Shot:
         )
 
     def strike(self, **numbers):
-        """The loss and the best strike. It is found from ever more of the shot: a search over what a
-        ball meets later begins with the earlier part already right.
+        """The loss and the best strike. It is found from ever more of the shot: a search over what
+        a ball meets later begins with the earlier part already right.
         """
         self.use_until(self.time + 0.5)
         found = [
