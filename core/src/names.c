@@ -16,8 +16,8 @@ int carom_version_number(void) {
   return CAROM_VERSION_NUMBER;
 }
 
-/* Raised by the commit that changes the bits of any result; core/tests/platforms/revision says when
- * that is. */
+/* Raised by the commit that changes the bits of any result; core/tests/platforms/revision explains
+ * when that is. */
 int carom_physics_revision(void) {
   return 24;
 }

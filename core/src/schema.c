@@ -1,5 +1,5 @@
-/* What there is, for programs that ask: the rows of schema/ at run time. Nothing here is on the
- * path of an impact. */
+/* The rows of schema/ at run time, for programs that request them. Nothing here is on the path of
+ * an impact. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
@@ -272,7 +272,7 @@ static void add_measure(words *w, const carom_number *n) {
   }
 }
 
-/* Words that are to go into text[room], of which NULL takes none. */
+/* Text for text[room]; NULL receives none. */
 static words words_in(char *text, size_t room) {
   if (text == NULL)
     room = 0;

@@ -14,9 +14,9 @@
  * applications", Physics Reports 470 (2009) 151-238, section 5. Only correctly rounded
  * operations and the library's own sines: the bits are equal on all machines.
  *
- * The parts are those of the whole interval, wherever a time is requested, and the turn until then
- * is that of the parts before and of the begun one. So its bits do not depend on times that were
- * requested before, and the next time continues from the last whole part.
+ * The parts always divide the whole interval, wherever a time is requested, and the turn until then
+ * consists of the parts before it and of the one that has begun. So its bits do not depend on times
+ * that were requested before, and the next time continues from the last whole part.
  */
 #include "motion/orientation.h"
 #include "platform/elementary.h"

@@ -72,7 +72,7 @@
  *   airborne   v' = G - g z
  *
  * So u, and v of a ball that rolls, obey u' = -(A + k u^2) u/|u| + c: the direction turns downhill.
- * Without drag u comes to 0, and has gone W until then, where with q = |u0| and h = c . e0
+ * Without drag u reaches 0, and has covered W until then, where with q = |u0| and h = c . e0
  *
  *   T = (A q + c . u0) / (A^2 - c^2),
  *   W = q^2 (e0 (2A + h) / (4A^2 - c^2) + c (1 + 3h (2A + h) / (4A^2 - c^2)) / (4 (A^2 - c^2))):
@@ -82,9 +82,9 @@
  *
  * A pair ends in the state where u is 0, if the position within it is good to 1e-5 m. Otherwise it
  * ends after a part h of its speed, in the state of RUNGE_STEPS steps of Runge's and Kutta's
- * method, which is good to 1e-6 m. Its two accelerations are those of a pair with drag, as vectors.
+ * method, which is good to 1e-6 m. Its two accelerations are as for a pair with drag, as vectors.
  * core/tests/physics/slope.c measures both errors. With drag the last pair has A (1 + 0.35 y), y =
- * k q^2/A, and times that make it exact for c = 0; it comes when c k q^4/A^3 is below 1e-5 m. */
+ * k q^2/A, and times that make it exact for c = 0; it is used when c k q^4/A^3 is below 1e-5 m. */
 #ifndef CAROM_SRC_MOTION_PATH_H
 #define CAROM_SRC_MOTION_PATH_H
 
@@ -105,7 +105,7 @@ typedef struct carom_ball_rates {
   double downhill[2];         /* G, m/s^2: 0 on a level cloth */
 } carom_ball_rates;
 
-/* Those of a level cloth; and the same of a slope. */
+/* The path on a level cloth; and on a slope. */
 carom_ball_rates carom_rates_of(const carom_ball_kind *kind);
 carom_ball_rates carom_rates_on_slope(const carom_ball_kind *kind, double slope_x, double slope_y);
 
@@ -120,7 +120,7 @@ typedef struct carom_path {
                             for an airborne ball */
   double e[2];       /* on a level cloth, the direction of the friction: of the slip, or of v; in
                             a pair, a[0] and a[1] of its second piece */
-  carom_ball_state from; /* at the start; its label is that of the phase */
+  carom_ball_state from; /* at the start; its label is the phase */
   bool goes_on;          /* at the end another piece of the same phase begins: carom_path_go_on() */
   bool ends_pair;        /* the piece is the second of its pair */
   bool last_pair;        /* which ends at rest */
@@ -138,10 +138,10 @@ static inline bool carom_is_out(int64_t label) {
 }
 
 /* The time after which a thing that is `height` above a plane and rises at v_z falls onto it;
- * infinite where it is below and does not come up to it. */
+ * infinite if it is below and does not reach it. */
 double carom_fall_time(double height, double v_z, double gravity);
 
-/* Starts a path at a time from path->from, whose label says the phase. */
+/* Starts a path at a time from path->from, whose label is the phase. */
 void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double start);
 
 /* The second piece of a pair, from the state in path->from. */
@@ -149,9 +149,9 @@ void carom_path_second(carom_path *path, double start);
 /* At the end of a path that continues: the next piece. */
 void carom_path_go_on(carom_path *path, const carom_ball_rates *rates);
 
-/* Goes on to the piece that has a time. False where that takes more pieces than any shot: 1000 s of
- * a ball at 10,000 m/s take 16,000, but a state that was damaged may have a speed at which pieces
- * have no length. */
+/* Continues to the piece that contains a time. False where that takes more pieces than any shot:
+ * 1000 s of a ball at 10,000 m/s take 16,000, but a state that was damaged may have a speed at
+ * which pieces have no length. */
 bool carom_path_go_to(carom_path *path, const carom_ball_rates *rates, double time);
 
 /* The state at a time within the path; *state may be path->from. */
@@ -181,13 +181,13 @@ static inline bool carom_flies_in_layout(const carom_ball_state *state, double r
 /* The phase of a ball of a layout. One that is out of play stays so. */
 int64_t carom_label_of_layout(carom_ball_state *state, double radius);
 
-/* The state of an airborne ball as it reaches the cloth, at a time that is that of the path's end,
- * or a trace later, where another event was the first of several at one instant. */
+/* The state of an airborne ball as it reaches the cloth, at the end of the path, or slightly later,
+ * where another event was the first of several at one instant. */
 void carom_path_land(const carom_path *path, const carom_ball_rates *rates, double time,
                      carom_ball_state *state);
 
-/* The phase that follows the path's own at its end, and the state there; a velocity that has
- * come to its end is exactly 0. *state may be path->from. */
+/* The phase that follows the path's own at its end, and the state there; a velocity that has ended
+ * is exactly 0. *state may be path->from. */
 void carom_path_end(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state);
 
 #endif

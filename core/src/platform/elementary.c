@@ -182,7 +182,7 @@ static void sincos_turned(double turns, double x, double *sine, double *cosine) 
   s *= x;
   c = 1.0 + c * x2;
   const double quarter = turns - 4.0 * floor(turns / 4.0);
-  /* a half turn changes both signs, and a further quarter changes places */
+  /* a half turn changes both signs, and a further quarter exchanges the two */
   const double sign = quarter >= 2.0 ? -1.0 : 1.0;
   const bool odd = quarter == 1.0 || quarter == 3.0;
   *sine = sign * (odd ? c : s);

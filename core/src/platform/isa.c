@@ -6,8 +6,8 @@
  * of the exact solver agree within its contract on all of them.
  */
 #if defined(__linux__) && !defined(_GNU_SOURCE)
-#define _GNU_SOURCE /* secure_getenv: the environment says nothing to programs with more rights
-                       than their user */
+#define _GNU_SOURCE /* secure_getenv: the environment is ignored by programs with more rights than
+                       their user */
 #endif
 #include "platform/isa.h"
 

@@ -23,7 +23,7 @@ static inline double carom_or_usual(double value, double usual) {
   return value > 0.0 ? value : usual + value;
 }
 
-/* x - x is 0 unless x is infinite or no number. C++ has isfinite() in std alone. */
+/* x - x is 0 unless x is infinite or no number. C++ has isfinite() only in std. */
 static inline bool carom_is_finite(const double x[3]) {
   return (x[0] - x[0]) + (x[1] - x[1]) + (x[2] - x[2]) == 0.0;
 }

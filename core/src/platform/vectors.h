@@ -1,5 +1,5 @@
 /* Products of vectors: in the plane of the cloth, of which two numbers count, and in space. Sums
- * begin with x, so each has the same bits wherever it stands. */
+ * begin with x, so each has the same bits in every context. */
 #ifndef CAROM_SRC_PLATFORM_VECTORS_H
 #define CAROM_SRC_PLATFORM_VECTORS_H
 

@@ -58,7 +58,7 @@ typedef struct carom_line {
   const char *key; /* NULL: there is no line of this kind */
   const carom_field *fields;
   bool is_sealed;   /* ends with the hash so far in a match */
-  bool is_of_match; /* is in matches alone */
+  bool is_of_match; /* only in matches */
   /* What is wrong with the values of a line, and *key becomes the key at fault; NULL: nothing. */
   const char *(*find_fault)(const carom_record *record, const char **key);
 } carom_line;

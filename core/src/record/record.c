@@ -3,7 +3,7 @@
  * A line is {"KIND": {"KEY": VALUE, ...}}. A field of the table below is a key, the type of its
  * value and its position in carom_record. A key that is missing has the value 0; in an object of a
  * list, the value of the object before it. So a writer leaves out the fields that have the bytes of
- * that default, and a reader begins with it. Every other key is rejected, and every one that comes
+ * that default, and a reader begins with it. Every other key is rejected, and every key that occurs
  * twice.
  *
  * The command has a second reader of balls and cues, command/shots/shot_file.c, because its files
@@ -152,7 +152,7 @@ static const int64_t MOST_WHOLE = 9007199254740991; /* of a double, 2^53 - 1 */
 /* Of recordings of shots, and of matches. */
 enum { FORMAT = 2, FORMAT_OF_MATCH = 3 };
 
-/* Adds a text, by words of 8 bytes. */
+/* Adds a text, in words of 8 bytes. */
 static uint64_t stir_text(uint64_t hash, const unsigned char *text) {
   for (int k = 0; k < CAROM_SEAT_NAME; k += 8) {
     uint64_t word;
@@ -206,7 +206,7 @@ static uint64_t stir_line(uint64_t hash, int kind, const carom_record *record) {
 }
 
 /* The hash behind a line: that of a shot covers the lines before it, so that a forged stroke is
- * told once and not by every line that follows. */
+ * reported once and not by every line that follows. */
 static uint64_t hash_behind(uint64_t hash, int kind, const carom_record *record) {
   if (is_shot(kind))
     return record->recorded.hash;
@@ -229,7 +229,7 @@ static char *put(char *tail, const char *limit, const char *text) {
   return tail;
 }
 
-/* Writes the fault of the value of a key, by its whole path; returns false. */
+/* Writes the fault of the value of a key, with its complete path; returns false. */
 static bool wrong(reader *in, const char *what) {
   carom_record *record = in->record;
   char *tail = record->fault, *limit = tail + sizeof record->fault - 1;
@@ -415,7 +415,7 @@ static bool read_field(reader *in, const carom_field *f, unsigned char *object) 
   return f->count == 1 || expect(in, ']', "has too many numbers");
 }
 
-/* A key with its value. `seen` has a bit for each field that has come. */
+/* A key with its value. `seen` has a bit for each field that was read. */
 static bool read_entry(reader *in, const carom_field *fields, unsigned char *object,
                        uint64_t *seen) {
   char key[KEY_TEXT];
@@ -425,7 +425,7 @@ static bool read_entry(reader *in, const carom_field *fields, unsigned char *obj
   while (fields[k].key != NULL && strcmp(fields[k].key, key) != 0)
     k++;
 
-  /* keys are known, and come once */
+  /* keys are known, and occur once */
   in->key = key;
   if (fields[k].key == NULL)
     return wrong(in, "is no key of the format");
@@ -558,7 +558,7 @@ static const char *find_fault(const carom_record *record, int kind, const char *
   return NULL;
 }
 
-/* Whether the seal of a line that was read is the hash so far, which the line becomes a part of. */
+/* Whether the seal of a line that was read is the hash so far, to which the line is then added. */
 static bool check_seal(reader *in, int kind, uint64_t seal) {
   const carom_record *record = in->record;
   in->key = "hash";
@@ -585,7 +585,7 @@ static bool check_head(reader *in) {
   return wrong(in, "must be 2 or 3: a newer carom wrote this");
 }
 
-/* A ball comes in hand, or is placed by the rules of carom_place_ball(). */
+/* A ball is taken in hand, or is placed by the rules of carom_place_ball(). */
 static bool apply_place(reader *in) {
   carom_record *record = in->record;
   int ball = -1;
@@ -656,7 +656,7 @@ static int kind_of(const char *key) {
   return -1;
 }
 
-/* Whether a line of a kind may come here. */
+/* Whether a line of a kind is allowed here. */
 static bool may_come(reader *in, int kind) {
   const carom_record *record = in->record;
   const char *why = out_of_place(record, kind);
@@ -701,7 +701,7 @@ static bool read_line(reader *in, int *kind) {
   if (*kind == CAROM_RECORD_END)
     return true;
 
-  /* the hash behind the line covers its seal by the lines before it alone */
+  /* the hash after the line covers its seal only through the lines before it */
   const uint64_t seal = record->seal;
   record->seal = 0;
   record->hash = hash_behind(hash, *kind, record);
@@ -778,8 +778,8 @@ static void prepare_shot(carom_record *record, bool goes_on, bool may_stop, caro
     record->state.opaque[0] = 0;
 }
 
-/* How the shot ended, with the hash of the lines before it, of the stroke, and of its end as 3
- * words and 10 of each ball. */
+/* How the shot ended, with the hash of the lines before it, of the stroke, and of its end, as 3
+ * words and 10 for each ball. */
 static void note_end(carom_record *record, carom_record_kind kind, carom_status status,
                      const carom_shot *played) {
   const carom_record_end recorded = record->recorded;
@@ -862,7 +862,7 @@ static void write_hash(writer *out, uint64_t hash) {
   write_text(out, text);
 }
 
-/* A number; JSON has none that is not finite, and not all whole ones beyond 2^53. */
+/* A number; JSON has only finite ones, and not all integers beyond 2^53. */
 static void write_number(writer *out, const carom_field *f, const unsigned char *value) {
   double x = 0.0;
   int64_t whole = 0;

@@ -1,11 +1,12 @@
 /* Options of calls: one row each. Checks, the line of options in recordings, the fingerprint of a
- * stopped shot, copies, options of the command and those of other languages are made of these rows.
+ * stopped shot, copies, and the options of the command and of other languages are made from these
+ * rows.
  *
  * OPTION(member, key, FORM, low, high, ERROR, text)
  *
- * key:  the option of the command; "": it has none.
- * FORM: WORDS(OF), an enumeration from 0 of which `high` is the last; COUNT; FLAG, 0 or 1;
- *       SEED, any; NUMBER(unit), a double; SET(OF), whose bits are values with words, or BALLS.
+ * key: the option of the command; "": no option. FORM: WORDS(OF), an enumeration from 0 of which
+ * `high` is the last; COUNT; FLAG, 0 or 1;
+ *       SEED, any; NUMBER(unit), a double; SET(OF), whose bits are values with names, or BALLS.
  * low, high, ERROR: as in numbers.h; and 0, which is the default of each. */
 #ifndef CAROM_SRC_SCHEMA_OPTIONS_H
 #define CAROM_SRC_SCHEMA_OPTIONS_H

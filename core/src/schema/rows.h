@@ -46,7 +46,7 @@ typedef struct carom_word_row {
   const char *word, *text;
 } carom_word_row;
 
-/* The numbers of a part, and words, that a layer above adds. */
+/* The numbers of a part, and named values, that a layer above adds. */
 typedef struct carom_upper_rows {
   carom_part_kind part;
   const carom_number *numbers;

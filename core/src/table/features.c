@@ -5,8 +5,8 @@
  * That box is around the eye, a position to which a ball can be rolled. As a rule this is the
  * middle of the table: it is on the table if it can be seen from a position next to the longest
  * rail, on its played side. The box is free of the boxes of all parts, so a centre in it can be
- * rolled to the eye. Each part limits its half width or its half length: that of which it leaves
- * the larger share. */
+ * rolled to the eye. Each part limits its half width or its half length, whichever keeps the larger
+ * fraction. */
 #include "platform/promise.h"
 #include "table/marks.h"
 #include "table/table.h"
@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double single_rounding = 1e-5; /* m: of places up to 100 m in single precision */
+static const double single_rounding = 1e-5; /* m: for positions up to 100 m in single precision */
 static const double single_part = 1e-6;     /* the same, of a position */
 static const double usual_width = 0.12;     /* m: of the top of a rail */
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* rails shorter than this part of the longest one are cuts of pockets */
+/* rails shorter than this fraction of the longest one are cuts of pockets */
 static const double cut_most = 0.2;
 /* A rail whose end is so near to the centre of a pocket is next to it: radii of the pocket. A
  * corner pocket of a pool table has its rails' ends at 1.2 to 1.6 radii; 6 radii would be 0.4 m. */
@@ -38,7 +38,7 @@ int carom_is_beside(const carom_table *table, int rail, int pocket) {
          carom_is_near_pocket(table, pocket, table->rail[rail].q);
 }
 
-/* The name of the side of the rectangle, from 0 to width and length, on which a rail lies, or
+/* The name of the side of the rectangle, from 0 to width and length, on which a rail is, or
  * NULL. */
 static const char *side_of(const carom_table *table, int rail) {
   static const char *const names[2][2] = {{"left", "right"}, {"head", "foot"}};

@@ -1,9 +1,9 @@
 /* Where balls have a position on a table: the geometry of rails, jaws and pockets for the centre of
  * a ball.
  *
- * The parts of a table are a closed ring to the centre of a ball: none gets out but across a
+ * For the centre of a ball, the parts of a table are a closed ring: it can only leave across a
  * part. So a position that is seen from the eye of the table, to which balls can be rolled, is on
- * the table too. Other places are looked at more closely (ring.c), which takes longer. */
+ * the table too. Other positions are examined more closely (ring.c), which takes longer. */
 #include "table/table.h"
 
 #include <math.h>
@@ -42,7 +42,7 @@ static bool in_jaw(const carom_jaw *jaw, const double centre[2], double reach) {
 
 /* Whether the way from the eye to a position leads across a rail, as the centre of a ball does that
  * touches it at the distance `reach`. It crosses that line where the position along the rail is the
- * mean of those of both ends, weighted by the distance of the other. */
+ * mean of the positions of both ends, each weighted by the distance of the other. */
 static bool crosses_rail(const carom_features *features, int rail, const double centre[2],
                          double reach) {
   const double gap_at_eye = distance_to(features, rail, features->eye) - reach,

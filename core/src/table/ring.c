@@ -9,8 +9,8 @@
  * middle of one part to a position in it, straight on to a position in the other, and to the middle
  * of that. Along an edge the number of times is counted that a ray from P in the direction of +x is
  * crossed, upward less downward. Over a closed chain these numbers add up to how often it winds
- * around P. A forest of the nodes, each with the sum from its root, tells this for all chains at
- * once: an edge between two nodes of one tree closes a chain.
+ * around P. A forest of the nodes, each with the sum from its root, determines this for all chains
+ * at once: an edge between two nodes of one tree closes a chain.
  *
  *      o======rail======o jaw
  *      |                 |
@@ -19,10 +19,10 @@
  *      |                 |
  *      o======rail======o
  *
- * The ring is looked at twice. With rounded rails, which do not depend on the sides, it tells
- * holes as wide as a ball; then, when the sides are known to be right, with rails as detection
- * knows them it tells ends of rails without a jaw. Where no chain is closed, the parts are grown
- * further until one is. The edge that closed it is the hole. */
+ * The ring is looked at twice. With rounded rails, which do not depend on the sides, it finds holes
+ * as wide as a ball; then, when the sides are known to be right, with rails as detection uses them,
+ * it finds ends of rails without a jaw. Where no chain is closed, the parts are grown further until
+ * one is. The edge that closed it is the hole. */
 #include "platform/promise.h"
 #include "table/table.h"
 
@@ -218,7 +218,7 @@ static bool is_free(const part_ring *ring, const double point[2]) {
   return true;
 }
 
-/* A free position near the middle of the box around a table: in rings of places around it. */
+/* A free position near the middle of the box around a table: in rings of positions around it. */
 static bool find_middle(const part_ring *ring, const carom_table *table, double P[2]) {
   enum { HALF = 4 };
   for (int far = 0; far <= HALF; far++)
@@ -286,8 +286,8 @@ static bool find_hole(part_ring *ring, const double P[2], hole *found) {
   return high < widest && encloses(ring, low, high, P, NULL, found);
 }
 
-/* Whether the played side of a rail is turned away from the table: nowhere along it can a ball
- * that has come from P touch that side, and somewhere one is at its back. */
+/* Whether the played side of a rail faces away from the table: nowhere along it can a ball from P
+ * touch that side, and somewhere a ball is behind it. */
 static bool wrong_side(part_ring *ring, const carom_rail *rail, const double normal[3],
                        double radius, const double P[2]) {
   static const double places[] = {0.5, 0.25, 0.75, 0.1, 0.9, 0.02, 0.98};
@@ -308,7 +308,7 @@ static bool wrong_side(part_ring *ring, const carom_rail *rail, const double nor
   return at_back;
 }
 
-/* Whether the ring is closed; where it is not, *fault tells the hole. */
+/* Whether the ring is closed; if it is not, *fault describes the hole. */
 static bool is_closed(part_ring *ring, const double P[2], carom_table_fault *fault) {
   hole found;
   if (encloses(ring, touching, touching, P, NULL, &found))
@@ -358,8 +358,8 @@ __attribute__((noinline, cold)) bool carom_is_cut_off(const carom_ground *ground
   shapes_of(ground, CAROM_RING_OVERLAP, true, &ring);
   if (!features->has_eye && !find_place(&ring, ground, closed, P))
     return false;
-  /* a ring with a hole keeps no place apart; there, holes of up to the width of a ball are taken
-   * to be closed */
+  /* a ring with a hole separates no positions; there, holes of up to the width of a ball are
+   * treated as closed */
   shapes_of(ground, CAROM_RING_OVERLAP, false, &ring);
   double grown = 2.0 * ground->kind->radius;
   if (encloses(&ring, closed, closed, P, NULL, &unused))

@@ -14,8 +14,8 @@
  * passages overlap, and each seam still has the numbers of its rail. 8 mm is a convention: the arcs
  * of pool's jaws are 10 to 14 mm long.
  *
- * Seams follow from the numbers of the table alone. They are looked for when a ball meets a jaw: to
- * prepare those of all jaws for each shot costs as much as half of a short shot. */
+ * Seams depend only on the numbers of the table. They are looked for when a ball meets a jaw:
+ * preparing the seams of all jaws for each shot would take half as long as a short shot. */
 #include "table/table.h"
 
 #include <math.h>

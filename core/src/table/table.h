@@ -15,7 +15,7 @@
 /* m: a ball that is deeper than this in another overlaps it. Rules allow balls so much smaller than
  * usual, and those that touch lie so much nearer. */
 #define CAROM_MOST_BALL_OVERLAP (5e-5 + CAROM_MOST_OVERLAP)
-/* m: by so much less the parts of a ring reach than a ball does, so that none that touches one is
+/* m: the parts of a ring reach less far than a ball by this, so that no ball that touches a part is
  * behind it. */
 #define CAROM_RING_OVERLAP 2e-6
 
@@ -27,7 +27,7 @@ typedef struct carom_features {
   int rails, jaws, pockets, count;
   double line[CAROM_RAILS_MOST][3];  /* unit normal towards the played side, and offset: distance
                                         = line . (x, y, 1) */
-  double along[CAROM_RAILS_MOST][3]; /* place along the rail, 0 at p and 1 at q: along . (x, y,
+  double along[CAROM_RAILS_MOST][3]; /* position along the rail, 0 at p and 1 at q: along . (x, y,
                                         1) */
   /* boxes around the things, in single precision, rounded outward */
   float low_x[MOST_FEATURES], high_x[MOST_FEATURES], low_y[MOST_FEATURES], high_y[MOST_FEATURES];
@@ -59,7 +59,7 @@ typedef struct carom_seam {
   int rail;
   double end[2]; /* of the rail */
 } carom_seam;
-/* The seams of a jaw, by the numbers of the table alone, and how many. */
+/* The seams of a jaw, which depend only on the numbers of the table, and their number. */
 int carom_seams_of(const carom_table *table, int index, carom_seam seam[CAROM_SEAMS_MOST]);
 /* Changes the friction and the restitution of a jaw, for a ball of a kind, to those at the position
  * that the ball touches. */
@@ -110,8 +110,8 @@ carom_status carom_check_parts(const carom_table *table, double radius, double u
 /* places.c: a table as balls of a kind meet it. */
 void carom_ground_of(const carom_table *table, const carom_features *features,
                      const carom_ball_kind *kind, carom_ground *ground);
-/* Whether a ball on the cloth stands within the cushions and in no pocket; and the part that one
- * which does not is in, CAROM_PART_NONE outside the ring. */
+/* Whether a ball on the cloth is within the cushions and in no pocket; if not, the part in which it
+ * is, CAROM_PART_NONE outside the ring. */
 bool carom_stands_on_table(const carom_table *table, const carom_features *features,
                            const carom_ball_kind *kind, const double centre[3]);
 carom_part carom_part_there(const carom_ground *ground, const double centre[3]);
@@ -134,7 +134,8 @@ carom_status carom_check_ring(const carom_ground *ground, carom_table_fault *fau
  * it; false without rails. */
 bool carom_beside_longest(const carom_table *table, const carom_features *features, double radius,
                           double place[2]);
-/* Whether a position is outside, as above, by the parts of the table alone: some microseconds. */
+/* Whether a position is outside, as above, computed only from the parts of the table: some
+ * microseconds. */
 bool carom_is_cut_off(const carom_ground *ground, const double centre[2]);
 
 /* The kind of part of which a table has too many, by the error; NONE for other errors. */

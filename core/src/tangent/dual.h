@@ -33,7 +33,7 @@ extern "C" {
 namespace {
 
 typedef double real;
-enum { WIDTH = CAROM_DUAL_WIDTH, CLOCK = WIDTH - 1 }; /* the last direction is that of time */
+enum { WIDTH = CAROM_DUAL_WIDTH, CLOCK = WIDTH - 1 }; /* the last direction is time */
 
 /* Derivatives in all directions: a few vectors that fit registers, since compilers keep longer
  * ones in memory. */
@@ -48,7 +48,7 @@ struct row {
     return reinterpret_cast<real *>(q)[k];
   }
 };
-/* Unrolled here, because core/src/CMakeLists.txt asks gcc for less than -O3, which would unroll it.
+/* Unrolled here, because core/src/CMakeLists.txt compiles below -O3, which would unroll it.
  * */
 #define CAROM_LANES(expression)                                                 \
   row r;                                                                        \

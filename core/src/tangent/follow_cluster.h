@@ -24,13 +24,13 @@ typedef struct carom_tangent_cluster {
   /* gives numbers and tangents of member k, the last one e of its slate, and whether it flies; */
   bool (*give)(void *context, int k, double x[CAROM_MEMBER_NUMBERS + 1],
                double d[CAROM_MEMBER_NUMBERS + 1]);
-  /* takes those of its motion, v, W and shift, and of the impulse of the slate. */
+  /* receives the tangents of its motion, v, W and shift, and of the impulse of the slate. */
   void (*take)(void *context, int k, const double x[CAROM_MOTION_NUMBERS + 1],
                const double d[CAROM_MOTION_NUMBERS + 1]);
   void *context;
-  /* written before `take` is called: how far its touches are apart, places.c, and how long the
-     integration lasts, with their tangents; the
-     touches in their order, each by the positions of its two balls */
+  /* written before `take` is called: how far apart its touches are, places.c, and how long the
+     integration lasts, with their tangents; the touches in their order, each by the positions of
+     its two balls */
   double separation, separation_rate, duration;
   int touches;
   int8_t touch[CAROM_TANGENT_TOUCHES][2];

@@ -36,7 +36,7 @@ static carom_status check_event(const carom_table *table, int count, const carom
   return CAROM_OK;
 }
 
-/* How many contacts are resolved with an event: those of its cluster, or it alone. */
+/* How many contacts are resolved with an event: the contacts of its cluster, or one. */
 static int contacts_of(const carom_event *event) {
   if (event->cluster == 0)
     return 1;
@@ -146,7 +146,7 @@ static void begin(work *w, const carom_prepared *p) {
   }
 }
 
-/* The rows that the caller asks of event k, whose balls are behind it. */
+/* The rows that the caller requests for event k, with the balls after it. */
 static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reach) {
   const carom_tangent *t = w->tangent;
   const size_t columns = sizeof(double) * (size_t)w->pass.columns;
@@ -171,8 +171,8 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
   }
 }
 
-/* Whether a contact that is resolved alone has a third ball so near that a small change may have
- * it touched before. */
+/* Whether a single contact has a third ball so near that a small change may make it touch
+ * before. */
 __attribute__((noinline)) static bool is_in_pile(const work *w, const carom_event *e) {
   static const double reach = 1e-3; /* m; gaps of racks are half of it at most */
   for (int i = 0; i < w->count && e->type == CAROM_EVENT_BALL_BALL; i++) {
@@ -298,7 +298,7 @@ static carom_status shot_tangent(const carom_prepared *p, const carom_cue *cue,
     status = differentiate(&w, p, shot);
   }
 
-  /* derivatives that overflow, and those of an error, are NaN */
+  /* derivatives that overflow, or of an error, are NaN */
   const int64_t finals = (int64_t)p->count * CAROM_STATE_NUMBERS * seeds->directions;
   const int64_t times = shot->count * seeds->directions;
   if (status == CAROM_OK &&

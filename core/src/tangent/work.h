@@ -73,7 +73,7 @@ typedef struct carom_tangent_work {
   carom_tangent_row margin_row;
 } carom_tangent_work;
 
-/* Whether an event is a further touch of the tip, after that of the strike. */
+/* Whether an event is a further touch of the tip, after the strike. */
 static inline bool carom_touches_again(const carom_event *e) {
   return e->type == CAROM_EVENT_STRIKE && e->time > 0.0;
 }
