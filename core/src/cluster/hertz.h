@@ -48,8 +48,8 @@ static inline double carom_hertz_force(double stiffness, double restitution, dou
              : 0.0;
 }
 
-/* k/m of a contact with linear branches that lasts so long alone, against the mass m, in 1/s^2.
- * Loading is a quarter of a swing at the rate sqrt(k/m), unloading e times as long. */
+/* k/m of a contact with linear branches that by itself lasts that long, against the mass m, in
+ * 1/s^2. Loading is a quarter of a swing at the rate sqrt(k/m), unloading e times as long. */
 static inline double carom_linear_stiffness(double time, double restitution) {
   const double rate = CAROM_QUARTER_TURN * (1.0 + restitution) / time;
   return rate * rate;

@@ -105,7 +105,7 @@ void carom_cluster_push_alone(carom_cluster_state *cluster) {
     ball->shift[axis] = 0.0;
   }
 
-  /* the impulse, as if all of it had come at its centroid */
+  /* the impulse, as if all of it had acted at its centroid */
   cluster_add(!cluster->in_space, ball->s, rest * tip->J * ball->inverse_mass, tip->along);
   tip->V -= tip->J * tip->inverse_mass;
   cluster_add(!cluster->in_space, ball->v, tip->J * ball->inverse_mass, tip->along);

@@ -25,8 +25,8 @@
  *
  * The set that is left where F reaches 0 recovers as delta falls: then delta_max = delta/(1 - e^2),
  * and a tip that closes again loads along the line of unloading. A tip at delta < 0 is open, and
- * touches anew. So no speed jumps where a force reaches 0. In flat play the part of the push that
- * goes down is lost, with the speed that it would give.
+ * touches anew. So no speed jumps where a force reaches 0. In flat play the downward component of
+ * the push is lost, with the speed that it would give.
  *
  * FURTHER TOUCH. The ball moves and turns by itself, so that the tip may slide on it. With n the
  * unit vector from the position of the touch to the centre, kappa = n . c, and y the velocity of
@@ -44,7 +44,7 @@
  *                 /      'n   \        where it would be drawn into the ball
  *                 |        'o |
  *
- * and mu = a/sqrt(1 - a^2), a the offset of a miscue. The power P . r is that of the spring and of
+ * and mu = a/sqrt(1 - a^2), a the offset of a miscue. P . r is the power of the spring and of
  * friction. A tip that does not slide has r = delta' c, as the first touch has it, whose push goes
  * along c' too. Where friction holds back as much as it pushes, N is at most 2 k delta/kappa: the
  * rest would wedge the tip. The end gives way, but the shaft holds it where friction would draw it
@@ -70,7 +70,8 @@ static const double too_slow = 1e-9;   /* of the speed of the cue: contacts that
                                         none */
 static const double least_kappa = 0.1; /* a tip that slides past it misses */
 
-/* The part of kappa that friction leaves at least, where it holds back; N is 1 over it at most. */
+/* The fraction of kappa that friction leaves at least, where it holds back; N is 1 over it at
+ * most. */
 #define CAROM_LEAST_PUSH 0.5
 
 /* delta': the speed at which the tip closes. */
@@ -107,8 +108,8 @@ static inline double step_to_touch(const carom_cluster_state *cluster, double st
   return closing > 0.0 ? carom_lesser(step, free_step - tip->overlap / closing) : step;
 }
 
-/* FURTHER TOUCH: the impulse P of which J is the part along the axis. With c_t the part of c across
- * n (`aside`), A = 1/m_e + 7/2/m (`across`) and g = 1/m_e + 1/m, the slip after a step is
+/* FURTHER TOUCH: the impulse P of which J is the part along the axis. With c_t the component of c
+ * across n (`aside`), A = 1/m_e + 7/2/m (`across`) and g = 1/m_e + 1/m, the slip after a step is
  *
  *     u = u0 - A f + g (N/kappa) c_t,     N = (J - f . c_t)/kappa.
  *

@@ -6,10 +6,10 @@
  *
  *     sum (r_i - y_i)^2 / s^2 + (e - e_0)^2 / s_e^2 + (mu - mu_0)^2 / s_mu^2
  *
- * by Gauss and Newton, with differences of complete shots. e_0 and mu_0 are those of the ball. s_e
- * and s_mu say how much tables differ from them: public systems of players leave 0.74 to 0.89 and
- * 0.18 to 0.42. s = 50 mm is the error of a reading, 25 mm, of which most is the speed of the
- * stroke, with what the law of the cushion leaves out. The bands are the roots of the diagonal of
+ * by Gauss and Newton, with differences of complete shots. e_0 and mu_0 are the ball's. s_e and
+ * s_mu are how much tables differ from them: public systems of players leave 0.74 to 0.89 and 0.18
+ * to 0.42. s = 50 mm contains the error of a reading, 25 mm, most of which is the speed of the
+ * stroke, and what the law of the cushion leaves out. The bands are the roots of the diagonal of
  * the inverse of the matrix. A hard bank determines e, because friction has little to do with it;
  * soft ones determine mu.
  *
@@ -162,7 +162,7 @@ carom_status carom_calibrate(const carom_table *table, const carom_ball_kind *ba
   if (status != CAROM_OK)
     return status;
 
-  /* what is told of it */
+  /* the results */
   double squares = 0.0;
   for (int index = 0; index < CAROM_BANKS; index++) {
     out->comes_back[index] = place[index] / diamond;

@@ -21,7 +21,7 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
   return carom_ok_if(o->unused == 0 && CAROM_RESERVED_IS_ZERO(o), CAROM_ERROR_SHOT_OPTIONS);
 }
 
-/* Prepares the table for the balls of a layout. In flat play all radii are to be that of the
+/* Prepares the table for the balls of a layout. In flat play all radii must be equal to the
  * first. */
 static carom_status prepare_table(const carom_prepared *prepared, bool flat,
                                   carom_features *features, int *where) {
@@ -158,7 +158,7 @@ void carom_take_row(carom_prepared *prepared, const carom_shot_job *job, size_t 
   }
 }
 
-/* What a world and its options ask of the balls of a row. */
+/* What the rules of contact and the options require of the balls of a row. */
 typedef struct row_rules {
   bool flat, one_mass;
 } row_rules;

@@ -1,4 +1,4 @@
-/* What the rules of games ask of a shot (carom_facts), noted event by event. */
+/* What the rules of games need to know about a shot (carom_facts), noted event by event. */
 #include "shot/facts.h"
 #include "table/marks.h"
 
@@ -30,8 +30,8 @@ static carom_ball_state state_now(const carom_sim *sim, int ball) {
   return current;
 }
 
-/* Widens the range of places where the cue ball was before it met a ball. `begins`: it is the first
- * such place. */
+/* Widens the range of positions of the cue ball before it met a ball. `begins`: this is the first
+ * position. */
 static void widen_range(carom_facts *facts, const carom_sim *sim, bool begins) {
   const carom_ball_state current = state_now(sim, sim->struck);
   for (int axis = 0; axis < 2; axis++) {
@@ -64,7 +64,7 @@ static void fly_over(carom_facts *facts, const carom_sim *sim) {
   }
 }
 
-/* How the cue ball comes to its first ball. */
+/* How the cue ball reaches its first ball. */
 static int32_t approach_of(const carom_sim *sim, int ball) {
   const uint32_t rails = sim->shot->facts->rails[sim->struck];
   if (rails == 0)
@@ -91,7 +91,7 @@ static void meet(carom_facts *facts, const carom_sim *sim, int ball) {
     return;
   facts->order[count] = ball;
 
-  /* the first ball, and those of the same instant */
+  /* the first ball, and the balls of the same instant */
   if (count == 0) {
     const carom_ball_state current = state_now(sim, sim->struck);
     memcpy(facts->first_place, current.r, sizeof facts->first_place);

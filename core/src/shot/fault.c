@@ -69,7 +69,7 @@ typedef struct suspect {
 
 enum { SUSPECTS_MOST = 8 };
 
-/* Lists what comes once in a shot, and the parts and the ball at the position `index` of the fault,
+/* Lists what occurs once in a shot, and the parts and the ball at the index `index` of the fault,
  * in the order of blame; returns how many there are. */
 static int list_suspects(const carom_table *t, const carom_shot_ball *ball, int index,
                          const carom_cue *cue, const carom_shot_options *opt,
@@ -96,7 +96,7 @@ static int list_suspects(const carom_table *t, const carom_shot_ball *ball, int 
 }
 
 /* Blames a number that is in its range, but invalid together with others: of the cue, or of the
- * ball at the place; where no number of that ball is to blame, the ball itself. */
+ * ball at the index; if no number of that ball is to blame, the ball itself. */
 static void blame_beside_others(carom_fault *f, const carom_shot_ball *ball, int index,
                                 const carom_cue *cue) {
   if (cue != NULL && blame(f, CAROM_PART_CUE, 0, cue, true))
@@ -149,8 +149,7 @@ carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls
       return fault->status;
     }
 
-  /* Of the numbers that depend on others, those of a ball have conditions with texts of their
-   * own. */
+  /* Among the numbers that depend on others, a ball's have conditions with their own texts. */
   const carom_number *n = NULL;
   if (ball != NULL)
     n = carom_ball_fault(&ball->kind, text, room);

@@ -1,6 +1,6 @@
 /* The rules of a world: everything that shots do otherwise in one world than in another, but for
  * its default models, shot.h. The loop, the detection and the models read them here, and do not
- * ask which world it is. */
+ * test which rules apply. */
 #ifndef CAROM_SRC_SHOT_RULES_H
 #define CAROM_SRC_SHOT_RULES_H
 
@@ -8,7 +8,7 @@
 #include "shot/sim.h"
 
 typedef struct carom_rules {
-  bool flat;           /* balls stay on the cloth, whatever the options say */
+  bool flat;           /* balls stay on the cloth, whatever the options are */
   bool one_mass;       /* all balls have equal masses */
   bool clusters;       /* contacts of several balls at one instant may last: options.simultaneous */
   bool contacts_slide; /* after a strike or a contact a ball slides, even where it would roll */

@@ -89,7 +89,7 @@ static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
   }
 }
 
-/* A cluster that hands on places may move a ball on the cloth beyond a nose that it had not
+/* A cluster that changes positions may move a ball on the cloth beyond a nose that it had not
  * reached: it stays at the nose, whose impact then follows. */
 static void stay_before_noses(const carom_sim *sim, int ball, const carom_ball_state *before,
                               carom_ball_state *state) {
@@ -176,9 +176,9 @@ static carom_status unresolved(carom_sim *sim) {
   return CAROM_ERROR_UNRESOLVED;
 }
 
-/* Those contacts by the cluster; false where its touches have to be taken in turn first. *count
- * becomes that of its contacts. This is its own function because a cluster needs 30 KiB of
- * stack. */
+/* Resolves those contacts by the cluster; false if its touches must first be resolved successively.
+ * *count becomes the number of its contacts. This is its own function because a cluster needs 30
+ * KiB of stack. */
 __attribute__((noinline, cold)) static bool step_cluster(carom_sim *sim, carom_due *pending_event,
                                                          carom_in_turn *turn, int *count,
                                                          carom_status *status) {
@@ -213,12 +213,12 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
   return count != 0;
 }
 
-/* Which strike a push is: the first strike of a ball that has others near, the first strike of a
- * ball that has none, or a further touch of the tip. */
+/* Which strike a push is: the first strike of a ball with others nearby, the first strike of a ball
+ * without, or a further touch of the tip. */
 typedef enum push_kind { PUSH_OF_SEVERAL, PUSH_OF_ONE, PUSH_AGAIN } push_kind;
 
 /* Resolves the push of a cue together with the contacts of balls that last meanwhile; their events
- * are behind that of the strike. Returns false, with nothing changed, where no other ball takes
+ * follow the event of the strike. Returns false, with nothing changed, where no other ball takes
  * part in a PUSH_OF_SEVERAL, and where a PUSH_AGAIN closes below CAROM_LEAST_TOUCH. *contact
  * becomes the first contact of the struck ball. */
 __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_cue *cue,
@@ -268,7 +268,7 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   const carom_status of_contacts = note_contacts(sim, &cluster, order, count, changed, contact);
   if (*status == CAROM_OK)
     *status = of_contacts;
-  /* a tip that is gone stands still */
+  /* a tip that has left does not move */
   carom_follow_on(play, cluster.tip.gone ? 0.0 : cluster.tip.V, carom_cluster_tip_lead(&cluster));
   return true;
 }
@@ -279,7 +279,7 @@ static inline bool may_last(const carom_sim *sim, const carom_due *pending_event
          carom_lasts(sim->opt) && carom_third_is_near(sim, pending_event->a, pending_event->b);
 }
 
-/* One event, or those of a cluster. */
+/* One event, or the events of a cluster. */
 static carom_status step(carom_sim *sim, carom_due *pending_event) {
   carom_status together;
   if (may_last(sim, pending_event) && step_together(sim, pending_event, &together))
@@ -328,7 +328,7 @@ static carom_status step(carom_sim *sim, carom_due *pending_event) {
   return status;
 }
 
-/* Whether the cue strikes at all: it moves, and every ball that is in play lies still. */
+/* Whether the cue strikes at all: it moves, and every ball in play is at rest. */
 static bool may_strike(const carom_sim *sim) {
   if (sim->cue == NULL || !(sim->cue->speed > 0.0))
     return false;
@@ -349,7 +349,7 @@ static carom_strike_kind strike_kind_of(const carom_sim *sim) {
   return CAROM_STRIKE_IN_SPACE;
 }
 
-/* The strike of a ball that meets no other meanwhile, which has the motion `alone` after it. */
+/* The strike of a ball that meets no other meanwhile, whose motion after it is `alone`. */
 static void note_strike(carom_sim *sim, const carom_ball_state *alone, const carom_raised *raised,
                         bool in_space, bool is_push) {
   const int ball = sim->struck;
@@ -442,7 +442,7 @@ static bool stops_at(carom_sim *sim, int type, int a, int b) {
 }
 
 /* The tip touches the struck ball again, or the follow-through ends. *pending_event becomes what
- * happens; *lies whether the tip closes too slowly, and is at the ball. */
+ * happens; *lies whether the tip closes too slowly, and stays at the ball. */
 __attribute__((noinline, cold)) static carom_status
 touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
   carom_sim *sim = &play->sim;
@@ -625,8 +625,8 @@ shoot(const carom_prepared *prepared, const carom_cue *cue, carom_shot *shot, bo
   return finish(&play, status);
 }
 
-/* The same for a caller who does not want the facts that belong to the state. This is a function of
- * its own so that other shots do not need its stack. */
+/* The same for a caller who does not want the facts that belong to the state. This is a separate
+ * function so that other shots do not need its stack. */
 __attribute__((noinline, cold)) static carom_status shoot_with_facts(const carom_prepared *prepared,
                                                                      const carom_cue *cue,
                                                                      carom_shot *shot, bool anew) {
@@ -765,7 +765,7 @@ carom_status carom_shoot_batch(const carom_shot_job *job) {
   const size_t first_bad = carom_in_threads(shoot_rows, job, (size_t)job->n, opt->threads, LEAST);
   if (first_bad == job->n)
     return CAROM_OK;
-  /* Only its index came back through the threads; playing the shot again tells its status. */
+  /* The threads only returned its index; playing the shot again returns its status. */
   checked last;
   no_layout(job, &last);
   return shoot_row(job, first_bad, &last);

@@ -1,4 +1,4 @@
-/* A shot on its way, which the parts of this room share. One carom_play is on the stack of
+/* A shot in progress, which the sources of this folder share. One carom_play is on the stack of
  * carom_shoot(), nothing is allocated. */
 #ifndef CAROM_SRC_SHOT_SIM_H
 #define CAROM_SRC_SHOT_SIM_H
@@ -42,17 +42,17 @@ typedef struct carom_sim {
   carom_world world;
   bool has_hit;  /* the cue ball has met another, */
   bool turned;   /* or a cushion */
-  bool unlike;   /* radii differ from each other or from the table's reference: contacts are those
-                  of spheres in space */
+  bool unlike;   /* radii differ from each other or from the table's reference: contacts are
+                    contacts of spheres in space */
   int flying;    /* airborne balls */
   double widest; /* m: the greatest radius of the balls */
   double time;
   int64_t slow_instants; /* that had a slow contact, so far; see resolve.c */
   double slow_last;      /* s: the last of them */
-  int64_t round;         /* events so far: tells when an entry below was computed */
+  int64_t round;         /* events so far: shows when an entry below was computed */
   carom_ball_rates rates[CAROM_BALLS_MOST];
   carom_path path[CAROM_BALLS_MOST];
-  /* the paths once more, in columns: those of pairs are searched many at a time */
+  /* the paths once more, in columns: many pairs are searched at a time */
   double x[CAROM_COLUMN], y[CAROM_COLUMN], v_x[CAROM_COLUMN], v_y[CAROM_COLUMN], a_x[CAROM_COLUMN],
       a_y[CAROM_COLUMN], start[CAROM_COLUMN], horizon[CAROM_COLUMN];
   /* R, 0 and 0 but for airborne balls */
@@ -88,7 +88,7 @@ enum {
   CAROM_DUE_PIECE = CAROM_EVENT_LEFT_TABLE + 1
 };
 
-/* Whether contacts are looked for in space, and not on the cloth alone. */
+/* Whether contacts are looked for in space, and not only on the cloth. */
 static inline bool carom_in_space(const carom_sim *sim) {
   return sim->flying > 0 || sim->unlike;
 }
@@ -113,7 +113,7 @@ void carom_detect_columns(carom_sim *sim);
 /* state.c: takes fingerprints of table, balls and options, where a state will be kept. */
 void carom_state_begin(carom_sim *sim);
 /* Leaves the shot, of which the state is the copy, without the caller's pointers. The facts so far
- * are those of play->sim.shot. */
+ * are in play->sim.shot. */
 void carom_state_save(carom_play *play, carom_shot_state *state);
 /* Whether play, the copy of a state with the caller's pointers, can continue: CAROM_OK or why not.
  * Numbers that follow from others are computed again; count, time and facts so far go into
@@ -203,7 +203,7 @@ void carom_answer_of_slate(const carom_ball_kind *kind, const carom_touch *touch
 
 /* ---- spheres.c: two spheres that collide in space, n the unit vector from ball a to ball b */
 
-/* The speed at which the surface of a slips on that of b, m/s. Positions are not read. */
+/* The speed at which the surface of a slips on the surface of b, m/s. Positions are not read. */
 double carom_spheres_slip(const carom_impact *in, const double normal[3]);
 /* The motion after the impact of balls that close along n. */
 void carom_spheres_collide(const carom_impact *in, const double normal[3], carom_result *out);

@@ -46,7 +46,7 @@ static const double hop_loss = 0.02, least_hop = 1e-9;
 carom_touch carom_touch_of(const double N[3], double radius, const carom_ball_state *state) {
   const double *velocity = state->v, *rotation = state->w, closing = carom_space_dot(velocity, N);
 
-  /* u: the velocity across N, and that of the turn */
+  /* u: the velocity across N, and the velocity of the turn */
   double turn[3], sliding[3];
   carom_cross(rotation, N, turn);
   for (int axis = 0; axis < 3; axis++)
@@ -96,7 +96,7 @@ carom_touch carom_touch_slate(const carom_ball_kind *kind, const carom_ball_stat
   return touch;
 }
 
-/* A ball falls on the slate, and hops or lies. */
+/* A ball falls on the slate, and hops or stays. */
 void carom_hit_slate(const carom_ball_kind *kind, carom_ball_state *state) {
   const double restitution = carom_slate_restitution(kind->restitution_table);
   const carom_touch touch = carom_touch_slate(kind, state);

@@ -115,13 +115,13 @@ void carom_state_seal(carom_shot_state *state) {
 void carom_state_save(carom_play *play, carom_shot_state *state) {
   carom_sim *sim = &play->sim;
   const carom_shot *shot = sim->shot;
-  result so_far; /* that of the state until now, of which the events stay */
+  result so_far; /* the shot of the state so far, whose events are kept */
   memcpy(&so_far, state->opaque + sizeof *play / sizeof *state->opaque, sizeof so_far);
   add_events(&so_far, shot, shot->count);
   so_far.time = shot->time;
   so_far.facts = *shot->facts;
   sim->can_go_on = resumable();
-  sim->rules = NULL; /* these come with the next call */
+  sim->rules = NULL; /* the next call provides these */
   sim->table = NULL;
   sim->features = NULL;
   sim->layout = NULL;
@@ -186,7 +186,7 @@ static bool good_meeting(const carom_sim *sim, int i) {
   return m->part >= 0 && m->part < parts && parts < INT64_MAX;
 }
 
-/* Whether the pairs of a ball with those behind it can meet when they are said to. */
+/* Whether the pairs of a ball with later ones can meet at the times given. */
 static bool good_pairs(const carom_sim *sim, int i) {
   bool good = true;
   for (int j = i + 1; j < sim->count; j++) {
@@ -197,7 +197,7 @@ static bool good_pairs(const carom_sim *sim, int i) {
   return good;
 }
 
-/* Whether the result so far can be that of the shot. */
+/* Whether the result so far can belong to the shot. */
 static bool good_result(const carom_sim *sim, const result *so_far) {
   const carom_facts *f = &so_far->facts;
   const int64_t most = so_far->events;
@@ -224,7 +224,7 @@ static bool good_follow(const carom_play *play) {
           f->time >= sim->time && carom_check_cue(&f->cue) == CAROM_OK);
 }
 
-/* Whether all indices and numbers are those of a shot of sim->layout on sim->table; those that
+/* Whether all indices and numbers are possible for a shot of sim->layout on sim->table; those that
  * follow from others are computed again. */
 static bool restore(carom_play *play) {
   carom_sim *sim = &play->sim;
