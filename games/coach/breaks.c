@@ -100,7 +100,7 @@ static uint32_t wings_of(const carom_table *table, const carom_shot_ball *balls,
   return wings;
 }
 
-/* Adds what break k of a batch comes to by the rules of its game, and what it is worth. */
+/* Adds the result of break k of a batch by the rules of its game, and its value. */
 static void count_ruling(const carom_break_job *job, const carom_plan_rules *rules, int k,
                          carom_break_counts *counts) {
   workspace *w = job->memory;
@@ -187,7 +187,7 @@ static carom_status play(const carom_break_job *job, int64_t first, int n,
   return CAROM_OK;
 }
 
-/* The same breaks, whose errors are those of job->player, of another player who plays on. */
+/* The same breaks, with the errors of job->player, for another player who plays on. */
 static carom_status play_all(const carom_break_job *job, const carom_player *valued, int64_t first,
                              int64_t n, carom_break_counts *counts) {
   if (job == NULL || counts == NULL || job->memory == NULL || job->memory_size < sizeof(workspace))
@@ -351,7 +351,7 @@ carom_status carom_break_best(const carom_break_job *job, int64_t breaks,
     sort_choices(candidate, count);
   }
 
-  /* the breaks that choose are partly lucky for the best: others are told */
+  /* the breaks that choose are partly lucky for the best: others are reported */
   for (int k = 0; k < room && status == CAROM_OK; k++) {
     choices[k] = candidate[k];
     choices[k].counts = (carom_break_counts){0};

@@ -6,7 +6,7 @@
  *
  *     V - W = (p - k) (U - L) + (k U + (1 - k) L - W),
  *
- * the first of which is the cost of the miss, and the second that of the position of the balls.
+ * the first of which is the cost of the miss, and the second the cost of the position of the balls.
  * Both have the mean 0 for a player with these errors. */
 #include "carom_coach.h"
 #include "coach.h"
@@ -70,7 +70,7 @@ const char *carom_practice_name(carom_practice group) {
   return names[group];
 }
 
-/* The costs of a stroke, compared with those of the meant one with the player's errors. */
+/* The costs of a stroke, compared with the intended one with the player's errors. */
 static void find_costs(const carom_plan_job *job, carom_call call, carom_ruling *ruling,
                        carom_review *review) {
   const uint64_t seed = job->options != NULL ? job->options->seed : 0;
@@ -145,7 +145,7 @@ carom_status carom_review_of(const carom_plan_job *job, const carom_cue *played,
 }
 
 /* Whether the stroke of a drill by a player, or without errors, pots its ball; end[] becomes the
- * place of the cue ball. */
+ * position of the cue ball. */
 static bool makes_pot(const carom_plan_job *job, const carom_drill *drill,
                       const carom_player *player, uint64_t n, double end[2]) {
   carom_ball_state final[CAROM_BALLS_MOST];

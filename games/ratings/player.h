@@ -14,7 +14,7 @@ bool carom_player_is_good(const carom_player *p);
 carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue);
 /* A stroke by a player with bounds; z are his errors in standard deviations. */
 void carom_player_errs(const carom_player *player, const double z[6], carom_cue *cue);
-/* How much larger the errors of a stroke of this speed are than those of the slowest. */
+/* The ratio of the errors of a stroke of this speed to the errors of the slowest stroke. */
 double carom_player_growth(const carom_player *player, double speed);
 
 #endif

@@ -15,8 +15,8 @@
  *
  *     q + (1 - q) (1 - q') Phi((M' - N + 1/2) / sqrt(1/4 + N (1 + w' / V) + M' (1 + w' / V'))),
  *
- * Phi being the normal distribution. All of it is an estimate: a, e and w' are those of a usual
- * layout, and the number of pots K supposes w' each.
+ * Phi being the normal distribution. All of it is an estimate: a, e and w' are for a usual layout,
+ * and the number of pots K assumes w' for each.
  *
  * Where the other makes every ball, as in a plan to run out, the value is the fraction of the
  * points on the table, or of those needed, that the visit makes. The chance q of all points of a
@@ -53,7 +53,7 @@ static double normal(double x) {
   return 0.5 + copysign(0.5 * carom_erf(fabs(x) / 1.4142135623730951), x);
 }
 
-/* From where the cue ball lies, or as pots.c has a cue ball in hand. */
+/* From the position of the cue ball, or as pots.c treats a cue ball in hand. */
 static double value_from(const carom_view *view, const carom_rules_state *game,
                          const carom_ball_state *balls, uint32_t in_play, int seat, bool in_hand) {
   const carom_plan_rules *rules = view->rules;
@@ -116,7 +116,7 @@ double carom_points_value(const carom_view *view, const carom_rules_state *game,
   if (!in_hand || !carom_has_d(view->rules))
     return value_from(view, game, balls, in_play, seat, in_hand);
 
-  /* in the D: the best of some places on its line */
+  /* in the D: the best of some positions on its line */
   carom_ball_state placed[CAROM_BALLS_MOST];
   memcpy(placed, balls, (size_t)view->count * sizeof *placed);
   const carom_marks marks = carom_marks_of(view->width, view->length);

@@ -2,11 +2,12 @@
  *
  * A ball counts that is called with its pocket and banked, as pot_kind.h has it: the cue ball meets
  * it first and directly, and it meets a cushion that is not next to the pocket before it falls. It
- * keeps the turn, and eight of them win. A kiss on the way does not spoil it, though most rules say
- * that it does. What falls otherwise returns at the end of the visit, or when no other ball is
- * left. A foul costs one ball; who has none owes one; the third in a row loses. A ball that leaves
- * the table is not a foul. After the break, which is called by nobody, who has potted plays on; if
- * it pots none and drives fewer than two balls to rails, the other may have it played again. */
+ * keeps the turn, and eight of them win. A kiss on the way does not spoil it, although it does in
+ * most rules. What falls otherwise returns at the end of the visit, or when no other ball is left.
+ * A foul costs one ball; a player without a ball owes one; the third in a row loses. A ball that
+ * leaves the table is not a foul. After the break, which is called by nobody, who has potted plays
+ * on; if it pots none and drives fewer than two balls to rails, the other may have it played
+ * again. */
 #include "games.h"
 #include "pot_kind.h"
 #include "rules.h"

@@ -174,8 +174,8 @@ static carom_turn judge_four(carom_rules_state *game, uint32_t in_play, int cue_
 
 /* ---- Balls that return */
 
-/* The spots of three-cushion: of the red the foot spot, of the cue ball of the player who comes to
- * the table the head spot, of the other one the centre. */
+/* The spots of three-cushion: for the red the foot spot, for the cue ball of the next player the
+ * head spot, for the other one the centre. */
 static void spot_of(const carom_table *table, int cue_ball, int ball, double place[2]) {
   place[0] = 0.5 * table->width;
   place[1] = 0.5 * table->length;
@@ -208,7 +208,7 @@ static int32_t may_spot(const carom_shot_ball *balls, int count, int cue_ball) {
   return CAROM_CHOICE_SPOT;
 }
 
-/* All balls go to the positions of the opening of the player who comes to the table. */
+/* All balls go to the positions of the opening of the next player. */
 static void settle_rack(carom_rack_kind rack, carom_rules_state *game, const carom_table *table,
                         carom_shot_ball *balls, int count, carom_turn *turn) {
   const int cue_ball = cue_ball_of(game), count_of_balls = carom_rack_size(rack);
@@ -232,8 +232,8 @@ static void settle_rack(carom_rack_kind rack, carom_rules_state *game, const car
   game->may = may_spot(balls, count, cue_ball);
 }
 
-/* Balls that left the table return; and where the player chose so, those that touch his cue
- * ball, with it. All return for an equalizing inning, which alone is an opening here. */
+/* Balls that left the table return; and where the player chose so, those that touch his cue ball,
+ * with it. All return for an equalizing inning, which is the only opening here. */
 static void settle_one(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
                        int count, carom_turn *turn) {
   const int cue_ball = cue_ball_of(game);

@@ -9,9 +9,9 @@
  * down. A foul also brings back a ball of each other seat, which may so be in again: that, and a
  * stroke that takes the last balls of all, are of descriptions on other pages, as of these rules
  * only the first half was at hand. A seat of which balls return from the stroke gets no further
- * one. Where the last balls of all fall at once, each that lost its last one then gets it back,
- * and the same seat plays on. The rack is that of eight-ball; by the rules the 1 is in front, the 6
- * and the 11 in the corners, and the others anywhere. */
+ * one. Where the last balls of all fall at once, each that lost its last one then gets it back, and
+ * the same seat plays on. The rack is as in eight-ball; by the rules the 1 is in front, the 6 and
+ * the 11 in the corners, and the others anywhere. */
 #include "games.h"
 #include "rules.h"
 
@@ -49,7 +49,7 @@ static uint32_t give_back(carom_rules_state *game, uint32_t seats, uint32_t in_p
   return back;
 }
 
-/* A foul: the balls of others return, and one more of those of whom none does. */
+/* A foul: the balls of others return, and one more for each seat without a returning ball. */
 static carom_turn judge_foul(carom_rules_state *game, uint32_t balls, const carom_facts *facts,
                              int32_t foul) {
   const int own = carom_seat_of(game);

@@ -1,4 +1,4 @@
-/* What a stroke was, and the words for it: pot_kind.h has the order of precedence. */
+/* The kind of a stroke, and its name: pot_kind.h has the order of precedence. */
 #include "pot_kind.h"
 #include "platform/arithmetic.h"
 

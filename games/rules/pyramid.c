@@ -9,8 +9,8 @@
  * have the balls racked and break.
  *
  * Another stroke that pots none is legal where, behind the contact, balls meet two cushions, or one
- * and cross the middle of the table. This is the rule of two cushions, as clubs and magazines tell
- * section 20 of the General Rules; its text was not at hand. */
+ * and cross the middle of the table. This is the rule of two cushions, as clubs and magazines
+ * report section 20 of the General Rules; its text was not at hand. */
 #include "games.h"
 #include "rules.h"
 

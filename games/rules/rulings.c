@@ -153,7 +153,7 @@ uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball) {
   return set;
 }
 
-/* Of balls that are met at one instant it is assumed that the one that is on came first (WPA,
+/* Among balls that are met at one instant, a ball that is on is assumed to be the first (WPA,
  * regulations for referees, split hits). */
 carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
   if (facts == NULL)
@@ -184,9 +184,9 @@ const char *carom_foul_string(int foul) {
 
 /* ---- Balls that are put back */
 
-/* How far from a ball another one is put that comes next to it, m: a ball of pool is frozen to an
- * object ball (WPA 1.4); next to the cue ball, in snooker (WPBSA, section 3, spotting colours) and
- * in pyramid it must not touch, so it stands as near as balls that clearly do not. */
+/* How far from a ball another one is put next to it, m: a ball of pool is frozen to an object ball
+ * (WPA 1.4); next to the cue ball, in snooker (WPBSA, section 3, spotting colours) and in pyramid
+ * it must not touch, so it is put as near as clearly separate balls. */
 static double room_beside(carom_rack_kind kind, int neighbour) {
   if (kind != CAROM_RACK_SNOOKER && kind != CAROM_RACK_PYRAMID && neighbour != 0)
     return 0.0;
@@ -263,10 +263,10 @@ carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
   return put_near(kind, table, balls, count, ball, home);
 }
 
-/* All balls of a rack stand as at first, and keep their kinds. The cue ball is in hand. */
+/* All balls of a rack are placed as at first, and keep their kinds. The cue ball is in hand. */
 static carom_status rack_again(carom_rack_kind rack, const carom_table *table,
                                carom_shot_ball *balls, int count) {
-  const double gap = 1e-4; /* that of a match */
+  const double gap = 1e-4; /* the rack of a match */
   carom_shot_ball racked[CAROM_BALLS_MOST];
   const carom_status error = carom_rack(rack, table, gap, 1, racked, CAROM_BALLS_MOST);
   if (error != CAROM_OK)

@@ -107,8 +107,8 @@ static bool is_in_rack(const carom_shot_ball *ball, double place[LAST_BALL][2]) 
   return in;
 }
 
-/* Puts balls of the set back on their spots, one after another: where one has no place, no other
- * has. */
+/* Spots balls of the set, one after another: if there is no room for one, there is none for the
+ * others. */
 static void spot_each(const carom_table *table, carom_shot_ball *balls, int count, uint32_t spot) {
   carom_status status = CAROM_OK;
   for (int k = 1; spot >> k != 0 && status == CAROM_OK; k++)
@@ -145,7 +145,7 @@ static void place_at_head(const carom_table *table, carom_shot_ball *balls, int 
 static void rack_up(const carom_table *table, carom_shot_ball *balls, int count, uint32_t spot,
                     double place[LAST_BALL][2]) {
   static const int of_place[LAST_BALL] = {1, 9, 2, 10, 8, 3, 11, 7, 14, 4, 5, 13, 15, 6, 12};
-  int n = spot != object_balls; /* with 14 balls the front place stays free */
+  int n = spot != object_balls; /* with 14 balls the front position stays free */
   for (int k = 1; k <= LAST_BALL; k++) {
     int ball = k;
     if (spot == object_balls)

@@ -1,5 +1,5 @@
 /* Ten-ball: World Standardized Rules of the WPA (2016), section 9, with the general fouls of
- * section 6. The edition of 2025, chapter 6, rules the same but for its words on safeties.
+ * section 6. The edition of 2025, chapter 6, has the same rules, except its wording on safeties.
  *
  * The cue ball meets the lowest ball first (9). Ball and pocket are called, except on the break
  * (9.5). A called ball in its pocket keeps the turn, and what else falls stays down; the ten,

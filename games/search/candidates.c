@@ -31,7 +31,8 @@ static const double scan_tip[TIPS][2] = {
 static void bound(const carom_search *search, candidate *c) {
   const carom_player *player = &search->player;
   double most = player->speed_most;
-  if (player->growth > 0.0 && !search->breaks) /* who errs more by speed strikes calmly */
+  if (player->growth > 0.0 && !search->breaks) /* a player with larger errors of speed strikes
+                                                  calmly */
     most *= 0.5;
   c->speed = carom_within(c->speed, player->speed_least, fmax(most, player->speed_least));
   c->a = carom_within(c->a, -player->tip_most, player->tip_most);
@@ -186,7 +187,7 @@ static bool is_known(const carom_search *search, const candidate *c) {
 /* Strokes near the best `parents` ones, between those of the grid: one of speed, both positions of
  * the tip and, where nothing is aimed, the direction changed at a time, and pots aimed anew.
  * carom-lab plan --racks 1000 --shots 1000 runs out 761 racks with them, 740 without; half of these
- * steps, and half as much again, could not be told from them. */
+ * steps, and 1.5 times them, could not be distinguished from them. */
 void carom_search_near(carom_search *search, int64_t parents) {
   enum { POT_WAYS = 6, WAYS = 10, PLACE_WAYS = 4 };
   const int64_t first = search->count;

@@ -1,4 +1,4 @@
-/* Places of a cue ball in hand. They and strokes are candidates of one race. */
+/* Positions of a cue ball in hand. They and strokes are candidates of one race. */
 #include "places.h"
 #include "random_draws.h"
 
@@ -9,8 +9,8 @@
 
 enum { PLACES = 120 }; /* that are tried */
 
-/* Where the cue ball may be: within the bounds of its leave, and those of the caller, low and high,
- * or NULL. False where there is no place: the range is empty, or has NaN. */
+/* Where the cue ball may be: within the bounds of its leave, and the caller's bounds, low and high,
+ * or NULL. False if there is no position: the range is empty, or contains NaN. */
 static bool find_range(carom_search *search, const double low[2], const double high[2]) {
   const carom_plan_job *job = &search->job;
   const double R = search->view.radius[search->view.cue_ball];
@@ -106,7 +106,7 @@ static void keep_place(carom_search *search, const double r[2]) {
   search->best_place[index] = (carom_place_in_hand){{r[0], r[1]}, value};
 }
 
-/* Tries the next place. False: there is none. */
+/* Tries the next position. False: there is none. */
 static bool try_place(carom_search *search) {
   enum { COST = 30 }; /* events of a shot that take as long as a value */
   const uint64_t draws = search->breaks ? BREAK_PLACES : 50 * PLACES;

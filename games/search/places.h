@@ -1,4 +1,4 @@
-/* Places of a cue ball in hand. */
+/* Positions of a cue ball in hand. */
 #ifndef CAROM_PLAN_PLACES_H
 #define CAROM_PLAN_PLACES_H
 
@@ -7,7 +7,7 @@
 /* Finds the first position from which strokes are candidates, by the caller's bounds, or NULL.
  * False where there is none. */
 bool carom_search_find_place(carom_search *search, const double low[2], const double high[2]);
-/* Finds the others. Of places at random these are the best by the value of the layout; for a break
+/* Finds the others. These are the best of random positions by the value of the layout; for a break
  * they are on the upper edge. Returns whether it is done; it is not where the slice has ended. */
 bool carom_search_find_places(carom_search *search);
 /* Lays the balls out with the cue ball in hand at r, for what is made next; a cue ball that is not

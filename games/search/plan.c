@@ -11,9 +11,9 @@
  *    fractions of the shots. In each, the candidates that are left are played with errors, the same
  *    errors for all; a quarter of them stays. In the third round strokes near the best one join,
  *    with another speed, tip or direction; where no pot is direct, after each round.
- * 5. The best is played again, with errors that have chosen nothing, which tell its chances.
+ * 5. The best is played again, with errors that were not used to choose, to estimate its chances.
  *
- * With ball in hand, candidates are made from several places, and race together.
+ * With ball in hand, candidates are made from several positions, and race together.
  *
  * A shot is a row, whose errors are a function of seed, round and number. Rows are computed by
  * threads and added up in their order, so no bit of a sum depends on threads. The rows of a stage
@@ -40,7 +40,7 @@
 
 typedef carom_candidate candidate;
 
-/* FIRST: of the first round of doubling; IN_HAND_LEAST: of a plan whose places race */
+/* FIRST: of the first round of doubling; IN_HAND_LEAST: of a plan whose positions race */
 enum { IN_HAND_LEAST = 600, FIRST = 100 };
 
 size_t carom_plan_memory(const carom_plan_options *options) {
@@ -91,7 +91,7 @@ uint64_t carom_fingerprint_of_job(const carom_plan_job *job) {
 }
 
 /* A player who thinks of nothing but potting believes in later pots, and that a turn which ends
- * before is lost. There is nothing to pot in a break, and another goal comes first. */
+ * before is lost. There is nothing to pot in a break, and another goal has priority. */
 static void think(carom_search *search) {
   /* the layout takes part in the draw, so that plans of one seed have the share in their mean */
   uint64_t layout = 1;

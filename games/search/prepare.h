@@ -4,7 +4,8 @@
 
 #include "search_state.h"
 
-/* The options of a caller, or those of NULL; whether they are good; and how many shots they ask. */
+/* The options of a caller, or the defaults for NULL; whether they are valid; and how many shots
+ * they request. */
 const carom_plan_options *carom_search_options(const carom_plan_options *options);
 carom_status carom_search_check_options(const carom_plan_options *o);
 int64_t carom_search_shots(const carom_plan_options *o);

@@ -7,7 +7,7 @@
 typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 
-/* for each m/s, so that of strokes that are as good the softer one is chosen: of 120 layouts of
+/* for each m/s, so that among equally good strokes the softer one is chosen: of 120 layouts of
  * eight-ball and nine-ball, plans of 1,000 shots had 36 % of strokes above 3 m/s without it, 27 %
  * with 0.002, and were worth 0.755 and 0.757. On nine feet, values of nine-ball are so flat that
  * 0.002, and 0.03 for a foul, lost 319 of 600 games against the steeper values of before, where
@@ -52,8 +52,8 @@ static void name(candidate *c, const outcome *o) {
   c->cushions = o->cushions;
 }
 
-/* Where nothing is called, the pot that is named is the one that comes most often, by the vote of
- * R. S. Boyer and J S. Moore: with more than half of the pots, it is sure to be named. */
+/* Where nothing is called, the named pot is the most frequent one, by the vote of R. S. Boyer and J
+ * S. Moore: with more than half of the pots, it is sure to be named. */
 static void vote(candidate *c, const outcome *o) {
   if (o->ball < 0)
     return;

@@ -73,7 +73,7 @@ static candidate gentle(const carom_search *search) {
                      .pocket = -1};
 }
 
-/* ---- The course of a search: each of these sets the next stage, and what comes after it */
+/* ---- The course of a search: each of these sets the next stage, and what follows it */
 
 /* Shots of the rounds: at least a third of all. */
 static int64_t left_for_rounds(const carom_search *search) {
@@ -97,7 +97,8 @@ static bool loses(const carom_search *search) {
   return lost > 0;
 }
 
-/* Plays the best again, by shots that choose nothing: its reported chances come from them. */
+/* Plays the best again, by shots that are not used to choose: its reported chances come from
+ * them. */
 static void replay(carom_search *search) {
   enum { SHARE = 10 };
   search->next = NEXT_ENDED;
@@ -135,7 +136,7 @@ static void next_leave(carom_search *search) {
   search->next = NEXT_SEARCH;
 }
 
-/* Continues the plan from a leave, whose time and slice are those of this one. */
+/* Continues the plan from a leave, with the time and slice of this plan. */
 static void search_leave(carom_search *search) {
   carom_search *leave = search->leave;
   leave->crew = search->crew;
@@ -341,7 +342,7 @@ static void scan(carom_search *search) {
   }
 }
 
-/* The fraction of the scan in the shots. A break has none; and where a direct pot is nearly sure,
+/* The fraction of the scan in the shots. A break has no scan; and if a direct pot is nearly sure,
  * few other strokes suffice. With a fraction of 0.1 there, plans of 300 shots ran out 247 of 400
  * racks of eight-ball, without 217, in 0.71 of the time; of 1,000 shots as many with both. */
 static double scan_share(const carom_search *search) {

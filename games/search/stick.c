@@ -25,7 +25,7 @@
 /* m: a cue of usual make; its radius grows evenly from the tip on */
 static const double stick_end = 1.47, tip_radius = 0.0065, radius_growth = 0.0055;
 
-/* A stick, before it is raised: the cue ball's radius, the tip's place above its centre in radii,
+/* A stick, before it is raised: the cue ball's radius, the tip's height above its centre in radii,
  * and the direction in the plane of the table of the axis, with a point of it. */
 typedef struct stick {
   double R, b, u[2], origin[2];
@@ -76,13 +76,13 @@ static double needed_at(const stick *axis, const nose *n, double place) {
   return needed(axis, L, D, n->h, radius_at(D));
 }
 
-/* The most that places from low to high need, by the golden section. */
+/* The most that positions from low to high need, by the golden section. */
 static double most_between(const stick *axis, const nose *n, double low, double high) {
   enum { STEPS = 30 };
   const double golden = 0.6180339887498949;
   double place[2], theta[2];
   for (int step = -2; step < STEPS; step++) {
-    /* two positions; then the worse one is an end, and a position comes on the other side */
+    /* two positions; then the worse one is an end, and a position is added on the other side */
     int next = step + 2;
     if (step >= 0) {
       next = theta[0] < theta[1];
@@ -113,7 +113,7 @@ static void keep_positive(double range[2], double value, double slope) {
     range[1] = carom_lesser(range[1], root);
 }
 
-/* What the part of a rail needs that is below the stick. */
+/* What the section of a rail below the stick needs. */
 static double over_rail(const stick *axis, const carom_rail *rail) {
   nose n = {.h = rail->height};
   double part[2] = {0.0, 1.0}, q[2];

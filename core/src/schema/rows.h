@@ -9,8 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A row of any struct; behind its text stand the members of carom_number that it has in addition
- * to. */
+/* A row of any struct; its text is followed by further members of carom_number. */
 #define CAROM_TYPE_OF(x) \
   _Generic(x, double *: CAROM_TYPE_DOUBLE, double: CAROM_TYPE_DOUBLE, \
            int64_t: CAROM_TYPE_INT64, uint64_t: CAROM_TYPE_UINT64, default: CAROM_TYPE_INT32)
