@@ -202,7 +202,7 @@ static carom_status begin_state(carom_match *match, const carom_match_setup *set
   const bool of_seats = carom_plan_rules_of(setup->rules).race == CAROM_RACE_SEATS;
   if (!of_seats || carom_begin_seats(setup->rules, seats, state) == CAROM_OK)
     return CAROM_OK;
-  return refuse_beginning(match, "this game is not played by so many seats");
+  return refuse_beginning(match, "this game cannot have so many seats");
 }
 
 /* The rules, which may be the caller's, and their state. */
@@ -934,8 +934,7 @@ carom_status carom_match_end(carom_match *match) {
     return CAROM_ERROR_NULL;
   begin_act(match);
   if (match->phase == CAROM_MATCH_NONE || match->record.kind == CAROM_RECORD_END)
-    return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, "end",
-                              "there is no match to be ended");
+    return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, "end", "there is no match to end");
   put_line(match, CAROM_RECORD_END);
   match->phase = CAROM_MATCH_OVER;
   return CAROM_OK;

@@ -68,10 +68,10 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
   const int64_t kind = record->kind;
   if (kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE || kind == CAROM_RECORD_ACT ||
       kind == CAROM_RECORD_END)
-    return refuse_line(match, record->line, "a line \"game\" must come before it");
+    return refuse_line(match, record->line, "a line \"game\" must precede it");
   if (kind == CAROM_RECORD_HEAD && record->match != 1)
     return refuse_line(match, record->line,
-                       "this is a recording of format 2, and no match: replay it");
+                       "this is a recording of format 2, not a match; replay it");
   if (kind != CAROM_RECORD_GAME)
     return CAROM_OK;
 
@@ -132,7 +132,7 @@ static carom_status do_line(carom_match *match, const carom_record *read) {
     break;
   default:
     return carom_match_refuse(match, CAROM_REFUSED_LINE, "line",
-                              "by the rules nothing of this kind follows");
+                              "the rules allow no line of this kind here");
   }
   switch (read->act) {
   case CAROM_ACT_CHOOSE:

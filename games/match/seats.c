@@ -50,7 +50,7 @@ static const char *seat_fault(const carom_seat *seat, const char **key) {
     return "must be 0 or 200 to 850";
   *key = "M";
   if (!is_stick(&seat->cue))
-    return "and the other numbers of the stick must be those of a cue, without a stroke";
+    return "and the other members of the stick must be valid for a cue, without a stroke";
   return NULL;
 }
 
@@ -221,7 +221,7 @@ bool carom_is_beyond(const carom_match *match, const carom_cue *cue, char *text,
   if (limits->own_cue == 0 ||
       memcmp(&stick, &match->seating.seat[match->seat].cue, sizeof stick) == 0)
     return false;
-  snprintf(text, room, "the stick must be that of seat %d", (int)match->seat);
+  snprintf(text, room, "stick and tip must be the same as for seat %d", (int)match->seat);
   return true;
 }
 

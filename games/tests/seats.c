@@ -237,7 +237,7 @@ TEST(what_a_stroke_may_be) {
                {"cue.end_mass must be at least 0.001 kg", {.end_mass = 1e-9}},
                {"cue.theta must be at most 20 degrees", {.theta = 45.0}},
                {"cue.tip_restitution must be at most 0.8", {.tip_restitution = 1.0}},
-               {"the stick must be that of seat 0", {.mass = 0.5}}};
+               {"stick and tip must be the same as for seat 0", {.mass = 0.5}}};
   begin_seats(CAROM_RULES_EIGHTBALL, 2);
   seating.limits.theta = 20.0;
   seating.limits.tip_restitution_most = 0.8;

@@ -50,7 +50,7 @@ TEST(standings_that_are_refused) {
                    {"\"target\":-1", "game.target must be 1 to 1000000"},
                    {"\"player\":8", "game.player must be 0 to 7"},
                    {"\"pocket\":[1]", "game.pocket has too few numbers"},
-                   {"\"gruop\":1", "game.gruop is no key of the format"}};
+                   {"\"gruop\":1", "game.gruop is not a key of the format"}};
   begin_recording();
   for (size_t k = 0; k < COUNT_OF(standings); k++) {
     char line[100];

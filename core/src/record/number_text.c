@@ -241,7 +241,7 @@ static const char *read_decimal(const char *text, const char *end, decimal *d) {
 
 const char *carom_number_read(const char *position, const char *end, double *x, const char **why) {
   if (position < end && *position == '"') {
-    *why = "is no hexadecimal number such as \"0x1.8p+1\"";
+    *why = "is not a hexadecimal number such as \"0x1.8p+1\"";
     return read_hexadecimal(position + 1, end, x);
   }
 

@@ -278,7 +278,7 @@ static bool expect(reader *in, char c, const char *what) {
 enum { KEY_TEXT = 32 };
 static bool read_key(reader *in, char key[KEY_TEXT]) {
   int n = 0;
-  if (!expect(in, '"', "must be an object: a key in quotes comes here"))
+  if (!expect(in, '"', "must be an object, with a key in quotes here"))
     return false;
   for (; in->position < in->end && *in->position != '"'; in->position++) {
     char shown = *in->position;
@@ -288,7 +288,7 @@ static bool read_key(reader *in, char key[KEY_TEXT]) {
       key[n++] = shown;
   }
   key[n] = '\0';
-  return expect(in, '"', "") && expect(in, ':', "has a key without ':' behind it");
+  return expect(in, '"', "") && expect(in, ':', "has a key without ':' after it");
 }
 
 static bool read_number(reader *in, double *x) {
@@ -428,7 +428,7 @@ static bool read_entry(reader *in, const carom_field *fields, unsigned char *obj
   /* keys are known, and occur once */
   in->key = key;
   if (fields[k].key == NULL)
-    return wrong(in, "is no key of the format");
+    return wrong(in, "is not a key of the format");
   CAROM_PROMISE(k < 64);
   if (*seen >> k & 1)
     return wrong(in, "comes twice");
@@ -485,11 +485,11 @@ static const char *out_of_place(const carom_record *record, int kind) {
   const bool needs_layout = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_PLACE;
   const carom_line *line = line_of(kind);
   if (record->kind == CAROM_RECORD_END)
-    return "stands behind the end of the recording";
+    return "follows the end of the recording";
   if (record->kind == CAROM_RECORD_WRONG)
-    return "stands behind a line that is wrong";
+    return "follows an invalid line";
   if (record->format == 0 && kind != CAROM_RECORD_HEAD)
-    return "stands where {\"recording\": ...} must: in the first line";
+    return "is the first line, which must be {\"recording\": ...}";
   if (record->format != 0 && kind == CAROM_RECORD_HEAD)
     return "comes twice";
   if (line != NULL && line->is_of_match && record->match != 1)
@@ -497,9 +497,9 @@ static const char *out_of_place(const carom_record *record, int kind) {
   if (kind == CAROM_RECORD_EVENT && !follows_shot)
     return "must follow a shot, its continuation, or another event";
   if (needs_layout && record->count == 0)
-    return "has no balls: a line {\"balls\": ...} must come before";
+    return "has no balls: a line {\"balls\": ...} must precede it";
   if (needs_layout && record->table.rails == 0)
-    return "has no table: a line {\"table\": ...} must come before";
+    return "has no table: a line {\"table\": ...} must precede it";
   return NULL;
 }
 
@@ -565,10 +565,10 @@ static bool check_seal(reader *in, int kind, uint64_t seal) {
   if (!line_of(kind)->is_sealed)
     return true;
   if (record->match != 1)
-    return seal == 0 || wrong(in, "stands in lines of matches alone, format 3");
+    return seal == 0 || wrong(in, "is only allowed in lines of matches, format 3");
   if (seal == 0 && record->hash != 0)
     return wrong(in, "is missing");
-  return seal == record->hash || wrong(in, "is not that of the lines up to here");
+  return seal == record->hash || wrong(in, "does not match the lines up to here");
 }
 
 /* The format of the text. */
@@ -609,7 +609,7 @@ static bool apply_end(reader *in, int64_t shots, uint64_t hash) {
   in->key = "shots";
   if (same_shots)
     in->key = "hash";
-  return (same_shots && same_hash) || wrong(in, "is not that of the lines above");
+  return (same_shots && same_hash) || wrong(in, "does not match the lines above");
 }
 
 /* A line that was read is applied to the game, in which `shots` and `hash` were those before. */
@@ -662,7 +662,7 @@ static bool may_come(reader *in, int kind) {
   const char *why = out_of_place(record, kind);
   const bool waits = kind != CAROM_RECORD_EVENT && kind != CAROM_RECORD_END;
   if (why == NULL && record->pending == CAROM_PENDING_SHOT && waits)
-    why = "comes before the shot above was played";
+    why = "is not allowed before the shot above was played";
   return why == NULL || wrong(in, why);
 }
 
@@ -676,19 +676,20 @@ static bool read_fields(reader *in, const carom_field *fields) {
   if (!expect(in, '}', "must be the only key of its line"))
     return false;
   skip_blanks(in);
-  return in->position == in->end || wrong(in, "has more text behind its object");
+  return in->position == in->end || wrong(in, "has text after its object");
 }
 
 /* The line, which is not blank, and its kind. */
 static bool read_line(reader *in, int *kind) {
   carom_record *record = in->record;
   char key[KEY_TEXT];
-  if (!expect(in, '{', "is no line of a recording: it must be an object") || !read_key(in, key))
+  if (!expect(in, '{', "is not a line of a recording, which must be an object") ||
+      !read_key(in, key))
     return false;
   in->line = key;
   *kind = kind_of(key);
   if (*kind < 0)
-    return wrong(in, "is no line of a recording");
+    return wrong(in, "is not a line of a recording");
   if (!may_come(in, *kind))
     return false;
 
@@ -752,11 +753,11 @@ static const char *not_to_be_played(const carom_record *record, carom_record_kin
   if (record->kind == CAROM_RECORD_END || record->kind == CAROM_RECORD_WRONG)
     return out_of_place(record, (int)kind);
   if (!is_shot((int)kind) || record->count < 1 || record->count > CAROM_BALLS_MOST)
-    return "there is no shot to be played";
+    return "there is no shot to play";
   if (goes_on && record->moved == 0)
-    return "there is no shot to be played";
+    return "there is no shot to play";
   if (!goes_on && record->cue.speed > 0.0 && is_moving(record))
-    return "balls move, so that no ball is struck: the shot before is to be continued";
+    return "balls are moving, so no ball can be struck; continue the previous shot";
   return NULL;
 }
 

@@ -225,7 +225,7 @@ TEST(lines_that_are_refused) {
       {"\"format\":2", "\"format\":4", "recording.format must be 2 or 3"},
       {"\"format\":2", "\"format\":3", "balls.hash is missing"},
       {"\"format\":2", "\"format\":1", "recording.format is 1, whose hashes do not cover"},
-      {"\"width\":", "\"widht\":", "table.widht is no key of the format"},
+      {"\"width\":", "\"widht\":", "table.widht is not a key of the format"},
       {"\"width\":1.27,", "", "table.width is missing"},
       {"\"width\":1.27", "\"width\":1.27,\"width\":1.27", "table.width comes twice"},
       {"\"width\":1.27", "\"width\":\"wide\"", "table.width is no hexadecimal number"},
@@ -234,7 +234,7 @@ TEST(lines_that_are_refused) {
       {"\"side\":1", "\"side\":1.5", "side must be a whole number"},
       {"{\"p\":[", "{\"p\":[0,", "table.rails[0].p has too many numbers"},
       {"\"hash\":\"", "\"hash\":\"g", "shot.hash must be 16 hexadecimal digits"},
-      {"{\"balls\"", "{\"bals\"", "bals is no line of a recording"},
+      {"{\"balls\"", "{\"bals\"", "bals is not a line of a recording"},
       {"{\"recording\"", "[\"recording\"", "must be an object"},
       {"{\"place\":{\"ball\":0", "{\"place\":{\"ball\":10", "place "}};
   write_game();
@@ -242,10 +242,10 @@ TEST(lines_that_are_refused) {
     refused(changes[k].part, changes[k].becomes, changes[k].fault);
   ck_assert_int_eq(replay(text, size), 5);
   ck_assert_int_eq(carom_record_read(&again, "{\"end\":{}}", 10), CAROM_ERROR_RECORD);
-  ck_assert_str_eq(again.fault, "end stands behind the end of the recording");
+  ck_assert_str_eq(again.fault, "end follows the end of the recording");
   refused("{\"table\":", "{\"event\":{\"time\":0,\"type\":1,\"a\":0}}\n{\"table\":",
           "must follow a shot");
-  refused("\"shots\":5", "\"shots\":4", "end.shots is not that of the lines above");
+  refused("\"shots\":5", "\"shots\":4", "end.shots does not match the lines above");
 
   /* a line less, and a line cut off: the shot's hashes are those of a chain */
   char *line = strstr(text, "{\"continue\":"), *next = strchr(line, '\n') + 1;
@@ -298,7 +298,7 @@ TEST(records_that_cannot_be) {
 TEST(a_refused_shot_changes_nothing) {
   write_game();
   ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_SHOT, NULL), CAROM_ERROR_RECORD);
-  ck_assert_str_eq(game.fault, "stands behind the end of the recording");
+  ck_assert_str_eq(game.fault, "follows the end of the recording");
   game.kind = CAROM_RECORD_EVENT; /* the line before its end */
   game.cue.phi = NAN;
   again = game;

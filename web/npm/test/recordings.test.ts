@@ -69,7 +69,7 @@ test("a forged stroke, damage and other revisions are told", () => {
       [() => [...carom.replay(damaged)], message],
     );
   };
-  refused(text.replace('"phi"', '"phy"'), /line 6: shot.phy is no key of the format/);
+  refused(text.replace('"phi"', '"phy"'), /line 6: shot.phy is not a key of the format/);
   refused(text.replace('"revision":', '"revision":9'), /line 1: the recording is of revision 9/);
   refused(text.split("\n").slice(0, -2).join("\n"), /cut off/);
 });
@@ -169,12 +169,12 @@ test.each(builds)("partners, a set, limits and time, by $name", ({ carom }) => {
     won: [0, 0],
     setWinner: undefined,
   });
-  expect(match.words).toBe("Ann (seat 0): a place of the cue ball in hand, or a choice");
+  expect(match.words).toBe("Ann (seat 0): a position of the cue ball in hand, or a choice");
   match.place(0.6, 0.6);
   match.extend();
   refuses(
     [() => match.stroke({ speed: 12.5 }), "stroke: cue.speed must be at most 12 m/s in this match"],
-    [() => match.stroke({ mass: 0.5 }), "stroke: the stick must be that of seat 0"],
+    [() => match.stroke({ mass: 0.5 }), "stroke: stick and tip must be the same as for seat 0"],
     [() => match.extend(), "extend: none is left"],
     [() => match.timeout(), "timeout: none is left"],
     [() => match.next(), "next: no match has been won"],
