@@ -1,5 +1,6 @@
-/* One run of `carom-lab bench`: what is timed is verified, then timed in turns by the engine, then
- * printed. There are three tables of work: collisions of two balls, complete shots, cushions. */
+/* One run of `carom-lab bench`: what is timed is verified, then timed interleaved by the engine,
+ * then printed. There are three tables of work: collisions of two balls, complete shots,
+ * cushions. */
 #ifndef CAROM_LAB_BENCH_JOB_H
 #define CAROM_LAB_BENCH_JOB_H
 

@@ -4,10 +4,10 @@
  *     batch   the cases over and over, many in a call                solvers, and rungs across
  *                                                                    collisions: isa "avx512", ...
  *
- * Calls go through a pointer, as those of a program that chooses its kernel at run time would.
- * Small batches move on: call j begins at case j * size, modulo the number of cases, until every
- * case has been in as many batches as any other, so that what is timed does not depend on which
- * cases a batch happens to hold. */
+ * Calls use a pointer, as in a program that chooses its kernel at run time. Small batches move on:
+ * call j begins at case j * size, modulo the number of cases, until every case has been in as many
+ * batches as any other, so that what is timed does not depend on which cases a batch happens to
+ * hold. */
 #include "accuracy.h"
 #include "bench_job.h"
 #include "cases.h"
@@ -44,7 +44,7 @@ struct workload {
   const void *in;  /* the rows, of doubles or floats */
   size_t *case_of; /* their cases; NULL: row k is case k modulo their number */
   size_t rows;
-  size_t period;   /* rows after which the cases come again */
+  size_t period;   /* rows after which the cases repeat */
   size_t left_out; /* cases that the kernel's precision does not resolve in so many steps */
   void *result;
   accuracy_summary claimed, exact; /* against the kernel's own reference, and the exact limit */
@@ -167,7 +167,7 @@ static bool compare_file(const workload *w, const char *folder, const char *name
   return loaded;
 }
 
-/* What a kernel must reach on the cases at its claim's steps: for batches that of their
+/* What a kernel must reach on the cases at its claim's steps: for batches the bound of their
  * precision, if it is wider; 0 requires the same bits. */
 static double bound_of(const workload *w) {
   static const double of_batches[][2] = {[CAROM_SOLVER_EXACT] = {1e-6, 2e-5},
@@ -307,8 +307,8 @@ static size_t common_divisor(size_t a, size_t b) {
   return common_divisor(b, a % b);
 }
 
-/* So many calls of `size` pairs that every case is in as many of them as any other; the cases
- * come again after `period` rows. */
+/* The number of calls of `size` pairs after which every case was used equally often; the cases
+ * repeat after `period` rows. */
 static void lay_out_calls(workload *w, size_t size, size_t period) {
   const size_t shared = common_divisor(size, period);
   w->size = size;
@@ -373,7 +373,7 @@ static void add_all_lanes(const bench_job *job, const kernel *candidate, const k
 }
 
 /* Is it the kernel's first claim with its slip, and is the slip requested? Without --slip, a kernel
- * is timed with its own, that of its first claim. */
+ * is timed with the slip of its first claim. */
 static bool wants_claim(const bench_job *job, const kernel *candidate, const kernel_claim *claim) {
   for (const kernel_claim *earlier = candidate->claims; earlier < claim; earlier++)
     if (earlier->slip == claim->slip)
@@ -427,7 +427,7 @@ static bool wants_form(const bench_job *job, const kernel *candidate) {
          (names(&job->isas, "best") && same_text(best, isa));
 }
 
-/* All that does not come in batches of the library. */
+/* Everything except batches of the library. */
 static bool add_all_calls(const bench_job *job) {
   const kernel *candidate;
   const ladder_module *unused;
@@ -467,8 +467,7 @@ static bool wants_isa(const bench_job *job, carom_isa isa) {
                               (isa == carom_isa_in_force() && names(&job->isas, "best")));
 }
 
-/* Solvers with steps cost a batch as much as thousands of the others, so they have to be asked
- * for. */
+/* Solvers with steps cost a batch as much as thousands of the others, so they must be requested. */
 static bool wants_batches(const bench_job *job, const kernel *candidate) {
   return !candidate->is_rung &&
          (job->kernels.count == 0 || names(&job->kernels, candidate->name)) &&
@@ -551,7 +550,7 @@ static bool verify_all(bench_job *job, const char *folder) {
       return false;
     progress_show("kernels verified", (double)(k + 1), (double)timing.count);
     const workload passed = timing.work[k];
-    timing.work[k] = timing.work[count]; /* those that are rejected come to the end */
+    timing.work[k] = timing.work[count]; /* rejected ones move to the end */
     timing.work[count] = passed;
     count += good;
     if (!good)

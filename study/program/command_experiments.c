@@ -93,7 +93,7 @@ static bool outcome_of(const shot *s, const kernel *candidate, carom_slip slip,
   return true;
 }
 
-/* One line: what a source says of a shot. */
+/* One line: a shot according to a source. */
 static void print_line(FILE *out, const char *id, const char *source, const char *format,
                        const double outcome[OUTCOMES]) {
   fprintf(out, "%s,%s", id, source);

@@ -28,7 +28,7 @@ static const command_form form = {
     .example = "carom-lab kernels",
 };
 
-/* People are told of the kernels that run here, and of the builds of the ladder. */
+/* The text for people lists the kernels that run here, and the builds of the ladder. */
 static void print_kernels(FILE *out, bool csv) {
   sheet table;
   FILE *rows = sheet_begin(&table, out, csv);

@@ -6,7 +6,7 @@
 #include "sheet.h"
 #include "subcommands.h"
 
-/* What the sentence below the table says of the ladder. */
+/* The sentence below the table about the ladder. */
 typedef struct ladder_summary {
   size_t comparisons, pass;
   size_t pass_paper, most_over;      /* by the seed paper's criterion; cases above 1 % */
@@ -33,7 +33,7 @@ typedef struct verification {
   const char *folder;
   int way; /* SINGLE_CALLS or a carom_isa; of no meaning to the ladder */
   case_set cases;
-  int steps; /* 0: those of the claims */
+  int steps; /* 0: the steps of the claims */
   carom_result *result;
   int8_t *status;
   pair_accuracy *each;
@@ -165,7 +165,7 @@ static void compare(verification *v, const kernel *candidate, const ladder_modul
     tell_solver(v, candidate, c, &s);
 }
 
-/* pooltool's results with as many steps: those of the library's Euler, which has its bits. */
+/* pooltool's results with as many steps: from the library's Euler, which has its bits. */
 static carom_result *solve_by_euler(const verification *v, const carom_options *options) {
   carom_options euler = *options;
   euler.solver = CAROM_SOLVER_EULER;
@@ -204,8 +204,8 @@ static bool verify_module(verification *v, const kernel *candidate, const ladder
   return true;
 }
 
-/* By single calls and in the lanes of every instruction set that this processor has; the
- * sentences tell of single calls only.
+/* By single calls and in the lanes of every instruction set that this processor has; the sentences
+ * are about single calls only.
  */
 static bool verify_solver(verification *v, const kernel *candidate) {
   if (v->config != NULL)

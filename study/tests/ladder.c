@@ -238,8 +238,8 @@ static void draw_pairs(carom_impact pair[MOST_PAIRS], random_source *source, boo
 }
 
 /* A lane has the same bits whatever the other lanes hold: a batch of any size and any mixture has
- * those of the pair alone, whose other lanes are copies of it. So a lane that has ended keeps its
- * final state while slower ones run. */
+ * the bits of the single pair, whose other lanes are copies of it. So a lane that has ended keeps
+ * its final state while slower ones run. */
 TEST(a_lane_depends_on_no_other) {
   random_source source = {test_seed()};
   carom_impact pair[MOST_PAIRS];
@@ -319,7 +319,7 @@ TEST(lanes_beside_refused_ones_agree_with_the_parent) {
   }
 }
 
-/* Linking with -ffast-math makes a library switch the whole process to flushing subnormal
+/* Linking with -ffast-math makes a library switch the complete process to flushing subnormal
  * numbers when it is loaded. */
 TEST(loading_leaves_arithmetic_alone) {
 #if defined(__x86_64__)

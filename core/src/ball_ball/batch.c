@@ -296,7 +296,7 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
   const size_t first_bad = carom_in_threads(solve_rows, &job, n, opt->threads, least_part(opt));
   if (first_bad == n)
     return CAROM_OK;
-  /* Only its index came back through the threads; doing the pair again tells its status. */
+  /* The threads only returned its index; resolving the pair again returns its status. */
   carom_result unused;
   return carom_collide_one(precision, job.in + first_bad * carom_impact_size(precision), opt,
                            &unused);

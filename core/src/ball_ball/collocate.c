@@ -1,6 +1,6 @@
-/* The exact limit by collocation: which step comes next, and the loop of steps, of one collision
- * with all nodes of a step in a register (CAROM_LANES_ONE), or of one step of many collisions,
- * one in each lane. batch.c sorts collisions by the step that they need next.
+/* The exact limit by collocation: which step is next, and the loop of steps, of one collision with
+ * all nodes of a step in a register (CAROM_LANES_ONE), or of one step of many collisions, one in
+ * each lane. batch.c sorts collisions by the step that they need next.
  *
  * THE KINDS OF STEPS. q is the fraction of |u| that a collision would lose up to its end at the
  * present rate. If q is small and the direction of the cloth slip is smooth, one step in the
@@ -106,7 +106,7 @@ always vreal inverse_rho(const problem *a, const state *s, const prediction *g, 
   return v_select(has_no_slip(a, s), v_splat(0), v_reciprocal(2 * sum - v_reciprocal(sum)));
 }
 
-/* The same up to the end or to stick, whichever comes first. */
+/* The same up to the end or to stick, whichever is first. */
 always vreal inverse_rho_ahead(const problem *a, const state *s, const prediction *g,
                                vreal to_end) {
   return inverse_rho(a, s, g, v_min(to_end, v_reciprocal(g->rate)));
@@ -257,7 +257,7 @@ always vreal next_kind(const problem *a, const collision *c, vreal inverse, bool
       full & v_less_equal(q, v_splat(FULL_Q)) & is_smooth(FULL_NODES, a, ahead, to_end, inverse);
   const vmask stick =
       v_less(v_splat(STICK_Q), q) & v_less(u * stick_error(a, s, ahead, inverse), a->tolerance);
-  /* a part of |u|, if t is smooth on the way that takes it away */
+  /* a fraction of |u|, if t is smooth on the way that removes it */
   vmask part = v_less_equal(v_splat(TURN_Q), q) & v_not(stick | full | c->careful);
   if (v_any(part)) {
     const vreal length = part_length(ahead, to_end);
@@ -369,7 +369,7 @@ always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead,
     error = take_full_step(a, ahead, to_end, s, out);
   else if (kind == STICK)
     error = take_stick_step(a, ahead, s, out);
-  /* those with graded lengths: to the end, a part of it, or up to where the slip turns */
+  /* steps with graded lengths: to the end, a fraction of it, or up to where the slip turns */
   else if (kind == FULL_GRADED)
     error = take_graded_step(a, ahead, length_to_end(a, ahead, to_end), last, s, &behind, out);
   else if (kind == PART) {

@@ -2,10 +2,9 @@
  * collocation, and the state behind it. A step ends before the collision does, or near its end,
  * to which a Taylor series leads from there.
  *
- * THE EQUATIONS are those of reduced.h. With X from 0 to 1 along the step, L its length in p, c
- * = u_x / |u|,
- * sigma = u_z / |u| and s = sigma t, the slips are linear in the integrals C, Z, S_x, S_y of c,
- * sigma, s_x, s_y over X:
+ * THE EQUATIONS are in reduced.h. With X from 0 to 1 along the step, L its length in p, c = u_x /
+ * |u|, sigma = u_z / |u| and s = sigma t, the slips are linear in the integrals C, Z, S_x, S_y of
+ * c, sigma, s_x, s_y over X:
  *
  *     u_x = u_x0 - 7/2 kappa mu_b L C - mu mu_b L S_x
  *     u_z = u_z0 - 5/2 kappa mu_b L Z - 5/2 mu mu_b L S_y
@@ -231,7 +230,7 @@ always turning predict_turning(bool turn, const problem *a, const prediction *g,
 }
 
 /* The directions at the nodes, before any iteration. turned: d passes near zero, so that its
- * direction half way says nothing.
+ * direction half way is not informative.
  */
 always void predict_directions(int n, bool turned, impulse_step *p) {
   const prediction *const g = p->g;
@@ -339,9 +338,9 @@ always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_
   f->going = going & v_not(v_less(error, ITERATION_SHARE * a->tolerance));
 }
 
-/* After the last iteration: the means over the step of c and sigma less their values at its
- * start, and w_x, w_y. They come from the change of u, not from its direction, so that small
- * ones keep their digits. */
+/* After the last iteration: the means over the step of c and sigma less their values at its start,
+ * and w_x, w_y. They are computed from the change of u, not from its direction, so that small ones
+ * keep their digits. */
 always void end_iterations(int n, const gauss_rule *r, impulse_step *p, vreal *dc, vreal *dz) {
   const prediction *const g = p->g;
   const state *const s = p->s;
@@ -444,8 +443,8 @@ static const real MOST_EXTRAPOLATION_TURN = REAL(0.1);
  * left. */
 static const real MOST_FALL = REAL(0.5);
 
-/* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and
- * those of c and sigma against their values at first; K at v = 0 does not change. */
+/* The state after a step of the length in *l, with the integrals of s_x and s_y over it, and of c
+ * and sigma against their initial values; K at v = 0 does not change. */
 always state state_after(const prediction *g, const coefficients *l, const state *s, vreal X,
                          vreal Y, vreal dC, vreal dZ, vreal K) {
   const vreal C = g->c + dC, Z = g->z + dZ;
@@ -463,9 +462,9 @@ always state state_after(const prediction *g, const coefficients *l, const state
   return end;
 }
 
-/* K at v = 0 by parts, so that nothing but w_y is interpolated, given v and the integral S of
- * w_y up to a point near v = 0, and that of S: int v w_y dX = v S - int S v' dX with v' = L +
- * pull_y w_y. The little that is left for a mean f. */
+/* K at v = 0 by parts, so that only w_y is interpolated, given v and the integral S of w_y up to a
+ * point near v = 0, and that of S: int v w_y dX = v S - int S v' dX with v' = L + pull_y w_y. The
+ * little that is left for a mean f. */
 always vreal K_by_parts(const coefficients *l, const state *s, vreal f, vreal v, vreal S,
                         vreal int_S) {
   const vreal by_parts = v_fma(v_fma(REAL(0.5) * l->mu_mu_b_y, S, -v), S, l->length * int_S);
@@ -628,7 +627,7 @@ always vreal end_step(int n, bool turned, impulse_step *p, vmask last, state *ne
   return v_select(in_reach | v_not(last), error, v_splat(HUGE_VALF));
 }
 
-/* A whole step, with so many iterations at most. */
+/* A complete step, with at most this many iterations. */
 always vreal take_impulse_step(int n, int most, const problem *a, const prediction *g,
                                const state *s, vreal length, const turn_step *turn, vmask last,
                                state *next, solution *out) {

@@ -19,11 +19,11 @@
  * law.h M h = M_yy h for a cushion, so that f = mu h/|h| gives an a' along -h. For two balls h =
  * 0. Where both slips are zero all is symmetric about the y axis, and so are the directions.
  *
- * UNSTABLE. Where H < 0 friction drives the slip on the cloth. Let it begin at b = 0 with the
- * rate d without friction, and let friction alone have the rate h. A slip that is not zero but
- * an error e continues in its own direction if h > d. If not, its component across d grows like
- * |b|^(h / (d + h)), to e^(d / (d + h)). At h = MOST_DRIVEN d a rounding error of 1e-16 becomes
- * 2.5e-10; beyond that there is no result.
+ * UNSTABLE. Where H < 0 friction drives the slip on the cloth. Let it begin at b = 0 with the rate
+ * d without friction, and let only friction have the rate h. A slip that is not zero but an error e
+ * continues in its own direction if h > d. If not, its component across d grows like |b|^(h / (d +
+ * h)), to e^(d / (d + h)). At h = MOST_DRIVEN d a rounding error of 1e-16 becomes 2.5e-10; beyond
+ * that there is no result.
  *
  * A frictionless contact has no direction and no cone. */
 #include "contact_law/impact.h"
@@ -76,7 +76,7 @@ static pair holding(const carom_law *law, pair t) {
   return (pair){law->C_x / law->K_x * w * t.x, (law->C_y * w * t.y - law->A_0) / law->K_y};
 }
 
-/* Whether friction holds the cloth under the friction f; H > 0 says that friction opposes slip. */
+/* Whether friction holds the cloth under the friction f; H > 0 means that friction opposes slip. */
 static bool cloth_holds(const carom_law *law, pair f) {
   return law->H > 0 && size(cloth_drive(law, f)) <= law->H * law->mu_c * load(law, f.y);
 }
@@ -137,8 +137,8 @@ static bool from_rest(const carom_law *law, carom_regime *regime) {
   return false;
 }
 
-/* The regime that begins at a point, after *regime. event: that of *regime has ended it. False if
- * no regime is consistent. */
+/* The regime that begins at a point, after *regime. event: the event of *regime has ended it. False
+ * if no regime is consistent. */
 static bool choose(const carom_law *law, const carom_point *point, bool event,
                    carom_regime *regime) {
   const bool a_rests = law->mu > 0 && point->a_x == 0 && point->a_y == 0,

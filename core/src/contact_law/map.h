@@ -73,7 +73,7 @@ static passage nearest(const carom_point *point, double rate_x, double rate_y, d
   passage passing = {.p_c = -(point->b_x * rate_x + point->b_y * rate_y) * per,
                      .d = fabs(point->b_x * rate_y - point->b_y * rate_x) * per};
   /* b is zero at p_c +- i d: in units of the step, from -1 to 1, the sum of the distances to the
-   * ends tells the ellipse */
+   * ends determines the ellipse */
   const double center = 2 * passing.p_c / length - 1, offset = 2 * passing.d / length;
   passing.matters = sqrt((center - 1) * (center - 1) + offset * offset) +
                         sqrt((center + 1) * (center + 1) + offset * offset) <
@@ -90,7 +90,7 @@ static passage passage_of_b(const carom_point *point, const carom_terms *terms,
   passage passing = {.matters = false};
   if (origin->size_b == 0 || origin->size_b > 2 * length * rate)
     return passing;
-  /* friction that drives the slip slows b on its way to zero: then the mean rate comes first */
+  /* friction that drives the slip slows b on its way to zero: then the mean rate is used first */
   if (terms->H_x > 0)
     passing = nearest(point, origin->db_x, origin->db_y, length);
   if (!passing.matters)
@@ -168,8 +168,8 @@ static closed_form closed_form_of(const carom_terms *terms, const step_start *or
   return form;
 }
 
-/* tau where p has come to `length`, to a few percent, by two steps of Newton's method; if that
- * is beyond 2 most, some tau beyond it. first: a guess. */
+/* tau where p reaches `length`, to a few percent, by two steps of Newton's method; if that is
+ * beyond 2 most, some tau beyond it. first: a guess. */
 static double tau_at(const closed_form *form, double length, double first, double most) {
   /* the exponents of r */
   const double slow = form->D - form->m, fast = -form->D - form->m;

@@ -1,7 +1,8 @@
 /* One collocation step of an impact, over eight Gauss nodes.
  *
- * EQUATIONS. They are those of law.h in one regime. With u = a/|a| and t = b/|b| the directions
- * of the slips, and w the friction of the cloth per unit of p (its load times its coefficient),
+ * EQUATIONS. They are the equations of law.h in one regime. With u = a/|a| and t = b/|b| the
+ * directions of the slips, and w the friction of the cloth per unit of p (its load times its
+ * coefficient),
  *
  *     a' = (S_x u_x - C_x w t_x, A_0 + S_y u_y - C_y w t_y)          v' = V_0 + V_u u_y - V_w w t_y
  *     b' = (R_x u_x - H_x w t_x, B_0 + R_y u_y - H_y w t_y)
@@ -27,16 +28,16 @@
  *
  *     a = a_0 + M(z a'),     b = b_0 + M(z b')
  *
- * ITERATION. The directions give a and b, whose directions differ from u and t by angles. Let r
- * be that of a to u. A rotation of u by d rotates a too, by (1/|a|) times the component across u
+ * ITERATION. The directions give a and b, whose directions differ from u and t by angles. Let r be
+ * the ratio of a to u. A rotation of u by d rotates a too, by (1/|a|) times the component across u
  * of the integral of z da'/dphi d. Newton's method requires
  *
  *     d = r - (1/|a|) M(z k d),     k = -(component of da'/dphi across u)
  *
- * An integrating factor E with E' = -z k E / |a| solves this: d = r - (E/|a|) M(z k r / E). The
- * map comes with an estimate of E. A step that is stiff solves the linear equations for d
- * instead (`exact`). For t, the kernel
- * E(X) / E(X') of the integral is replaced by 1/(1 + M(z k)(X') / |b|).
+ * An integrating factor E with E' = -z k E / |a| solves this: d = r - (E/|a|) M(z k r / E). The map
+ * includes an estimate of E. A step that is stiff solves the linear equations for d instead
+ * (`exact`). For t, the kernel E(X) / E(X') of the integral is replaced by 1/(1 + M(z k)(X') /
+ * |b|).
  *
  * END. The step ends at a given p or at one of the events of `enum goal`. Then its length is
  * unknown, and each iteration corrects it by Newton's method from the rates at the last node.
@@ -62,8 +63,8 @@ static const double TOLERANCE_EXACT = 1e-9; /* and where the step is exact */
 static const double SETTLED = 1e-6;         /* last correction of the length, as a fraction of it */
 static const double EVENT_TOLERANCE = 1e-8; /* event function that does not yet end a regime, */
 static const double LATE = 1e-5;            /* and within a step that ends at its event */
-static const double NEARLY_STOPPED = 1e-8;  /* v that counts as 0 where the cloth's slip has come
-                                               to rest */
+static const double NEARLY_STOPPED = 1e-8;  /* v that counts as 0 where the cloth's slip has
+                                               stopped */
 static const double NEARLY_CONVERGED =
     3e-3; /* correction, of directions and of the length, after which Newton's method updates
              inverse lengths, */
@@ -175,8 +176,8 @@ always void integrate_slip(double x, double y, const part *zx, const part *zy, p
   }
 }
 
-/* x, y over their length, whose inverse becomes *inverse. approximate: *inverse has that of a
- * similar length. */
+/* x, y over their length, whose inverse becomes *inverse. approximate: *inverse has the inverse for
+ * a similar length. */
 always void normalise(part *x, part *y, bool approximate, part *inverse) {
   EACH {
     const part square = madd(x[i], x[i], madd(y[i], y[i], splat(1e-300)));

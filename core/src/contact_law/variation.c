@@ -16,10 +16,10 @@
  * instead of its inverse they remain regular where a slip begins from zero. The end of the step
  * follows by quadrature.
  *
- * SHIFTS. Nothing depends on p itself, so y' is a solution too: that of a start a little later.
- * Where a slip is small its direction, y' and dy turn fast, but most of dy is a shift, alpha y'.
- * There dy = alpha y' + rest, with the alpha for which the rest of da is smallest, and only the
- * rest is followed over the step.
+ * SHIFTS. Nothing depends on p itself, so y' is a solution too: for a start a little later. Where a
+ * slip is small its direction, y' and dy turn fast, but most of dy is a shift, alpha y'. There dy =
+ * alpha y' + rest, with the alpha for which the rest of da is smallest, and only the rest is
+ * followed over the step.
  *
  * EVENTS. Where a regime ends because a slip is zero, at p_s, friction changes, and so do the
  * rates:
@@ -56,7 +56,7 @@ static const double COEFFICIENT = 1e-5; /* fraction of a variable by which coeff
                                            differentiated */
 static const double CONE = 0.02;        /* 1 - (|f| / mu)^2 of a slip that friction hardly holds:
                                            core/tests/agree/tangents.c */
-/* Central differences, of which `differentiate` says more: */
+/* Central differences, which `differentiate` explains: */
 static const double STEP = 1e-4;         /* change of a friction or of lambda, */
 static const double STEP_OF_E = 1e-3;    /* of restitution, */
 static const double STEP_OF_SLIP = 2e-3; /* and of a slip; where slips are beyond LONG_SLIP, over
@@ -223,8 +223,8 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *start, bo
   carom_variation_leads(point, begins, lead);
   carom_variation_rates(&path->terms, lead, point->v, next_rate);
 
-  /* it ends a little earlier or later; rates change there. By the rates at its end and not by
-   * the direction of the slip alone: that of a slip which is negligible, but not zero, still
+  /* it ends a little earlier or later; rates change there. By the rates at its end and not only by
+   * the direction of the slip: the direction of a slip which is negligible, but not zero, still
    * turns, and the part of da across the motion falls with |a| */
   for (int variable = 0; variable < CAROM_VARIABLES; variable++) {
     const double d_p =
@@ -360,8 +360,8 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
   out->kink |= !(best < POOR) || !(bends < KINK);
 }
 
-/* Derivatives of the impulses by one variable, at the end of an impact. A function of its own,
- * so that its stack is not there while the impact is followed. */
+/* Derivatives of the impulses by one variable, at the end of an impact. A separate function, so
+ * that its stack is not in use while the impact is followed. */
 __attribute__((noinline)) static void impulses_by(const carom_trajectory *path,
                                                   const carom_variation *variation, int variable,
                                                   carom_impact_tangent *out) {
@@ -429,8 +429,8 @@ static void end_held_slips(const carom_trajectory *path, carom_variation *variat
       F_x = -w * t_x * f_y;
       F_y = -w * t_y * f_y;
       f_x = -(a_x + law->C_x * F_x) / law->K_x;
-      /* on the way friction may be anything in the cone, but along x alone if nothing turns it:
-       * does the load keep its sign? */
+      /* on the way friction may be anything in the cone, but only along x if nothing turns it: does
+       * the load keep its sign? */
       const double most =
           a_y != 0 || law->A_0 != 0 || regime->loaded ? law->mu * fabs(law->g_1) : 0;
       variation->lost |= law->mu_c > 0 && (regime->loaded ? law->g_0 < most : law->g_0 > -most);
@@ -490,7 +490,7 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   out->kink = variation.kink || (law->mu == 0 && (requests >> BY_MU & 1)) ||
               (law->e == 0 && (requests >> BY_E & 1));
 
-  /* where they were lost on the way, differences of impacts take their place */
+  /* where they were lost on the way, differences of impacts replace them */
   variation.lost |=
       !path.ended || variation.rate[OF_V] == 0 || (path.regime.held && path.regime.cloth_held);
   for (int variable = 0; variable < CAROM_VARIABLES; variable++) {

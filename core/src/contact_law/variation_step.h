@@ -282,8 +282,8 @@ always void solve_t(const carom_terms *terms, const carom_point *start, step_rat
 }
 
 /* The changes of all rows over the step, by quadrature, where `end` of W begins as the change that
- * v brings about. Returns the estimate of the error, relative: that of the solver, the coefficient
- * of the highest Legendre polynomial of the rates. */
+ * v brings about. Returns the estimate of the error, relative: as in the solver, the coefficient of
+ * the highest Legendre polynomial of the rates. */
 always double integrate_rates(const carom_variation *variation, step_rates *at_nodes, double length,
                               table phi, table psi, nodes *end) {
   /* weights of the integral of an integral, which W is */
@@ -310,7 +310,7 @@ always double integrate_rates(const carom_variation *variation, step_rates *at_n
       if (at_nodes->loaded)
         EACH rate[i] = madd(splat(AT(at_nodes->by_t[row], node)), psi[node][i], rate[i]);
 
-      /* the sums, and for W that of v once more */
+      /* the sums, and for W the sum of v once more */
       EACH {
         end[row][i] = madd(splat(WEIGHT[node]), rate[i], end[row][i]);
         highest[i] = madd(splat(HIGHEST[node]), rate[i], highest[i]);
@@ -337,8 +337,8 @@ always double limit_of_step(bool stiff, int vanishes) {
   return stiff ? ESTIMATE_STIFF : ESTIMATE;
 }
 
-/* The rates at the end, which the next step needs. The direction of a slip that is zero there is
- * that of the polynomial. */
+/* The rates at the end, which the next step needs. A slip that is zero there has the direction of
+ * the polynomial. */
 always void take_end_rates(carom_trajectory *path, const step_rates *at_nodes) {
   carom_variation *variation = path->variation;
   const double last[4] = {dot(AT_END, at_nodes->u_x), dot(AT_END, at_nodes->u_y),

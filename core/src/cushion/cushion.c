@@ -135,7 +135,7 @@ carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n,
   const size_t first_bad = carom_in_threads(solve_rows, &work, n, opt->threads, least_part(opt));
   if (first_bad == n)
     return CAROM_OK;
-  /* Only its index came back through the threads; doing the row again tells its status. */
+  /* The threads only returned its index; resolving the row again returns its status. */
   carom_motion unused;
   return carom_cushion_solve(&in[first_bad], opt, &unused);
 }

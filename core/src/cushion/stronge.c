@@ -37,7 +37,7 @@
 
 static const double BETA = 3.5, HALF_PI = 1.57079632679489661923;
 static const double ROOT_WIDTH = 1e-10;
-/* how pooltool tells that rho is at a limit */
+/* how pooltool decides that rho is at a limit */
 static const double LIMIT_ABSOLUTE = 1e-8, LIMIT_RELATIVE = 1e-5;
 enum { MOST_TRIALS = 60, MOST_HALVINGS = 20 };
 

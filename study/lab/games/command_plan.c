@@ -1,7 +1,7 @@
 /* `carom-lab plan`: how strong the planner is. Racks after a break that pots nothing, run out from
- * ball in hand by a player who errs, or played to the end by two; and how often shots come off and
- * games are won compared with the chances that were predicted for them. Of games of points also how
- * many a visit makes. */
+ * ball in hand by a player with errors, or played to the end by two; and how often shots succeed
+ * and games are won compared with the predicted chances. Of games of points also how many a visit
+ * makes. */
 #include "comparison.h"
 #include "game/ratings.h"
 #include "pot_kind.h"
@@ -109,7 +109,7 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
     sums->seconds += 1e-9 * (processor_ns() - begin);
     sums->plans++;
 
-    /* what was predicted compared with what came */
+    /* predictions compared with results */
     visit += turn.points;
     if (turn.outcome != CAROM_TURN_KEEP) {
       sums->visits++;
@@ -219,7 +219,7 @@ static int play_ratings(const strength_job *job) {
   bool plays = true;
   for (int k = 0; plays && carom_rules_about_of((carom_rules_kind)k) != NULL; k++) {
     wanted.rules = (carom_rules_kind)k;
-    plays = k == CAROM_RULES_POTTING || lab_play_told(&wanted); /* one player alone pots */
+    plays = k == CAROM_RULES_POTTING || lab_play_told(&wanted); /* a single player pots */
   }
   return plays ? EXIT_GOOD : EXIT_USAGE;
 }

@@ -1,4 +1,4 @@
-/* Chances compared with what came of them. */
+/* Chances compared with their results. */
 #include "comparison.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* `carom-lab published`: study/lab/published.py, which sets the values of data/measured.csv next to
- * those of carom, and study/lab/film.py, which does so with filmed shots. It reads carom's headers
+/* `carom-lab published`: study/lab/published.py, which compares the values of data/measured.csv
+ * with carom's, and study/lab/film.py, which does so with filmed shots. It reads carom's headers
  * and calls the shared library. */
 #include "program/program.h"
 #include "python.h"

@@ -40,7 +40,7 @@ typedef struct stress_job {
  * reference, and those left to the precise solver. */
 enum { ROWS, OVER_1E6, OVER_1E5, OVER_2E5, UNRESOLVED, NOT_TAKEN, LEFT_OUT, SLOW, COUNTS };
 
-/* Rows of one group, solved in one way. Errors are those of rows with status ok that could be
+/* Rows of one group, solved in one way. Errors are over the rows with status ok that could be
  * compared. */
 typedef struct tally {
   long count[COUNTS], histogram[DECADES * PER_DECADE];
@@ -48,7 +48,7 @@ typedef struct tally {
   uint64_t worst; /* number of the draw whose error is the largest fraction of its bound */
 } tally;
 
-/* One run, or a thread's part of it. */
+/* One run, or a thread's portion of it. */
 typedef struct stress {
   draw_kind kind;
   uint64_t seed, draws;   /* draws of each group */
