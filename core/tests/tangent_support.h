@@ -41,7 +41,7 @@ static inline void numbers_of(const carom_ball_state *s, double to[NUMBERS]) {
     to[k] = ((const double *)s)[number_at[k]];
 }
 
-/* The table of a layout, which stands until the next call: of 9 ft with pooltool's pockets, where
+/* The table of a layout, which is valid until the next call: of 9 ft with pooltool's pockets, where
  * the edges of these tests are. */
 static inline const carom_table *table_of(const layout *l) {
   static carom_table table, nine_feet;
@@ -87,7 +87,7 @@ static inline void change(layout *l, const direction *d, double by) {
     }
 }
 
-/* Seeds of m directions, which stand until the next call. */
+/* Seeds of m directions, which are valid until the next call. */
 static inline carom_tangent_seeds seeds_of(const direction *d, int m) {
   static double cue[CAROM_CUE_NUMBERS * LAYOUT_DIRECTIONS],
       state[LAYOUT_BALLS * NUMBERS * LAYOUT_DIRECTIONS],
@@ -160,7 +160,8 @@ static inline int64_t differentiate(const layout *l, const direction *by, int m)
   return derive(l, by, m);
 }
 
-/* Plays a layout of which a number is changed; its events and its end stand until the next call. */
+/* Plays a layout of which a number is changed; its events and its end are valid until the next
+ * call. */
 static inline carom_status shoot_changed(const layout *l, const direction *by, double change_of,
                                          carom_shot *s) {
   static carom_event other[ROOM];

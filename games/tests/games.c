@@ -206,7 +206,7 @@ TEST(places) {
     ck_assert_int_gt(seen[k], 20);
 }
 
-/* ---- Places on tables of one's own */
+/* ---- Positions on tables of one's own */
 
 /* Some times as fast as hypot(), of which floods take most of their time. */
 static double length(double x, double y) {

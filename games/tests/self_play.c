@@ -1,5 +1,5 @@
-/* Whole games of the planner against itself through matches: none has a dead end, and some are the
- * same on all machines. CAROM_TEST_GAMES: how many of each game; CAROM_TEST_GAME: of which. */
+/* Complete games of the planner against itself through matches: none has a dead end, and some are
+ * the same on all machines. CAROM_TEST_GAMES: how many of each game; CAROM_TEST_GAME: of which. */
 #include "carom_match.h"
 #include "game_support.h"
 

@@ -20,7 +20,7 @@ typedef struct situation {
   const char *put, *place;
 } situation;
 
-/* Words of the library in place of numbers; those of choices are positions of their bits. */
+/* Words of the library instead of numbers; those of choices are positions of their bits. */
 enum words {
   NO_WORDS,
   TURNS = CAROM_GAME_WORDS_TURN + 1,
@@ -442,7 +442,7 @@ static carom_status do_act(const char *act) {
   return carom_match_concede(&match, player);
 }
 
-/* How the match stands. */
+/* The state of the match. */
 static situation standing(void) {
   const carom_turn *turn = &match.ruling.turn;
   situation s = {.state = match.rules.state,
@@ -498,7 +498,7 @@ static void begin_row(carom_rules_kind kind, char *text) {
 }
 
 /* Does the act of a column, and checks what it says behind the colon: why the act is rejected, with
- * its words; or how the match stands, and the names of the ruling. */
+ * its words; or the state of the match, and the names of the ruling. */
 static void check_act(const char *title, char *column) {
   char *expected = strstr(column, ": "), *words = strchr(column, '"'), ruled[200];
   ck_assert_msg(expected != NULL, "%s: no colon in %s", title, column);

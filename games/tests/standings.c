@@ -1,4 +1,4 @@
-/* Lines of recordings that say how a game stands. tests/unit/record.c tests the other lines. */
+/* Lines of recordings that say the state of a game. tests/unit/record.c tests the other lines. */
 #include "carom_record.h"
 #include "support.h"
 
@@ -24,7 +24,7 @@ static void begin_reading(void) {
   expect_ok(carom_record_read(&again, text, size));
 }
 
-/* How the game stands is read as it was written. */
+/* The state of the game is read as it was written. */
 TEST(standings_come_back) {
   begin_recording();
   game.standing = (carom_rules_state){.score = {0, 7}, .target = 100, .user = {1, [7] = 9}};

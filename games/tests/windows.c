@@ -1,5 +1,5 @@
-/* The windows of pots.c against sweeps: a ball alone that rolls at a usual speed, in all directions
- * near a pocket, from positions of which half are near a rail. */
+/* The windows of pots.c against sweeps: a single ball that rolls at a usual speed, in all
+ * directions near a pocket, from positions of which half are near a rail. */
 #include "view.h" /* before the support, whose names it uses for arguments */
 
 #include "plan_support.h"

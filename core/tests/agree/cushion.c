@@ -119,7 +119,7 @@ TEST(stronge_as_recorded) {
   }
 }
 
-/* A ball that rolls slips on the cloth by rounding alone, so pooltool's first step goes where
+/* A ball that rolls slips on the cloth only by rounding, so pooltool's first step goes where
  * its own rounding points. Two more differ by less than 1e-5: spins that amplify it. */
 TEST(euler_as_recorded) {
   static recorded rows[MOST_ROWS];

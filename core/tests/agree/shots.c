@@ -1,4 +1,5 @@
-/* Whole shots have equal bits in a batch and in single calls, whatever the threads and the cut. */
+/* Complete shots have equal bits in a batch and in single calls, whatever the threads and the
+ * cut. */
 #include "carom_tangent.h"
 #include "random_shots.h"
 #include "shot/sim.h"
@@ -189,7 +190,7 @@ TEST(one_for_all) {
     free_results(play_both(&jobs[k], k < 2 ? SHOTS : SHOTS / 3));
 }
 
-/* Brief events in place of full ones tell what those do; the fuzzer has both next to each other,
+/* Brief events instead of full ones tell what those do; the fuzzer has both next to each other,
  * and less room. States at a time need the full ones. */
 TEST(brief_events) {
   static carom_brief_event brief[ROOM];
@@ -207,7 +208,7 @@ TEST(brief_events) {
   ck_assert_int_eq(carom_shot_at(balls, 16, &b, 0.5, states), CAROM_ERROR_EVENTS_LOST);
 }
 
-/* ---- Kinds and states by reference, in place of balls */
+/* ---- Kinds and states by reference, instead of balls */
 
 enum { LAYOUTS = 60, BALLS = 6 };
 static carom_ball_kind kinds[BALLS];

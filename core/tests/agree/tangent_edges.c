@@ -190,7 +190,7 @@ TEST(slow_in_space) {
 }
 
 /* Every row that a caller requests is written, and no number beyond the last: all are as many as
- * the header says, whatever stood there before. The passes take a part of the directions each,
+ * the header says, whatever was there before. The passes take a part of the directions each,
  * so more are requested than fit in one. */
 TEST(rows_end_where_the_header_says) {
   enum { M = 11, TIMES = 3 };
@@ -268,7 +268,7 @@ TEST(square_at_a_cushion) {
   ck_assert_double_gt(largest_error, 0.0); /* of those that were found by differences */
 }
 
-/* Strikes of raised cues at a ball alone, by all numbers of the cue, compared with differences.
+/* Strikes of raised cues at a single ball, by all numbers of the cue, compared with differences.
  * Where a change of a hundredth has other phases, a flag says so. */
 TEST(phases_of_a_strike) {
   enum { SHOTS = 300, BY = 7 };

@@ -50,7 +50,7 @@ static layout draw_with(random_source *random, start_kind start) {
   return l;
 }
 
-/* ---- Whole shots ---- */
+/* ---- Complete shots ---- */
 
 /* Ball 0 may fly. */
 static const char *const in_space =

@@ -39,7 +39,7 @@ static void add_line(carom_record *game, carom_record_kind kind) {
     fail("a line cannot be written");
 }
 
-/* Puts `size` bytes in place of `old` ones of a line. */
+/* Puts `size` bytes instead of `old` ones of a line. */
 static void splice(text *line, size_t at, size_t old, const char *bytes, size_t size) {
   if (at + old > line->size)
     old = line->size - at;
@@ -81,7 +81,7 @@ static void edit(const uint8_t *data, int lines) {
   case 4:
     splice(line, at, 0, word, strlen(word));
     break;
-  case 5: { /* in place of the number, or of the word, that begins here */
+  case 5: { /* instead of the number, or of the word, that begins here */
     size_t from = at;
     while (from < line->size && strchr(":,[", line->at[from]) == NULL)
       from++;

@@ -1,4 +1,4 @@
-/* Whole shots with inputs made of the bytes of a fuzzer (draws.h): tables of any shape, layouts
+/* Complete shots with inputs made of the bytes of a fuzzer (draws.h): tables of any shape, layouts
  * on the cloth and in the air, cues, options. Aborts where the contract of carom_shot.h or
  * carom_tangent.h is broken: an end that is not finite; a batch with other bits than single
  * shots; a shot in parts with other bits than the whole; bytes written outside the results; and,

@@ -424,7 +424,7 @@ TEST(break_of_a_rack) {
 }
 
 /* Breaks as players make them, by clusters and pair by pair: 6 and 7 m/s of the cue, gaps of 0,
- * 0.05 and 0.1 mm, an aim that errs by up to 0.35 degrees, 0.2 in the mean square.
+ * 0.05 and 0.1 mm, an aim that errs by up to 0.35 degrees, 0.2 rms.
  * CAROM_TEST_DRAWS=300 gives the count of clusters.md. */
 TEST(breaks) {
   static const struct {

@@ -1,4 +1,4 @@
-/* Whole shots where pooltool's default engine fails (commit 9a8abfe0): full hits with follow
+/* Complete shots where pooltool's default engine fails (commit 9a8abfe0): full hits with follow
  * along x, balls that roll alike, some Newton's cradles, and a ball that moves into its rail. They
  * are right in the world carom, and by pooltool's rules an error or its own answer, never a crash,
  * a hang or a lost ball. */

@@ -149,7 +149,7 @@ TEST(slope_beside_small_steps) {
   }
 }
 
-/* ---- Whole shots */
+/* ---- Complete shots */
 
 /* The energy of a ball with its height on the slope. */
 static double energy_of(const carom_shot_ball *ball, const carom_table *t,

@@ -1,5 +1,5 @@
 /* Strikes: pushes of balls that touch or nearly touch the cue ball against its own integrator
- * (strike_reference.h), limits in closed form and symmetries; a raised cue at a ball alone against
+ * (strike_reference.h), limits in closed form and symmetries; a raised cue at a single ball against
  * the same integrator. docs/understanding/clusters.md has the law. */
 #include "cluster/cluster.h"
 #include "cluster/hertz.h"
@@ -113,7 +113,7 @@ static bool meet_others(const ref_strike *ref) {
 }
 
 /* How far the balls start from the positions of the reference, and how far off its lead the tip is,
- * over the way of the cue in the push of a ball alone. */
+ * over the way of the cue in the push of a single ball. */
 static void place_errors(const ref_strike *ref, const carom_cue *cue, double errors[2]) {
   num places[REF_BALLS][3];
   carom_play play;
@@ -590,7 +590,7 @@ TEST(frozen_at_an_angle) {
 
 /* ---- A raised cue */
 
-/* The strike of a raised cue at a ball alone. Returns the touches of the tip. */
+/* The strike of a raised cue at a single ball. Returns the touches of the tip. */
 static int strike_alone(const carom_cue *cue, double e, carom_ball_state *end) {
   begin(1);
   balls[0].kind.restitution_table = e;
@@ -599,7 +599,7 @@ static int strike_alone(const carom_cue *cue, double e, carom_ball_state *end) {
   return facts.touches;
 }
 
-/* A ball alone, by its phases, compared with the reference. Ends of hops are left out, as the
+/* A single ball, by its phases, compared with the reference. Ends of hops are left out, as the
  * reference has none. */
 TEST(raised_alone) {
   random_source r = {test_seed()};

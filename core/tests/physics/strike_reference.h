@@ -45,7 +45,7 @@ typedef struct ref_strike {
   num n[REF_BALLS][REF_BALLS][3];
   num impulse; /* of the tip, N s */
   num reach;   /* m: how far the cue continues */
-  num T;       /* s: how long the tip touches a ball alone */
+  num T;       /* s: how long the tip touches a single ball */
   int touches;
 } ref_strike;
 
@@ -440,9 +440,9 @@ static inline void ref_solve(ref_strike *s, num h) {
   }
 }
 
-/* ---- Places */
+/* ---- Positions */
 
-/* The centroid in time of the impulse of the tip at a ball alone. */
+/* The centroid in time of the impulse of the tip at a single ball. */
 static inline num ref_lag(const ref_strike *s, num T) {
   const num e = s->tip.e;
   return T / (1 + e) * (2 / acosl(-1.0L) * (1 - e) + e);

@@ -449,7 +449,7 @@ static double width_of_corner(const carom_table *table, double angle, double spe
   return fall * step;
 }
 
-/* Facings and jaws have numbers of their own: corner pockets narrow with speed, most along the
+/* Facings and jaws have their own numbers: corner pockets narrow with speed, most along the
  * rail; and the cushion of the ball does not move a facing. */
 TEST(pockets_by_speed) {
   carom_table table;

@@ -1,7 +1,7 @@
 /* CAROM_ISA=plain gives the same bits on every machine and with every compiler: a hash of
  * results for each part of the library. Inputs are drawn by correctly rounded operations alone,
  * so they have the same bits everywhere too. bits.expected has the hashes. They change only with
- * the numerics, in the commit that says why.
+ * the numerics, in the commit that explains why.
  *
  *     bits            prints a line for each part: what was computed, and the hash of its
  *                     results
@@ -327,7 +327,8 @@ static void cushion_traces(void) {
   }
 }
 
-/* ---- Whole shots ----------------------------------------------------------------------------- */
+/* ---- Complete shots
+ * ----------------------------------------------------------------------------- */
 
 static uint64_t add_state(uint64_t hash, const carom_ball_state *s) {
   return add(add_numbers(hash, s->r, 9), (uint64_t)s->label);
@@ -481,7 +482,8 @@ static void no_follow_through(void) {
   show("shots: no follow-through", hash);
 }
 
-/* ---- Places and aims ------------------------------------------------------------------------- */
+/* ---- Positions and aims
+ * ------------------------------------------------------------------------- */
 
 /* Which positions of a grid are on a table of one's own, whose rails are short. */
 static void places(void) {

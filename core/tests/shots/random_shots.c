@@ -291,7 +291,7 @@ static void coincident(random_shot *s, lab_random *r) {
   if (lab_whole(r, 0, 1)) /* a post, met at its exact side */
     s->table.jaw[s->table.jaws++] =
         (carom_jaw){.centre = {0.5, 1.0}, .radius = 0.03125, .height = height};
-  /* places k + 1/2 diameters from the sides; where rails end and a post stands, whole ones */
+  /* positions k + 1/2 diameters from the sides; where rails end and a post stands, whole ones */
   const double shift = lab_whole(r, 0, 1) ? R : 2.0 * R;
   const int count = lab_whole(r, 1, 12), lines = lab_whole(r, 1, 3);
   const double e = 0.25 * lab_whole(r, 0, 4);

@@ -94,7 +94,7 @@ static void measure(void *(*body)(void *), const char *name, size_t own) {
     printf("  %s with %d threads: %zu\n", name, threads, most - own);
 }
 
-/* Every function that the library exports, without threads of its own and with some. */
+/* Every function that the library exports, without its own threads and with some. */
 TEST(every_function_fits) {
   random_source source = {test_seed()};
   lab_random rng = {test_seed()};
