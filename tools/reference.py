@@ -147,7 +147,7 @@ def of_python(source):
     )
 
     def holder(module):
-        """The module that has the names: some are a line that takes those of another one."""
+        """The module that has the names: some only import the names of another one."""
         path = folder / f"{module}.py"
         found = path.is_file() and re.search(r"from ([\w.]+) import \*", path.read_text("utf-8"))
         return found[1] if found else f"carom.{module}"
@@ -214,7 +214,7 @@ def documented(source, files, comment, kind, title, named):
                 holder = name
             if name and (holder or inside):
                 words = re.sub(r"</?summary>|^\s*(?:\*|///) ?", " ", words, flags=re.M)
-                # The fields of a struct, some of which have no words of their own.
+                # The fields of a struct, some of which have no description of their own.
                 body = whole[found.start(2) :]
                 body = (
                     body[

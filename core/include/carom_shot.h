@@ -1304,8 +1304,7 @@ CAROM_API carom_status carom_shot_fault(const carom_table *table, const carom_sh
 CAROM_API int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind,
                                    const carom_shot_options *options);
 
-/* ---- The cushion of a table, from three banks that a player observes
- * ------------------------------ */
+/* ---- The cushion of a table, from three banks that a player observes ------------------------- */
 
 enum { CAROM_BANKS = 3 };
 

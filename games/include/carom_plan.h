@@ -530,8 +530,7 @@ CAROM_API carom_status carom_referee(const carom_plan_rules *rules, const carom_
  * text without the 0, or 0 for an invalid ruling. */
 CAROM_API size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room);
 
-/* ---- Names of games' values
- * -------------------------------------------------------------------------- */
+/* ---- Names of games' values ------------------------------------------------------------------ */
 
 /* Enumerations of games whose values have names ("words"). carom_words has the enumerations of the
  * physics, and carom_rules_kind. */

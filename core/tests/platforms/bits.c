@@ -327,8 +327,7 @@ static void cushion_traces(void) {
   }
 }
 
-/* ---- Complete shots
- * ----------------------------------------------------------------------------- */
+/* ---- Complete shots -------------------------------------------------------------------------- */
 
 static uint64_t add_state(uint64_t hash, const carom_ball_state *s) {
   return add(add_numbers(hash, s->r, 9), (uint64_t)s->label);
@@ -482,8 +481,7 @@ static void no_follow_through(void) {
   show("shots: no follow-through", hash);
 }
 
-/* ---- Positions and aims
- * ------------------------------------------------------------------------- */
+/* ---- Positions and aims ---------------------------------------------------------------------- */
 
 /* Which positions of a grid are on a table of one's own, whose rails are short. */
 static void places(void) {
