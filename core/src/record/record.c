@@ -757,7 +757,7 @@ static const char *not_to_be_played(const carom_record *record, carom_record_kin
   if (goes_on && record->moved == 0)
     return "there is no shot to play";
   if (!goes_on && record->cue.speed > 0.0 && is_moving(record))
-    return "balls are moving, so no ball can be struck; continue the previous shot";
+    return "balls move, so no ball can be struck; continue the previous shot";
   return NULL;
 }
 

@@ -228,7 +228,7 @@ TEST(lines_that_are_refused) {
       {"\"width\":", "\"widht\":", "table.widht is not a key of the format"},
       {"\"width\":1.27,", "", "table.width is missing"},
       {"\"width\":1.27", "\"width\":1.27,\"width\":1.27", "table.width comes twice"},
-      {"\"width\":1.27", "\"width\":\"wide\"", "table.width is no hexadecimal number"},
+      {"\"width\":1.27", "\"width\":\"wide\"", "table.width is not a hexadecimal number"},
       {"\"width\":1.27", "\"width\":nan", "table.width must be a number"},
       {"\"width\":1.27", "\"width\":0.1234567890123456789", "15, and 22 places"},
       {"\"side\":1", "\"side\":1.5", "side must be a whole number"},
