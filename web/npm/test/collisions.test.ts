@@ -179,7 +179,7 @@ describe("what is refused", () => {
     expect(batch.get(50).a.v).toEqual([NaN, NaN, NaN]);
     expect(batch.get(51)).toEqual(carom.collide(good));
     batch.free();
-    refuses([() => batch.in, "given back"], [() => carom.collideBatch(batch), "given back"]);
+    refuses([() => batch.in, "freed"], [() => carom.collideBatch(batch), "freed"]);
   });
 
   test("words, shapes, fields and sizes that are not there", () => {

@@ -360,7 +360,7 @@ test("a match that is read again has the bounds of a scratch, and nothing behind
 
   const { lines } = match;
   const text = match.end();
-  expect(() => match.stroke({ speed: 1 })).toThrow("given back");
+  expect(() => match.stroke({ speed: 1 })).toThrow("freed");
   replay.read(text.trimEnd().split("\n").at(-1)!);
   refuses(
     [() => replay.stroke({ speed: 1 }), /is over/],

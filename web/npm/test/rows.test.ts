@@ -131,7 +131,7 @@ test("three banks find the cushions of a table, and conditions are named", () =>
   expect([slow.muRoll, slow.restitutionCushion]).toEqual([0.015, 0.75]);
   refuses(
     [() => carom.kind("pool", "default", ["felt" as never]), 'conditions: unknown name "felt"'],
-    [() => carom.kind("snooker", "default", ["fast_cloth"]), "pool, not of snooker"],
+    [() => carom.kind("snooker", "default", ["fast_cloth"]), "pool tables, not to snooker"],
   );
 });
 
