@@ -53,11 +53,11 @@
 #include <string.h>
 
 enum { PHASES_MOST = 400, STEPS_OF_PHASE = 3000, FINER_MOST = 5 };
-static const double STEP = 0.6;      /* of a phase's faster mode, rad */
-static const double FINER = 6.0;     /* subdivisions of a step whose ends do not show what happens
+static const double STEP = 0.6;       /* of a phase's faster mode, rad */
+static const double FINER = 6.0;      /* subdivisions of a step whose ends do not show what happens
                                         in it */
-static const double too_slow = 1e-9; /* of the cue's speed: contacts that close slower are none */
-static const double least_e = 0.2;   /* of a slate */
+static const double too_slow = 1e-9;  /* of the cue's speed: contacts that close slower are none */
+static const double least_e = 0.2;    /* of a slate */
 static const double least_tip = 0.05; /* e of a tip, as in cluster/push.c */
 
 /* A vertex is too near to 0 to determine its sign if it is less than this fraction of its fall. */

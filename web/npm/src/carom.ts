@@ -792,7 +792,9 @@ export class Carom {
   ): Cue {
     const { ballSpeed, tip, ...rest } = fields;
     if (tip !== undefined && (rest.a !== undefined || rest.b !== undefined))
-      throw new TypeError("cue.tip: it replaces a and b, which were given too; give only one of them");
+      throw new TypeError(
+        "cue.tip: it replaces a and b, which were given too; give only one of them",
+      );
     const cue = this.#cue(tip === undefined ? rest : { ...rest, a: 0 - tip[0], b: tip[1] }, game);
     if (ballSpeed === undefined) return cue;
     if (rest.speed !== undefined)

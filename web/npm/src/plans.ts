@@ -123,7 +123,8 @@ function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: str
   const pool = needed === undefined;
   if (pool && pockets.length === 0)
     throw new TypeError(`table: it has no pockets, but ${rules} needs them`);
-  if (!pool && pockets.length > 0) throw new TypeError(`table: it has pockets, but ${rules} is played without`);
+  if (!pool && pockets.length > 0)
+    throw new TypeError(`table: it has pockets, but ${rules} is played without`);
   if (!pool && balls.length < needed)
     throw new TypeError(`balls: ${rules} needs ${needed === 3 ? "three" : "four"}`);
   const last = LAST[rules as C.RulesKind] ?? balls.length;

@@ -156,7 +156,10 @@ test("what rules cannot say, and that they cannot call the library", () => {
   const rule = (changes: object) => carom.rule(shot, { own: { ...good, ...changes } });
   refuses(
     [() => rule({ judge: () => undefined }), "judge: an object is needed"],
-    [() => rule({ judge: () => ({ turn: "stop" }) }), 'judge: turn: unknown name "stop"; use one of'],
+    [
+      () => rule({ judge: () => ({ turn: "stop" }) }),
+      'judge: turn: unknown name "stop"; use one of',
+    ],
     [() => rule({ judge: () => ({ turn: "pass", spot: [40] }) }), "judge: spot"],
     [() => rule({ on: () => [-1] }), "on: it must be a whole number"],
     [

@@ -204,7 +204,10 @@ test("beginnings that are refused", () => {
     [begin({ seats: [{ side: "a" }, "Bo"] }), 'seats[0].side: a number is needed, not "a"'],
     [begin({ limits: { speeds: 1 } }), "limits.speeds: there is no such key"],
     [begin({ set: { race: 1001 } }), "begin: set.race must be 1 to 1000"],
-    [begin({ set: { race: 1, order: "loosers" } }), 'set.order: unknown name "loosers"; did you mean "loser"? Use one of alternate'],
+    [
+      begin({ set: { race: 1, order: "loosers" } }),
+      'set.order: unknown name "loosers"; did you mean "loser"? Use one of alternate',
+    ],
   );
 });
 
