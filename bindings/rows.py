@@ -79,7 +79,7 @@ def digits(x):
 
 
 def range_of(unit, low, high, alternative):
-    """A range in the words of carom_number_range()."""
+    """A range as carom_number_range() writes it."""
     (low, from_), (high, is_end_open), (alternative, _) = (
         end_of(low),
         end_of(high),

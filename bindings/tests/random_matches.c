@@ -251,7 +251,7 @@ static void keep(void) {
   written += (size_t)match.size;
 }
 
-/* The reader refuses the line of an act from another seat, with nothing changed, and takes it from
+/* The reader rejects the line of an act from another seat, with nothing changed, and takes it from
  * the seat that acted. */
 static int is_sent_by(int seat, size_t from) {
   static carom_match kept;

@@ -1,5 +1,5 @@
-/* What there is, for programs that ask: the rows of schema/ at run time. Nothing here is on the
- * path of an impact. */
+/* The rows of schema/ at run time, for programs that request them. Nothing here is on the path of
+ * an impact. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
@@ -100,7 +100,7 @@ const carom_number *carom_number_of(carom_part_kind part, int k) {
 
 /* ---- Ranges in words */
 
-/* Text that is cut at the end of its room; `length` goes on. */
+/* Text that is cut at the end of its room; `length` continues. */
 typedef struct words {
   char *text;
   size_t room, length;
@@ -176,7 +176,7 @@ static bool add_short(words *w, double x) {
 /* How a range ends on one side: nowhere, at the largest double, before a number, or at it. */
 typedef enum range_end { END_NOWHERE, END_FINITE, END_EXCLUDED, END_INCLUDED } range_end;
 
-/* What stands before the low end of a range, and what between its low and its high end. */
+/* What is before the low end of a range, and what between its low and its high end. */
 typedef struct range_phrase {
   const char *before_low, *before_high;
 } range_phrase;
@@ -197,8 +197,8 @@ static const range_phrase range_phrases[][4] = {
                       [END_INCLUDED] = {"", " to "}},
 };
 
-/* Writes an end of a range, and says whether it belongs to the range. The next double to a short
- * number stands for an end that does not. */
+/* Writes an end of a range, and reports whether it belongs to the range. The next double to a short
+ * number represents an end that does not. */
 static range_end add_end(words *w, double x, double outwards) {
   if (add_short(w, x))
     return END_INCLUDED;
@@ -212,7 +212,7 @@ static range_end add_low_end(words *w, const carom_number *n) {
   return add_end(w, n->low, -INFINITY);
 }
 
-/* A whole number that may be as large as its type allows has no end. */
+/* An integer that may be as large as its type allows has no end. */
 static range_end add_high_end(words *w, const carom_number *n) {
   if (n->high == DBL_MAX)
     return END_FINITE;
@@ -260,7 +260,7 @@ static void add_choices(words *w, carom_words kind) {
   }
 }
 
-/* The number that is right beside a range, where there is one; the interval; the unit. */
+/* The number that is right next to a range, where there is one; the interval; the unit. */
 static void add_measure(words *w, const carom_number *n) {
   const bool has_other = add_short(w, n->other); /* it is NAN where there is none */
   if (has_other)
@@ -272,7 +272,7 @@ static void add_measure(words *w, const carom_number *n) {
   }
 }
 
-/* Words that are to go into text[room], of which NULL takes none. */
+/* Text for text[room]; NULL receives none. */
 static words words_in(char *text, size_t room) {
   if (text == NULL)
     room = 0;

@@ -1,8 +1,8 @@
 /* Lines of a match, read back and judged.
  *
- * A line that says what a player did is done again, as a call of his would be: the rules refuse it,
- * or make its line and those of the ruling, which wait in match->text. The lines of the file must
- * be these, byte for byte. */
+ * A line with an act of a player is executed again, like a call of the player: the rules reject it,
+ * or write its line and the lines of the ruling, which wait in match->text. The lines of the file
+ * must be these, byte for byte. */
 #include "match.h"
 #include "rules.h"
 #include "seats.h"
@@ -18,7 +18,7 @@ static size_t line_due(const carom_match *match) {
   return (size_t)(end - match->text) + 1;
 }
 
-/* The line that was due has come. */
+/* The line that was due was read. */
 static void take_line(carom_match *match, size_t length) {
   match->size = match->due -= (int64_t)length;
   memmove(match->text, match->text + length, (size_t)match->size);
@@ -68,14 +68,14 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
   const int64_t kind = record->kind;
   if (kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE || kind == CAROM_RECORD_ACT ||
       kind == CAROM_RECORD_END)
-    return refuse_line(match, record->line, "a line \"game\" must come before it");
+    return refuse_line(match, record->line, "a line \"game\" must precede it");
   if (kind == CAROM_RECORD_HEAD && record->match != 1)
     return refuse_line(match, record->line,
-                       "this is a recording of format 2, and no match: replay it");
+                       "this is a recording of format 2, not a match; replay it");
   if (kind != CAROM_RECORD_GAME)
     return CAROM_OK;
 
-  /* how the game stands at its beginning */
+  /* how the game is at its beginning */
   const char *range = "";
   if (match->rules.judge == NULL) {
     if (carom_rules_about_of((carom_rules_kind)record->rules) == NULL)
@@ -114,7 +114,7 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
   return CAROM_OK;
 }
 
-/* Does what a line says, as the player would; its own line is then due. `read` is the record behind
+/* Executes the act of a line, like the player; its own line is then due. `read` is the record after
  * it. */
 static carom_status do_line(carom_match *match, const carom_record *read) {
   const int player = (int)match->seat;
@@ -132,7 +132,7 @@ static carom_status do_line(carom_match *match, const carom_record *read) {
     break;
   default:
     return carom_match_refuse(match, CAROM_REFUSED_LINE, "line",
-                              "by the rules nothing of this kind follows");
+                              "the rules allow no line of this kind here");
   }
   switch (read->act) {
   case CAROM_ACT_CHOOSE:
@@ -211,7 +211,7 @@ carom_status carom_match_read_from(carom_match *match, carom_record *scratch, co
     return read_beginning(match, line, size);
   }
   if (is_kind(line, size, "event") && record->kind != CAROM_RECORD_WRONG)
-    return CAROM_OK; /* the shot tells its events */
+    return CAROM_OK; /* the shot reports its events */
 
   /* a line that the rules have made already, or an act */
   const int64_t number = record->line + 1;
@@ -237,7 +237,8 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
 
 /* ---- Undo */
 
-/* Whether a line is one that a player caused: an act. A cue ball that comes in hand is none. */
+/* Whether a line is one that a player caused: an act. A cue ball that is taken in hand is not
+ * placed. */
 static bool is_act(const char *line, size_t size) {
   static const char in_hand[] = "\"hand\":1";
   if (is_kind(line, size, "act") || is_kind(line, size, "shot") ||

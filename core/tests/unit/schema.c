@@ -1,4 +1,4 @@
-/* What there is, by its rows: each number is refused outside its range and told by name. */
+/* What there is, by its rows: each number is rejected outside its range and named. */
 #include "schema/numbers.h"
 #include "support.h"
 
@@ -37,7 +37,7 @@ TEST(rows_are_those_of_the_struct) {
   ck_assert_ptr_null(carom_ball_fault(NULL, text, sizeof text));
 }
 
-/* What refuses a kind tells which number it is. */
+/* A rejected kind reports which number is invalid. */
 TEST(every_refusal_names_a_number) {
   carom_table table;
   expect_ok(carom_table_make(CAROM_TABLE_POOL_9FT, &table));
@@ -52,7 +52,7 @@ TEST(every_refusal_names_a_number) {
         set(&ball.kind, carom_number_of(CAROM_PART_BALL, k), values[x / 10]);
         const carom_number *n = carom_ball_fault(&ball.kind, text, sizeof text);
         const carom_status status = carom_shot_check(&table, &ball, 1, NULL, NULL, NULL);
-        if (n == NULL) /* a radius beside its state or table */
+        if (n == NULL) /* a radius next to its state or table */
           ck_assert(status == CAROM_OK || ball.kind.radius != fit().kind.radius);
         else
           ck_assert(status < 0 && text[0] != '\0');
@@ -90,7 +90,7 @@ TEST(ranges_in_words) {
   static const struct {
     double low;
     double high;
-    double other; /* a value besides the range */
+    double other; /* a value outside the range */
     const char *unit;
     const char *words;
   } ranges[] = {

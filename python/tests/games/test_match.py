@@ -187,7 +187,7 @@ def test_partners_play_a_set_with_handicaps_limits_and_time():
     assert [seat.name for seat in match.seats] == ["Ann", "Bo", "Cy", "Di"]
     assert match.seats[1][1:4] == (1, 15, 600.0) and match.limits["tip"] == 0.0
     assert match.standing == ((0, 1, 0, 1), (0, 15), (0, 0), None)
-    assert match.words == "Ann (seat 0): a place of the cue ball in hand, or a choice"
+    assert match.words == "Ann (seat 0): a position of the cue ball in hand, or a choice"
     match.take(match.plan(shots=100, best=1)[0], seat=0)
     assert match.seat in (1, 2) and match.state["seat"] == match.seat
     assert len(match.plan(shots=100, best=1)) == 1 and match.undo()
@@ -195,7 +195,7 @@ def test_partners_play_a_set_with_handicaps_limits_and_time():
     cue = match.cue
     for field, wrong, message in [
         ("speed", 12.5, "stroke: cue.speed must be at most 12 m/s in this match"),
-        ("mass", 0.5, "stroke: the stick must be that of seat 0"),
+        ("mass", 0.5, "stroke: stick and tip must be the same as for seat 0"),
     ]:
         faulty = cue.copy()
         faulty[field] = wrong

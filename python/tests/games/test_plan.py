@@ -924,14 +924,14 @@ REFUSALS = [
     (
         lambda: plan(balls=_down(RACK, slice(1, None))),
         carom.CaromError,
-        "balls: no ball is left to be played: all that count are down, or the eight is",
+        "balls: no ball is left to play: all balls that count are down, or the eight is",
     ),
     (
         lambda: plan(balls=_down(RACK, slice(1, None)), rules="potting"),
         carom.CaromError,
-        ".*no ball is left to be played",
+        ".*no ball is left to play",
     ),
-    (lambda: plan(balls=_down(RACK, 8)), carom.CaromError, ".*no ball is left to be played"),
+    (lambda: plan(balls=_down(RACK, 8)), carom.CaromError, ".*no ball is left to play"),
     (
         lambda: plan(player=_changed(carom.player(), phi=-1.0)),
         ValueError,

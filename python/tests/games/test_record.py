@@ -66,7 +66,7 @@ def test_a_forged_stroke_ends_otherwise():
     ("what", "instead", "status", "message"),
     [
         ('"revision":', '"revision":9', "ERROR_REVISION", "line 1: the recording is of revision 9"),
-        ('"phi":', '"phy":', "ERROR_RECORD", "line 6: shot.phy is no key of the format"),
+        ('"phi":', '"phy":', "ERROR_RECORD", "line 6: shot.phy is not a key of the format"),
         ('{"end"', "", "ERROR_RECORD", "line 12"),
     ],
 )

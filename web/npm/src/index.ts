@@ -1,6 +1,6 @@
 /**
- * carom: collisions of two billiard balls, balls and cushions, and whole shots, by the C library of
- * the same name as WebAssembly.
+ * carom: collisions of two billiard balls, impacts on cushions, and complete shots, with the C
+ * library of the same name as WebAssembly.
  *
  *     import { load } from "carom";
  *     const carom = await load();
@@ -38,15 +38,15 @@ export { words } from "./generated/words.js";
 /** Options of `load`. */
 export interface LoadOptions {
   /**
-   * The build to run; by default "simd" where the machine has 128-bit vectors, else "plain". Both
-   * have the same bits.
+   * The build to run; by default "simd" if the machine has 128-bit vectors, otherwise "plain". The
+   * results have the same bits.
    */
   build?: Build;
 }
 
 /**
- * Compiles the WebAssembly module and returns the library. Each call gives a library with a memory
- * of its own.
+ * Compiles the WebAssembly module and returns the library. Each call returns a library with its own
+ * memory.
  */
 export async function load(options: LoadOptions = {}): Promise<Carom> {
   refuseUnknown(options, KEYS.build);
