@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ROWS = 48, MOST_LONGS = MOST_ROWS + 24, FIRST_CODE = UCHAR_MAX + 1 };
+enum { MOST_ROWS = 64, MOST_LONGS = MOST_ROWS + 24, FIRST_CODE = UCHAR_MAX + 1 };
 enum { HELP_WIDTH = 80, OPTION_WIDTH = 23 }; /* columns of the help */
 
 static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};

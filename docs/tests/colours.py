@@ -95,7 +95,7 @@ def check_colours(kinds):
     assert min(letters)[0] >= TEXT, f"letters are not read: {min(letters)}"
     # The balls of pool by number, and those of snooker by name; of both each path once.
     paths = {name: path for name, (_, path, _) in balls.items() if name not in ("brown", "pink")}
-    snooker = "white red yellow green brown blue pink black".split()
+    snooker = ["white", "red", "yellow", "green", "brown", "blue", "pink", "black"]
     least = min(distances(paths))
     for chosen in (paths, {name: balls[name][1] for name in snooker}):
         closest = min(distances(chosen))
