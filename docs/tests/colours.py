@@ -17,6 +17,8 @@ SVG = "{http://www.w3.org/2000/svg}"
 GRAPHICS, TEXT = 3.0, 4.5
 # The least distance of two paths in OKLab, of which 0.02 is just noticed where colours touch.
 APART = 0.09
+# Parts of the width of a cloth in which places are compared, about 1 mm, as JavaScript draws them.
+SCALE = 2500
 # What linear red, green and blue become without one kind of cones: Machado, Oliveira and Fernandes,
 # IEEE Transactions on Visualization and Computer Graphics 15 (2009), severity 1.
 VISION = {
@@ -105,32 +107,32 @@ def check_colours(kinds):
 
 def table_of(path, left_out):
     """What a figure draws of its table, by fill or stroke: places over the width of the cloth, from
-    its corner, to 0.002.
+    its corner, in parts of SCALE.
     """
     page = tree.parse(path).getroot()
     frames = [one for one in page.iter(SVG + "rect") if one.get("fill") in left_out["cloth"]]
     x_0, y_0, wide = (float(frames[0].get(name)) for name in ("x", "y", "width"))
 
     def at(x, y):
-        return round(500 * (float(x) - x_0) / wide), round(500 * (float(y) - y_0) / wide)
+        return round(SCALE * (float(x) - x_0) / wide), round(SCALE * (float(y) - y_0) / wide)
 
     found = set()
     for circle in page.iter(SVG + "circle"):
         if circle.get("fill") in left_out["round"] and not circle.get("stroke"):
-            size = round(500 * float(circle.get("r")) / wide)
+            size = round(SCALE * float(circle.get("r")) / wide)
             found.add((circle.get("fill"), at(circle.get("cx"), circle.get("cy")), size))
     for line in [*page.iter(SVG + "path"), *page.iter(SVG + "polyline")]:
         if line.get("stroke") != left_out["nose"] or not line.get("stroke-linecap"):
             continue
         numbers = re.findall(r"-?[\d.]+", line.get("d") or line.get("points"))
         ends = sorted((at(*numbers[:2]), at(*numbers[2:])))
-        width = round(500 * float(line.get("stroke-width")) / wide)
+        width = round(SCALE * float(line.get("stroke-width")) / wide)
         found.add((left_out["nose"], *ends, width))
     return found
 
 
 def near(one, other):
-    """Whether two parts are the same to the last digit that is compared."""
+    """Whether two parts are the same, with colours exactly and places to 2 parts of SCALE."""
     flat = [re.findall(r"-?\d+|#\w+", str(part)) for part in (one, other)]
     return len(flat[0]) == len(flat[1]) and all(
         a == b if "#" in a + b else abs(int(a) - int(b)) <= 2 for a, b in zip(*flat)
