@@ -12,7 +12,7 @@ import re
 import sys
 from pathlib import Path
 
-NOTE = "Written by tools/palette.py from data/palette.csv: colours and measures of pictures of a table."
+NOTE = "Written by tools/palette.py from data/palette.csv: colours and sizes of a table from above."
 DISCIPLINES = "pool", "snooker", "carom"
 
 

@@ -1,4 +1,4 @@
-/* The colours of pictures: those of balls by their names, and those of tables. palette.h has them. */
+/* The colours of pictures: those of balls by their names, and those of tables, from palette.h. */
 #ifndef CAROM_CLI_COLOURS_H
 #define CAROM_CLI_COLOURS_H
 

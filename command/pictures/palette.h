@@ -1,5 +1,5 @@
 /* clang-format off */
-/* Written by tools/palette.py from data/palette.csv: colours and measures of pictures of a table. */
+/* Written by tools/palette.py from data/palette.csv: colours and sizes of a table from above. */
 #ifndef CAROM_CLI_PALETTE_H
 #define CAROM_CLI_PALETTE_H
 

@@ -1,4 +1,4 @@
-// Written by tools/palette.py from data/palette.csv: colours and measures of pictures of a table.
+// Written by tools/palette.py from data/palette.csv: colours and sizes of a table from above.
 
 /** Colours and sizes (m; margin and letters are shares) of a table from above. */
 export const PALETTE = {
