@@ -235,6 +235,10 @@ static void list_options(const command_form *form, struct option longs[MOST_LONG
     if (row->letter != 0)
       strcat(strncat(shorts, &row->letter, 1), argument_of(row) != NULL ? ":" : "");
   }
+  if (form->options[k] != NULL) {
+    complain("MOST_ROWS has no room for --%s", form->options[k]->name);
+    abort();
+  }
   longs[k] = (struct option){help_row.name, no_argument, NULL, help_row.letter};
 
   /* the other names, of the first option that the form has */
