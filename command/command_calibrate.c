@@ -1,5 +1,7 @@
 /* `carom calibrate`: the cushion of a player's table, by three banks: how to play them, what the
  * readings tell, a picture, and a file for --with. */
+#include "pictures/colours.h"
+#include "pictures/palette.h"
 #include "pictures/picture.h"
 #include "program/program.h"
 #include "shots/shot_table.h"
@@ -109,25 +111,31 @@ typedef struct banks_picture {
 /* The table lies: sights run along the picture, and the corner is on the left below. */
 static void draw(FILE *out, const void *data) {
   static const double scale = 300.0, edge = 70.0, sight = 0.094; /* pixels a meter, pixels, m */
-  static const char *const colour[CAROM_BANKS] = {"#1f6fb2", "#b2361f", "#2a7d3a"};
   const banks_picture *p = data;
   const double length = p->table->length * scale, width = p->table->width * scale,
                diamond = length / 8.0;
-  svg_begin(out, length + 2.0 * edge, width + 2.0 * edge + 60.0, "fill=\"#fff\"");
+  const table_colours colours = colours_of(p->table);
+  const double letters = svg_letters(length + 2.0 * edge);
+  char frame[64];
+  snprintf(frame, sizeof frame, "rx=\"%.0f\" fill=\"%s\"", scale * PALETTE_SIZE_CORNER,
+           colours.wood);
+  svg_begin(out, length + 2.0 * edge, width + 2.0 * edge + 60.0, frame);
   fprintf(out,
-          "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#e6f0ea\" "
-          "stroke=\"#0b2a22\" stroke-width=\"3\"/>\n",
-          edge, edge, length, width);
+          "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" "
+          "stroke=\"" PALETTE_NOSE "\" stroke-width=\"%.1f\"/>\n",
+          edge, edge, length, width, colours.cloth, scale * PALETTE_SIZE_NOSE);
 
   /* sights, and their numbers */
   const double below = edge + width + sight * scale, above = edge - sight * scale;
   for (int k = 1; k < 8; k++) {
     char name[12];
     snprintf(name, sizeof name, "%d", k);
-    svg_circle(out, edge + k * diamond, below, 3.0, "fill=\"#0b2a22\"");
-    svg_circle(out, edge + k * diamond, above, 3.0, "fill=\"#0b2a22\"");
-    svg_text(out, edge + k * diamond + 8.0, below + 5.0, name, 4, "font-size=\"14\"");
-    svg_text(out, edge + k * diamond + 8.0, above + 5.0, name, 4, "font-size=\"14\"");
+    svg_circle(out, edge + k * diamond, below, 3.0, "fill=\"" PALETTE_MARK "\"");
+    svg_circle(out, edge + k * diamond, above, 3.0, "fill=\"" PALETTE_MARK "\"");
+    svg_text(out, edge + k * diamond + 8.0, below + 5.0, name, 4,
+             "font-size=\"%.1f\" fill=\"" PALETTE_MARK "\"", letters);
+    svg_text(out, edge + k * diamond + 8.0, above + 5.0, name, 4,
+             "font-size=\"%.1f\" fill=\"" PALETTE_MARK "\"", letters);
   }
 
   /* the line of aim to its sight, and the way back from where it meets the rail */
@@ -140,12 +148,12 @@ static void draw(FILE *out, const void *data) {
     fprintf(out,
             "<path d=\"M%.1f %.1fL%.1f %.1fL%.1f %.1f\" fill=\"none\" stroke=\"%s\" "
             "stroke-width=\"2.2\"/>\n",
-            edge, edge + width, rail_point, edge, back, edge + width, colour[k]);
+            edge, edge + width, rail_point, edge, back, edge + width, line_colour(k + 1));
     char words[100];
     snprintf(words, sizeof words, "%d: through %.1f, %s: back at %.1f", k + 1, bank.aim,
              stroke_of(&bank), p->usual->comes_back[k]);
-    svg_text(out, edge, below + 35.0 + 20.0 * k, words, 60, "font-size=\"15\" fill=\"%s\"",
-             colour[k]);
+    svg_text(out, edge, below + 35.0 + 20.0 * k, words, 60, "font-size=\"%.1f\" fill=\"%s\"",
+             letters, line_colour(k + 1));
   }
   fputs("</svg>\n", out);
 }

@@ -27,6 +27,7 @@ typedef struct shoot_job {
   bool together; /* the shots came from options: they are drawn over each other, */
   bool words;    /* and told in words, unless --events asks for lines */
   bool csv;      /* as rows of moments instead of words */
+  bool plot_log; /* the words stand under the picture too */
   bool cite;     /* the sources of the models are told instead */
 } shoot_job;
 
@@ -58,6 +59,9 @@ FLAG(shoot_job, option_story, "csv", csv,
 OPTION(shoot_job, option_plot, "plot", drawn.path[PICTURE], "OUT", set_picture, 0,
        "draw the table and the paths of the balls in the first shot without an error, or in all "
        "shots that options describe; if a ball flies, also from the side");
+FLAG(shoot_job, option_plot_log, "plot-log", plot_log,
+     "with --plot or --animate and a shot by options: also write under the picture what the "
+     "command prints about the shots");
 OPTION(shoot_job, option_spread, "spread", error, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
        "standard deviations of a player's error: speed in %, aim in degrees, tip in radii, such as "
        "1%,0.05,0.01,0.01. carom reports the standard deviations of the places where the balls "
@@ -152,6 +156,19 @@ static void tell_bands(FILE *out, const given_numbers *with, const carom_shot *s
             with->band[row][1], with->band[row][2]);
 }
 
+/* Draws shots over each other; a spread says below them what its bands show. */
+static void draw_bands(shoot_job *job, const played *shots, int count) {
+  char *words;
+  size_t size;
+  FILE *stream = open_text(&words, &size);
+  for (int k = 0; k < count; k++)
+    if (shots[k].spread != NULL)
+      spread_tell(stream, shots[k].spread, shots[k].line);
+  close_text(stream, &words);
+  drawings_draw(&job->drawn, shots, count, words);
+  free(words);
+}
+
 /* Tells the shots of a block in words, and draws them over each other. */
 static void tell_block(shoot_job *job, FILE *out, const played *shots, int count) {
   char *words;
@@ -180,20 +197,10 @@ static void tell_block(shoot_job *job, FILE *out, const played *shots, int count
   close_text(stream, &words);
   if (job->words && !job->csv)
     fputs(words, out);
-  if (count > 0)
+  if (count > 0 && job->plot_log)
     drawings_draw(&job->drawn, shots, count, words);
-  free(words);
-}
-
-/* Draws one shot of a file; a spread tells below it what it shows. */
-static void draw_alone(shoot_job *job, const played *shot) {
-  char *words;
-  size_t size;
-  FILE *stream = open_text(&words, &size);
-  if (shot->spread != NULL)
-    spread_tell(stream, shot->spread, shot->line);
-  close_text(stream, &words);
-  drawings_draw(&job->drawn, shot, 1, words);
+  else if (count > 0)
+    draw_bands(job, shots, count);
   free(words);
 }
 
@@ -239,7 +246,7 @@ static void write_played(block *b, int k, shoot_job *job, FILE *out, const playe
     shot_write(out, shot->line, shot->shot, b->status[k], job->events,
                shot->spread != NULL ? spread_json(shot->spread, shot->line) : NULL);
   if (!job->together && shot_has_id(shot->line, job->id))
-    draw_alone(job, shot);
+    draw_bands(job, shot, 1);
 }
 
 /* Plays what has been read and writes it; returns whether all was good. */
@@ -405,6 +412,7 @@ static const command_form form = {
                                            &option_events,
                                            &option_threads,
                                            &option_plot,
+                                           &option_plot_log,
                                            &option_spread,
                                            &option_animate,
                                            &option_shot_id,

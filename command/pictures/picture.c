@@ -2,6 +2,7 @@
  * temporary file can stay behind; a picture that is whole then goes to its place. */
 #include "pictures/picture.h"
 
+#include "pictures/palette.h"
 #include "program/program.h"
 
 #include <errno.h>
@@ -184,7 +185,7 @@ void svg_text(FILE *out, double x, double y, const char *text, int most, const c
 }
 
 double svg_letters(double width) {
-  return 9.2 / 500.0 * width;
+  return PALETTE_SIZE_LETTERS * width;
 }
 
 double svg_lines(FILE *out, double x, double y, double size, int columns, const char *style,

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ROWS = 48, MOST_LONGS = MOST_ROWS + 24, FIRST_CODE = UCHAR_MAX + 1 };
+enum { MOST_ROWS = 64, MOST_LONGS = MOST_ROWS + 24, FIRST_CODE = UCHAR_MAX + 1 };
 enum { HELP_WIDTH = 80, OPTION_WIDTH = 23 }; /* columns of the help */
 
 static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};
@@ -234,6 +234,10 @@ static void list_options(const command_form *form, struct option longs[MOST_LONG
                         FIRST_CODE + k};
     if (row->letter != 0)
       strcat(strncat(shorts, &row->letter, 1), argument_of(row) != NULL ? ":" : "");
+  }
+  if (form->options[k] != NULL) {
+    complain("MOST_ROWS has no room for --%s", form->options[k]->name);
+    abort();
   }
   longs[k] = (struct option){help_row.name, no_argument, NULL, help_row.letter};
 

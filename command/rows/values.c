@@ -31,6 +31,8 @@ enum {
   SPINS = OF(MEASURE_SPIN) | SIDES
 };
 
+const char part_of_ball[] = "part of the ball that is hit";
+
 /* Every unit of the program. The first one of a measure is that of a bare number; a spin has
  * none. */
 static const struct {
@@ -47,7 +49,7 @@ static const struct {
     {OF(MEASURE_SPEED), "mph", "mph", mph, FIXED},
     {OF(MEASURE_SPEED), "km/h", "km/h", 1.0 / 3.6, FIXED},
     {ANGLES, "deg", "degrees", 1.0, FIXED},
-    {OF(MEASURE_CUT), "ball", "part of the ball that is hit", BALL_FRACTION, FIXED},
+    {OF(MEASURE_CUT), "ball", part_of_ball, BALL_FRACTION, FIXED},
     {ANGLES, "\u00b0", "degrees", 1.0, FIXED},
     {ANGLES, "rad", "rad", 1.0 / degree, FIXED},
     {LENGTHS, "m", "m", 1.0, FIXED},

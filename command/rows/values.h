@@ -67,6 +67,9 @@ bool too_many(const option_row *row, double count, int most);
 /* Reads what set_values() would, for defaults; `text` is not changed. */
 void values_default(values *list, int measure, const char *text);
 
+/* The unit of a cut that is a part of the ball, as an axis says it. */
+extern const char part_of_ball[];
+
 /* The measure of the library's numbers that have a unit, "m"; MEASURE_NUMBER where no other unit is
  * read. */
 int measure_of_unit(const char *unit);

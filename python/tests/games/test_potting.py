@@ -547,8 +547,8 @@ def test_pictures(gymnasium):
     images.step(np.full((2, 4), 0.3))
     for still_picture, picture in zip(still, images.render()):
         assert still_picture.dtype == np.uint8 and still_picture.shape == picture.shape == (
-            484,
-            864,
+            490,
+            872,
             3,
         )
         # the cue ball is white where it lay, and elsewhere afterwards

@@ -29,6 +29,7 @@ export {
   type StrokeOptions,
 } from "./match.js";
 export type { Build } from "./memory.js";
+export { palette } from "./palette.js";
 export { type Replayed, type ShotEnd } from "./recording.js";
 export { Shot } from "./shot.js";
 export type * from "./types.js";

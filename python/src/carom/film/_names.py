@@ -10,7 +10,6 @@ import cv2
 import numpy as np
 
 from carom.dtypes import Doubles
-from carom.pictures import colour
 
 _SNOOKER = {
     "yellow": "#e6c828",
@@ -34,7 +33,9 @@ _KINDS: dict[str, dict[str, tuple[str, int]]] = {
     "fourball": {"white": (_WHITE, 1), "yellow": ("#e6c828", 1), "red": (_RED, 2)},
     "pyramid": {"cue": ("#e6c828", 1), "white": (_WHITE, 15)},
 }
-_POOL = {"cue": (_WHITE, 1)} | {str(k): (colour(k), 1) for k in range(1, 9)}
+# 1 to 8 of pool, as cameras see them
+_NUMBERED = ["#f2c200", "#1f4fd8", "#d32f2f", "#6a1b9a", "#ef6c00", "#2e9b3a", "#7b1c1c", "#222222"]
+_POOL = {"cue": (_WHITE, 1)} | {str(k): (seen, 1) for k, seen in enumerate(_NUMBERED, start=1)}
 _STRIPED = 0.2, 0.9  # share of white of a ball of pool between which it is striped
 _STRANGE = 75.0  # a colour that is farther from all is named "ball"
 

@@ -489,6 +489,10 @@ def _ticks(low: float, high: float) -> list[float]:
     ]
 
 
+def _dashed(dashes: str) -> str:
+    return f' stroke-dasharray="{dashes}"' if dashes else ""
+
+
 class _Chart:
     """A chart with axes, as SVG."""
 
@@ -534,13 +538,26 @@ class _Chart:
                     f'<circle cx="{point[0]:.1f}" cy="{point[1]:.1f}" r="2" fill="{_MARK}" fill-opacity="0.45"/>'
                 )
 
-    def line(self, x: Doubles, y: Doubles) -> None:
+    def line(self, x: Doubles, y: Doubles, dashes: str = "") -> None:
         points = " ".join(
             "{:.1f},{:.1f}".format(*self._at(a, b)) for a, b in zip(x.tolist(), y.tolist())
         )
         self.parts.append(
-            f'<polyline points="{points}" stroke="{_LINE}" stroke-width="2" fill="none"/>'
+            f'<polyline points="{points}" stroke="{_LINE}" stroke-width="2" fill="none"{_dashed(dashes)}/>'
         )
+
+    def legend(self, lines: Sequence[tuple[str, str]], dot: str) -> None:
+        """Names lines, each with its dashes, and dots, in a row at the top on the right."""
+        wide, y = 110.0, _ABOVE + 8.0
+        x = _WIDTH - wide * (len(lines) + 1)
+        for name, dashes in lines:
+            self.parts.append(
+                f'<path d="M{x:.1f},{y:.1f}h24" stroke="{_LINE}" stroke-width="2"{_dashed(dashes)}/>'
+            )
+            self._text(x + 30.0, y + 4.0, name, ' style="text-anchor:start"')
+            x += wide
+        self.parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="2" fill="{_MARK}"/>')
+        self._text(x + 8.0, y + 4.0, dot, ' style="text-anchor:start"')
 
     def bars(self, edges: Doubles, heights: Sequence[int]) -> None:
         for left, right, height in zip(edges[:-1].tolist(), edges[1:].tolist(), heights):
@@ -586,11 +603,13 @@ def bands(fit: Fit) -> str:
         "residual of a fitted strike, cm",
     )
     chart.dots(shown[:, 0] + np.modf(0.618034 * np.arange(len(shown)))[0], 100.0 * shown[:, 1])
-    for column in (1, 2):
+    for column, dashes in ((1, ""), (2, "6 3")):
         chart.line(
             np.stack([rows[:, 0], ends], axis=1).ravel(),
             np.repeat(np.minimum(100.0 * rows[:, column], top), 2),
+            dashes=dashes,
         )
+    chart.legend([("68 % below", ""), ("95 % below", "6 3")], "one position")
     return chart.svg()
 
 
