@@ -10,6 +10,7 @@
 #include "shots/shot_fault.h"
 #include "shots/shot_file.h"
 #include "shots/shot_story.h"
+#include "shots/stop.h"
 #include "shots/strokes.h"
 #include "subcommands.h"
 
@@ -23,6 +24,8 @@ typedef struct shoot_job {
   drawings drawn; /* --plot, --animate */
   leave leave;
   char left[LEFT_TEXT]; /* what to report of it */
+  stop_target stop;
+  char stopped[STOP_TEXT]; /* likewise */
   player_error error;
   bool together; /* the shots came from options: they are drawn over each other, */
   bool words;    /* and told in words, unless --events asks for lines */
@@ -66,6 +69,10 @@ OPTION(shoot_job, option_leave, "leave", leave, LEAVE_ARGUMENT, set_leave, 0,
        "choose the stroke that most often leaves the cue ball within R (0.15 m) of this position, "
        "and pots the ball of --pocket: from the speeds and tips given, or 0.5 to 4 m/s and five "
        "tips");
+OPTION(shoot_job, option_stop, "stop", stop, STOP_ARGUMENT, set_stop, 0,
+       "instead of --speed: find the speeds that stop the cue ball within R (0.1 m) of this "
+       "position, or after this distance. 1=2d,4d is for ball 1",
+       .noun = "position or distance", .example = "2d,4d");
 OPTION(shoot_job, option_animate, "animate", drawn.path[FILM], "OUT.html|OUT.svg", set_animation, 0,
        "write a page, in one file, that plays the shots of --plot; OUT.svg: the first shot as a "
        "moving image");
@@ -165,6 +172,7 @@ static void tell_block(shoot_job *job, FILE *out, const played *shots, int count
     if (number <= MOST_SHOTS)
       fputs(job->flags.aimed[number - 1], stream);
     fputs(job->left, stream);
+    fputs(job->stopped, stream);
   }
   for (int k = 0; k < count && job->csv; k++) {
     const int number = (int)shots[k].line->number;
@@ -393,6 +401,7 @@ static const command_form form = {
                                            &option_via,
                                            &option_shot_cut,
                                            &option_leave,
+                                           &option_stop,
                                            &option_player,
                                            &option_player_errors,
                                            &option_player_eye,
@@ -425,7 +434,8 @@ static const command_form form = {
         "for bad usage or unreadable input\n",
     .example =
         "carom shoot --cue 0.6,0.8 --balls 0.8,1.9 --pocket 1:foot-right --plot shot.svg\n"
-        "  carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3",
+        "  carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3\n"
+        "  carom shoot --cue 0.6,0.8 --to 0.6,2.2 --stop 0.6,1.5",
     .files = FILE_OR_NONE,
 };
 
@@ -463,7 +473,7 @@ static bool go_together(const shoot_job *job, bool words, const char *path) {
   return false;
 }
 
-/* Chooses the stroke of --leave; false after a complaint. */
+/* Chooses the stroke of --leave, or the speed of --stop; false after a complaint. */
 static bool chooses(shoot_job *job, const carom_shot_options *options) {
   const given_player *player = &job->flags.shared.player;
   if (!job->leave.is_set && (player->rated || player->errs))
@@ -472,8 +482,14 @@ static bool chooses(shoot_job *job, const carom_shot_options *options) {
         "--spread for the effect of errors");
   else if (job->leave.is_set && !job->together)
     complain("--leave needs a shot by options; give --cue and --balls");
+  else if (job->leave.is_set && job->stop.is_set)
+    complain("--leave and --stop both choose the speed; give one of them");
+  else if (job->stop.is_set && !job->together)
+    complain("--stop needs a shot by options; give --cue and --to");
   else if (job->leave.is_set)
     return leave_choose(&job->leave, &job->flags, options, job->left);
+  else if (job->stop.is_set)
+    return stop_choose(&job->stop, &job->flags, options, job->stopped);
   else
     return true;
   return false;
