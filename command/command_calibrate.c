@@ -26,36 +26,32 @@ static OPTION_SET(set_readings) {
   calibrate_job *job = (calibrate_job *)(void *)((char *)field - row->field);
   char rest;
   job->read = sscanf(text, "%lf,%lf,%lf%c", &reading[0], &reading[1], &reading[2], &rest) == 3;
-  if (!job->read)
-    complain("--%s is the three sights with commas between them, such as 4.8,5.8,5.6; not '%s'",
-             row->name, text);
-  return job->read;
+  return job->read || refuse_value(row, text, "not three sights with commas; try 4.8,5.8,5.6");
 }
 
 OPTION(calibrate_job, calibrate_table, "table", table, "9ft|8ft|7ft", set_choice, 0, "the table",
-       .usual = "9ft");
+       .usual = "9ft", .noun = "table of pool");
 OPTION(calibrate_job, calibrate_read, "read", reading, "A,B,C", set_readings, 0,
-       "where the three banks came back, in sights from the corner where they began; tenths are "
-       "wanted: 4.8 lies before the fifth sight");
+       "where the three banks returned, in sights from their corner, to a tenth: 4.8 is just "
+       "before the fifth sight");
 OPTION(calibrate_job, calibrate_plot, "plot", picture, "OUT", set_picture, 0,
        "draw the three banks. OUT.svg, OUT.png or OUT.pdf");
 
 static const command_form form = {
     .name = "calibrate",
-    .usual = (const option_usual[]){{"output", NULL, "none"}, {0}},
+    .usual = (const option_usual[]){{.name = "output", .else_usual = "none"}, {0}},
     .usage = "[OPTIONS]",
     .about =
         "Finds the restitution and the friction of a pool table's cushions from three banks that "
-        "you play. Without --read it tells how to play them, and where they come back on the "
-        "usual table. With --read it tells the two numbers with their standard deviations, and "
-        "-o writes them to a file, which --with of `carom shoot`, `plan`, `ways` and `break` "
-        "takes.\n"
-        "The cue ball lies near the corner, on the line from the corner through a sight of the "
-        "long rail on the other side. It is played along that line without english. You read "
-        "where it touches the first long rail again.\n",
+        "you play. Without --read, carom describes these banks, and where they return on a usual "
+        "table. With --read it reports both constants with their standard deviations, and -o "
+        "writes them to a file for --with of `carom shoot`, `plan`, `ways` and `break`.\n"
+        "Put the cue ball near the corner, on the line from the corner through a sight of the "
+        "opposite long rail. Play it along that line without english, and read the sight at which "
+        "it touches the first long rail again.\n",
     .options = (const option_row *const[]){&calibrate_table, &calibrate_read, &calibrate_plot,
                                            &option_output, NULL},
-    .details = "exit code: 0; 1 where the readings do not fit each other; 2 for bad usage\n",
+    .details = "exit code: 0; 1 if the readings contradict each other; 2 for bad usage\n",
     .example = "carom calibrate --read 4.8,5.8,5.6 -o my.json",
     .files = NO_FILES,
 };
@@ -174,13 +170,13 @@ int command_calibrate(int argc, char **argv) {
   if (job.read) {
     const carom_status status = carom_calibrate(&table, &kind, job.reading, &found);
     if (status != CAROM_OK) {
-      complain("--read: no bank comes back there; sights are above 0 and below 8, and usually "
-               "about %.1f,%.1f,%.1f",
+      complain("--read: no bank returns there, between the sights 0 and 8; try about "
+               "%.1f,%.1f,%.1f",
                usual.comes_back[0], usual.comes_back[1], usual.comes_back[2]);
       return EXIT_USAGE;
     }
   } else if (job.shared.output != NULL) {
-    complain("--output has the numbers that --read tells: give the three readings");
+    complain("--output: there is nothing to write; give --read with the three readings");
     return EXIT_USAGE;
   }
   tell(stdout, &job, &usual, &found);
@@ -190,7 +186,7 @@ int command_calibrate(int argc, char **argv) {
     return EXIT_USAGE;
   if (found.misfit <= 2.0)
     return EXIT_GOOD;
-  complain("the readings differ from any cushion by %.1f cm: read again, and mind the speeds",
+  complain("the readings fit no cushion, by %.1f cm; read again, and mind the speeds",
            2.5 * found.misfit);
   return EXIT_SOME;
 }

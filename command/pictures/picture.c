@@ -27,8 +27,7 @@ OPTION_SET(set_picture) {
   *(const char **)field = text;
   if (same_text(ending, ".svg") || same_text(ending, ".png") || same_text(ending, ".pdf"))
     return true;
-  complain("--%s draws a picture whose name ends in .svg, .png or .pdf, not '%s'", row->name, text);
-  return false;
+  return refuse_value(row, text, "its name does not end in .svg, .png or .pdf; try picture.svg");
 }
 
 static void complain_missing(const char *path, const char *executable, const char *package) {

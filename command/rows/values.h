@@ -61,6 +61,9 @@ typedef struct values {
  * 1,5, unless it is for another kind of option. */
 OPTION_SET(set_values);
 
+/* Whether a text is the name of a unit, such as m/s. */
+bool is_unit(const char *text);
+
 /* Says how many values an option has, and the most it takes; returns false. */
 bool too_many(const option_row *row, double count, int most);
 

@@ -1385,6 +1385,19 @@ typedef enum carom_words {
 CAROM_API const char *carom_word(carom_words of, int value);
 CAROM_API const char *carom_word_text(carom_words of, int value);
 
+/* The value whose word is `text`, as carom_word_means() compares them; -1 if there is none. A text
+ * that is itself a word of the enumeration has that word's value. */
+CAROM_API int carom_word_value(carom_words of, const char *text);
+
+/* 1 if `text` is `word` as players write it, else 0. Capitals, hyphens, underscores and blanks do
+ * not matter, nor does the order of the parts of a word with a hyphen ("left-side" is "side-left").
+ * Words also have synonyms: "9-ball" is "nineball", "top-right" the pocket "foot-right". The
+ * function works for all words of the library, and for names of rails and pockets. */
+CAROM_API int carom_word_means(const char *text, const char *word);
+
+/* Synonym k of a word, from 0 on ("9ball" of "nineball"); NULL if there are no more. */
+CAROM_API const char *carom_word_synonym(const char *word, int k);
+
 #ifdef __cplusplus
 }
 #endif

@@ -148,3 +148,38 @@ TEST(words_are_without_gaps) {
       ck_assert_ptr_null(carom_word_text((carom_words)of, beyond));
   }
 }
+
+/* Players write words in many ways; a text that is a word itself means that word. */
+TEST(words_as_players_write_them) {
+  static const struct {
+    carom_words of;
+    const char *text;
+    const char *word; /* NULL: none */
+  } cases[] = {{CAROM_WORDS_RACK, "9ball", "nineball"},
+               {CAROM_WORDS_RACK, "8-ball", "eightball"},
+               {CAROM_WORDS_RACK, "Ten Ball", "tenball"},
+               {CAROM_WORDS_RACK, "billiards", "billiards"},
+               {CAROM_WORDS_TABLE, "9-foot", "9ft"},
+               {CAROM_WORDS_TABLE, "12ft", "snooker"},
+               {CAROM_WORDS_TABLE, "9", NULL},
+               {CAROM_WORDS_CONDITION, "fast", "fast_cloth"},
+               {CAROM_WORDS_EVENT, "Ball Ball", "ball_ball"},
+               {CAROM_WORDS_WORLD, "", NULL},
+               {CAROM_WORDS_WORLD, NULL, NULL},
+               {CAROM_WORDS_WORLD, "a text that is longer than any word of the library", NULL}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    const int value = carom_word_value(cases[k].of, cases[k].text);
+    if (cases[k].word == NULL)
+      ck_assert_int_eq(value, -1);
+    else
+      ck_assert_str_eq(carom_word(cases[k].of, value), cases[k].word);
+  }
+  ck_assert_str_eq(carom_word_synonym("threecushion", 1), "carom");
+  ck_assert_ptr_null(carom_word_synonym("nineball", 1));
+  ck_assert_ptr_null(carom_word_synonym("nineball", -1));
+  ck_assert_ptr_null(carom_word_synonym(NULL, 0));
+  ck_assert_int_eq(carom_word_means("top-right", "foot-right"), 1);
+  ck_assert_int_eq(carom_word_means("right_side", "side-right"), 1);
+  ck_assert_int_eq(carom_word_means("side", "side-right"), 0);
+  ck_assert_int_eq(carom_word_means(NULL, "side-right"), 0);
+}
