@@ -453,7 +453,7 @@ def suggestion(value: object, names: Iterable[str]) -> str:
     in_small_letters = {name.lower(): name for name in names}
     text = value.lower()
     beginning = [name for name in in_small_letters if text and name.startswith(text)]
-    close = difflib.get_close_matches(text, in_small_letters, 1, 0.5)
+    close = difflib.get_close_matches(text, in_small_letters, 1, 0.6)
     found = (close or beginning)[:1]
     return f"; did you mean {in_small_letters[found[0]]!r}?" if found else ""
 

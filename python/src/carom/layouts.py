@@ -578,7 +578,7 @@ def balls(
         and lib.carom_ball_kind_of(number).restitution_cushion != pool.restitution_cushion
     ):
         raise ValueError(
-            f"conditions: {', '.join(conditions)} are known only for pool, not for the game {game!r}; pass restitution_cushion, mu_roll, ... instead"
+            f"conditions: there are none for the game {game!r}, only for pool; pass restitution_cushion, mu_roll, ... instead"
         )
     for word in conditions:
         condition = choice(_CONDITIONS, word, "conditions")

@@ -234,8 +234,8 @@ def test_refusals(snooker, tmp_path):
     assert str(missing) in error(missing)
     text = tmp_path / "text.mp4"
     text.write_text("no film\n")
-    assert f"{text}: no picture can be read; a film is needed" in error(text)
-    assert "a pixel x,y is needed" in error(snooker.path, "--corners", "1,2", "3,4", "5,6", "7")
+    assert f"{text}: no frame can be read; use a film" in error(text)
+    assert "is not a pixel; use x,y" in error(snooker.path, "--corners", "1,2", "3,4", "5,6", "7")
     assert "no picture lies between 90" in error(snooker.path, "--start", "90")
     grey = tmp_path / "grey.avi"
     writer = cv2.VideoWriter(str(grey), cv2.VideoWriter_fourcc(*"MJPG"), 30, (320, 240))

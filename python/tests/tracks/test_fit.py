@@ -240,7 +240,7 @@ def test_forecasts_hold_on_shots_with_known_constants(sample):
     )
     assert whole.shape == (20, 2, 3, 2) and np.array_equal(whole, alone)
     assert not np.array_equal(whole, second)
-    with pytest.raises(ValueError, match="^after: it must be positive and finite"):
+    with pytest.raises(ValueError, match="^after: .* s is not positive and finite"):
         known.forecast(0, after=-1.0)
     with pytest.raises(ValueError, match="^draws: "):
         known.forecast(0, after=1.0, draws=3)
@@ -1222,7 +1222,7 @@ def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatc
         ({"--radius": "30.75"}, "must be above four radii, 123 m"),
         ({"--constants": '{"mu_rol": 0.01}'}, "there is no constant 'mu_rol'; known are"),
         ({"--constants": '{"mu_roll": "a"}'}, "mu_roll must be a finite number"),
-        ({"--constants": "[]"}, "an object of constants is needed"),
+        ({"--constants": "[]"}, "not a JSON object of constants"),
         ({"--constants": "{"}, "no JSON"),
         ({"--free": "mu_rol"}, "there is no constant 'mu_rol' to fit; known are"),
     ],
