@@ -28,7 +28,7 @@ SHOT = carom.simulate(TABLE, PAIR, CUE)
 BATCH = carom.simulate_batch(TABLE, PAIR, carom.cue(speed=[1.0, 2.0]), room=64)
 HIT = carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0))
 WALL = carom.cushion_impacts(v=(0.0, 1.0, 0.0))
-SHORT = {"shots": 100, "table": TABLE, "balls": PAIR}
+SHORT = {"shots": 100, "table": TABLE, "balls": RACK}
 OF_SHOTS = {"table": TABLE, "balls": PAIR, "cue": CUE}
 
 # The good arguments of each function, and those that are names with a good value of each.
@@ -58,7 +58,11 @@ CALLS = [
         {"model": "stronge", "convention": "pooltool", "law": "constant", "game": "snooker"},
     ),
     (carom.cushion_impacts, {"v": (0.0, 1.0, 0.0)}, {"game": "billiard", "model": "smooth"}),
-    (carom.cushion_trace, {"impact": WALL}, {"model": "mathavan", "convention": "paper"}),
+    (
+        carom.cushion_trace,
+        {"impact": WALL},
+        {"model": "mathavan", "convention": "paper", "law": "constant"},
+    ),
     (carom.calibrate, {"readings": None}, {"game": "snooker"}),
     (
         carom.balls,
@@ -76,7 +80,7 @@ CALLS = [
     (
         carom.jacobian,
         {"table": TABLE, "layouts": PAIR, "cues": CUE, "wrt": ["cue.phi"]},
-        {"of": "final.v"},
+        {"of": "reach"},
     ),
     (carom.aim, {**OF_SHOTS, "ball": 1}, {"pocket": "foot-right"}),
     (carom.player, {"fargo": 500}, {"rules": "snooker"}),
@@ -87,8 +91,8 @@ CALLS = [
     ),
     (
         carom.sequence,
-        {**SHORT, "plays": 1},
-        {"rules": "eightball", "group": "solids", "in_hand": "kitchen"},
+        {**SHORT, "balls": PAIR, "rules": "potting", "plays": 1},
+        {"rules": "potting", "in_hand": "kitchen"},
     ),
     (carom.chances, {**SHORT, "cues": CUE}, {"rules": "eightball", "group": "open"}),
     (carom.value, {"table": TABLE, "balls": RACK}, {"rules": "eightball", "group": "stripes"}),
@@ -100,7 +104,7 @@ CALLS = [
     (carom.review, {"table": TABLE, "balls": RACK, "cue": CUE}, {"rules": "eightball"}),
     (
         carom.best_breaks,
-        {"table": TABLE, "balls": RACK, "breaks": 16, "best": 1},
+        {"table": TABLE, "balls": carom.racks.nineball(TABLE), "breaks": 16, "best": 1},
         {"rack": "nineball"},
     ),
     (carom.odds, {"ratings": (500, 600)}, {"order": "winner"}),
@@ -116,6 +120,8 @@ ELSEWHERE = {
     ("simulate_arrow", "cushion_model"): "passes its keywords on to simulate_batch",
     ("balls", "conditions"): "a list, tested below",
     ("Goal", "kind"): "checked by plan, tested below",
+    ("Ruling", "hand"): "a result",
+    ("sequence", "group"): "the same lookup as plan",
 }
 
 
@@ -213,7 +219,7 @@ def test_no_function_with_names_is_missing():
         (lambda: carom.plan(TABLE, RACK, state={"scre": (1, 2)}, shots=100), "scre", "score"),
         (lambda: carom.Match("nineball", TABLE, limits={"sped": 1}), "sped", "speed"),
         (lambda: carom.Match("nineball", TABLE, seats=[{"nam": "A"}, {}]), "nam", "name"),
-        (lambda: carom.fit.fit([], "snoker"), "snoker", "snooker"),
+        (lambda: carom.tables.measures("snoker"), "snoker", "snooker"),
         (lambda: carom.tracks.read("none.csv", unit="mmm"), "mmm", "mm"),
     ],
 )

@@ -575,11 +575,12 @@ def _unit_of(unit: float | str | None) -> float | None:
     """The length of a unit, m; None if it is inferred from the file."""
     if unit is None or unit == "px":
         return None
+    given = unit
     if isinstance(unit, str):
         unit = UNITS.get(_UNIT_NAMES.get(unit, unit), math.nan)
     if isinstance(unit, bool) or not isinstance(unit, (int, float)) or not 0.0 < unit < math.inf:
         raise ValueError(
-            unknown_value("unit", unit, [*UNITS, "px"]) + ", or a positive length in m"
+            unknown_value("unit", given, [*UNITS, "px"]) + ", or a positive length in m"
         )
     return float(unit)
 
