@@ -77,8 +77,7 @@ OPTION(shoot_job, option_stop, "stop", stop, STOP_ARGUMENT, set_stop, 0,
        "position, or after this distance. 1=2d,4d is for ball 1",
        .noun = "position or distance", .example = "2d,4d");
 OPTION(shoot_job, option_animate, "animate", drawn.path[FILM], "OUT.html|OUT.svg", set_animation, 0,
-       "write a page, in one file, that plays the shots of --plot; OUT.svg: the first shot as a "
-       "moving image");
+       "write a page that plays the shots of --plot; OUT.svg: a moving image");
 FLAG(shoot_job, option_cite, "cite", cite, "print the sources of these models as BibTeX");
 OPTION(shoot_job, option_shot_id, "id", id, "ID", set_text, 0, "draw the shot with this id");
 

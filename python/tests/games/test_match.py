@@ -228,17 +228,17 @@ REFUSALS = [
     (
         lambda: carom.Match("eightball", TABLE, seats=1),
         ValueError,
-        "seats: this game is not played by 1",
+        r"seats: this game is not played with 1 seats; help\(carom\.Match\) describes seats",
     ),
     (
         lambda: carom.Match("eightball", TABLE, seats="Ann"),
         TypeError,
-        "seats: a number is needed, or names",
+        "seats: 'Ann' is not a number of seats, or a list of names or mappings with name, side, handicap, rating, cue",
     ),
     (
         lambda: carom.Match("eightball", TABLE, seats=[{"nam": "Ann"}, "Bo"]),
         TypeError,
-        r"seats\[0\]: there is no 'nam'; there are name, side",
+        r"seats\[0\]: unknown member 'nam'; did you mean 'name'\? Use name, side, handicap, rating or cue",
     ),
     (
         lambda: carom.Match("eightball", TABLE, seats=[{"side": 1}, {"side": 3}]),
@@ -248,7 +248,7 @@ REFUSALS = [
     (
         lambda: carom.Match("eightball", TABLE, limits={"speeds": 1}),
         TypeError,
-        "limits: there is no 'speeds'",
+        r"limits: unknown member 'speeds'; did you mean 'speed'\? Use speed, theta, tip, mass_least, mass_most, end_mass_least,",
     ),
     (
         lambda: carom.Match("eightball", TABLE, set={"race": 1001}),
@@ -258,7 +258,7 @@ REFUSALS = [
     (
         lambda: carom.Match("eightball", TABLE, set={"order": "loosers"}),
         ValueError,
-        "set: order: must be one of 'alternate'",
+        r"set: order: unknown value 'loosers'; did you mean 'loser'\? Use 'alternate', 'winner' or 'loser'",
     ),
     (
         lambda: carom.Match("eightball", TABLE, balls=carom.racks.eightball(TABLE)[:5]),
@@ -268,12 +268,12 @@ REFUSALS = [
     (
         lambda: carom.Match.load(""),
         carom.CaromError,
-        "line 1: the text is empty: a match begins with",
+        'line 1: the recording is empty; a match begins with a line "recording" and further lines up to "game"',
     ),
     (
         lambda: carom.Match.load(begun().lines[:3]),
         carom.CaromError,
-        ".*cut off: there is no line game",
+        'line 4: the recording has no line game; a match begins with a line "recording" and further lines up to "game"',
     ),
 ]
 

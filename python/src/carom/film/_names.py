@@ -1,7 +1,8 @@
-"""Names of balls by their colours.
+"""Names of balls from their colours.
 
-The colours of a film are compared with those of the balls of a game after its cue ball, the
-brightest without a colour, is made white. Each name is given once, nearest first.
+The colours in a film are first scaled so that the cue ball, the brightest ball without a colour, is
+white, and then compared with the colours of a game's balls. Each name is assigned once, to the
+nearest colour first.
 """
 
 from __future__ import annotations
@@ -51,8 +52,10 @@ def _ink(text: str) -> Doubles:
 
 
 def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) -> list[str]:
-    """The names of balls that are there at one time, by their colours (n, 3), shares of white, and
-    how long each was seen: of two that look alike, the one that is seen longer has the name.
+    """Name the balls that are visible at one time.
+
+    Uses their colours (n, 3), fractions of white, and for how long each was seen: of two similar
+    balls, the one seen longer receives the name.
     """
     if not len(colours):
         return []
@@ -83,7 +86,7 @@ def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) ->
 
 
 def _pool(costs: Doubles, keys: list[str], whites: Doubles, short: Doubles) -> list[str]:
-    """Numbers of pool: a stripe has white, and the colour of the number 8 less."""
+    """Numbers of pool balls: a stripe contains white and has the colour of the number minus 8."""
     names = [""] * len(costs)
     striped = (whites > _STRIPED[0]) & (whites < _STRIPED[1])
     for flat in np.argsort(costs + short[:, None], axis=None):

@@ -1,4 +1,4 @@
-"""Enumerations of games, acts of a match, and how it stands. Written by bindings/match.py:
+"""Enumerations of games, acts of a match, and its state. Written by bindings/match.py:
 UPDATE=1 ctest -R bindings/rows.
 """
 
@@ -77,8 +77,9 @@ _BITS: dict[str, int] = {word: 1 << k for k, word in enumerate(_CHOICES)}
 
 
 class MatchActs:
-    """The acts of a match, and how it stands, as carom_match.h has them. The seat that acts is by
-    default the one at the table.
+    """The acts and the state of a match, as in carom_match.h.
+
+    The seat that acts defaults to the one at the table.
     """
 
     _c: Any
