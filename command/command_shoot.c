@@ -61,8 +61,7 @@ FLAG(shoot_job, option_story, "csv", csv,
 OPTION(shoot_job, option_plot, "plot", drawn.path[PICTURE], "OUT", set_picture, 0,
        "draw the paths of the shots by options, or of the first good shot of a file; flights also "
        "from the side");
-FLAG(shoot_job, option_plot_log, "plot-log", plot_log,
-     "draw the output under the picture");
+FLAG(shoot_job, option_plot_log, "plot-log", plot_log, "draw the output under the picture");
 OPTION(
     shoot_job, option_spread, "spread", error, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
     "standard deviations of a player's errors: speed in %, aim in degrees, tip in radii, such as "

@@ -94,7 +94,7 @@ ROW(option_shot_speed, "speed", speed, SPEED_WORDS "|V", set_values, MEASURE_SPE
     .usual = "2", .else_usual = "with --pocket the lowest of 2, 3, 4.5 and 6.5 that pots it",
     .is_list = true);
 ROW(option_ball_speed, "ball-speed", ball_speed, "V", set_values, MEASURE_SPEED,
-    "instead of --speed: speed of the cue ball after the strike of a level cue");
+    "instead of --speed: of the cue ball after a level strike");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "where the tip hits the ball, right of and above its centre: radii, or 1,0.5tip, "
     "12mm,0, 50%,0 of english; or centre, left, right, high, low, low-left, at 0.5 R. Several with "
