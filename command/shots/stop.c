@@ -1,4 +1,5 @@
-/* The speed that stops a ball: the shots of many speeds are played, and the best of them is refined.
+/* The speed that stops a ball: the shots of many speeds are played, and the best of them is
+ * refined.
  *
  * The miss is the distance of the ball at rest from the position, or the difference between the
  * length of its path and the distance. It is continuous in the speed except where the ball meets

@@ -559,7 +559,8 @@ TEST(stopped_and_continued) {
 }
 
 /* A shot that is stopped at every event of one type, or at every contact of the cue ball, has the
- * bits of the unbroken one: random shots of all kinds, whose cues follow through and touch again. */
+ * bits of the unbroken one: random shots of all kinds, whose cues follow through and touch
+ * again. */
 TEST(stopped_at_each_type_of_event) {
   static random_shot s;
   long stops = 0, touches = 0;

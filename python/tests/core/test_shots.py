@@ -632,7 +632,7 @@ def test_tables_are_checked():
     holed = whole.changed(rails=rails)
     with pytest.raises(
         carom.CaromError,
-        match=r"table\.rails\[0\]: a ball can leave the table between two of its parts, or there is no place for a ball \(at x = 0\.71 m, y = 1\.42 m,",
+        match=r"table\.rails\[0\]: a ball can leave the table between two of its parts, or there is no room for a ball on it \(at x = 0\.71 m, y = 1\.42 m,",
     ) as caught:
         holed.check(0.0307)
     assert caught.value.status is carom.Status.ERROR_TABLE_OPEN
