@@ -137,7 +137,8 @@ bool refuse_word(const option_row *row, const char *text, const char *words) {
 
 /* ---- Help of rows */
 
-/* Whether the words of an argument do not fit into a line, so that the text of the help has them. */
+/* Whether the words of an argument do not fit into a line, so that the text of the help has
+ * them. */
 static bool is_long_list(const char *argument) {
   return strlen(argument) > HELP_WIDTH - OPTION_WIDTH;
 }

@@ -233,8 +233,8 @@ static const struct {
               {CAROM_PART_MEASURES, "a table"}};
 enum { OWNERS = COUNT_OF(owners) };
 
-/* What to try where an option does not take a parameter; NULL: it takes it. Those of one impact on a
- * cushion are parameters of its model. */
+/* What to try where an option does not take a parameter; NULL: it takes it. Those of one impact
+ * on a cushion are parameters of its model. */
 static const char *refusal(const option_row *row, carom_part_kind part, const carom_number *n) {
   if (part == CAROM_PART_MEASURES)
     return "try --table with its key, as in --table 9ft,corner=4.25in";
