@@ -1010,7 +1010,7 @@ def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name()
     for name, message in (
         ("law_c", "law_c has a wide range and starts at 0; pass its mean and deviation"),
         ("omega_ratio", "omega_ratio starts at its default .*, which is not 1 to 2"),
-        ("radius", "no constant"),
+        ("radius", "unknown constant"),
     ):
         with pytest.raises(ValueError, match=message):
             fit._priors([name], {}, {**usual, "law_c": 0.0})
@@ -1075,7 +1075,7 @@ def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given
     )
     assert "restitution" not in few.spread and few.constants["restitution"] == 0.947
     assert few.constants["mu_slide"] != 0.19 and "mu_cushion" not in few.spread
-    with pytest.raises(ValueError, match="no constant 'all' to fit"):
+    with pytest.raises(ValueError, match="unknown constant 'all'"):
         fitted(sample.recordings, free="all")
     with pytest.raises(ValueError, match="cushion_model"):
         fitted(sample.recordings, cushion_model="rubber")
@@ -1221,11 +1221,11 @@ def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatc
     [
         ({"tracks": "none.csv"}, "No such file"),
         ({"--table": "1.42,2.84"}, "in the order of x and y"),
-        ({"--radius": "30.75"}, "must be above four radii, 123 m"),
+        ({"--radius": "30.75"}, "not above four radii, 123 m"),
         ({"--constants": '{"mu_rol": 0.01}'}, "unknown constant 'mu_rol'; did you mean 'mu_roll'?"),
-        ({"--constants": '{"mu_roll": "a"}'}, "mu_roll must be a finite number"),
+        ({"--constants": '{"mu_roll": "a"}'}, "mu_roll: 'a' is not a finite number"),
         ({"--constants": "[]"}, "not a JSON object of constants"),
-        ({"--constants": "{"}, "no JSON"),
+        ({"--constants": "{"}, "not valid JSON"),
         ({"--free": "mu_rol"}, "unknown constant 'mu_rol'; did you mean 'mu_roll'?"),
     ],
 )
