@@ -254,7 +254,7 @@ static void keep(void) {
 /* The reader refuses the line of an act from another seat, with nothing changed, and takes it from
  * the seat that acted. */
 static int is_sent_by(int seat, size_t from) {
-  static carom_match kept;
+  static carom_match kept, room;
   const char *line = recording + from;
   while (line < recording + written) {
     const char *end = strchr(line, '\n') + 1;
@@ -264,10 +264,10 @@ static int is_sent_by(int seat, size_t from) {
                           strncmp(line, "{\"recording\"", 12) != 0;
     kept = reader;
     if (acts_here &&
-        (carom_match_read_from(&reader, &scratch, line, size, (seat + 1) % 8) != CAROM_ERROR_ACT ||
+        (carom_match_receive(&reader, &room, line, size, (seat + 1) % 8) != CAROM_ERROR_ACT ||
          reader.refusal != CAROM_REFUSED_TURN || reader.record.hash != kept.record.hash))
       return 0;
-    if (carom_match_read_from(&reader, &scratch, line, size, acts_here ? seat : -1) < 0)
+    if (carom_match_receive(&reader, &room, line, size, acts_here ? seat : -1) < 0)
       return 0;
     line = end;
   }

@@ -22,9 +22,32 @@
  * An act that the rules forbid is refused with CAROM_ERROR_ACT: match.refusal is its name, and
  * match.fault says what would be right. Then nothing has changed, and match.size is 0.
  *
- * Each act is a line of a recording, of format 3, and so is each ruling. Whoever reads the lines by
- * carom_match_read() judges them again: a line that is not by the rules is refused. Nothing here
- * allocates. */
+ * Each act is a line of a recording, of format 3, and so is each ruling. Two functions read lines,
+ * and both judge them again:
+ *
+ *     carom_match_read()      the lines of a file, in order: a game is saved by writing match.text
+ *                             after each act, and loaded by reading the lines. Nothing is read
+ *                             behind a line that is not by the rules.
+ *     carom_match_receive()   a line of a peer, such as a client of a server. A line that is refused
+ *                             leaves the match as it was, to the bit.
+ *
+ * A server, whose clients have the seats 0, 1, ...:
+ *
+ *     static carom_match match, scratch;
+ *     carom_match_begin_with(&match, &setup);
+ *     send_all(match.text, match.size);                   // the first lines, to every client
+ *     while (next_line(&line, &size, &seat)) {            // of any client
+ *       const uint64_t before = match.record.hash;
+ *       if (carom_match_receive(&match, &scratch, line, size, seat) < 0)
+ *         send(seat, match.fault);                        // nothing has changed
+ *       else if (match.record.hash != before)
+ *         send_all(match.text, match.size);               // the act with its ruling, to every client
+ *     }
+ *
+ * A client has a match of its own. It receives the server's lines with seat -1, acts on a copy, sends
+ * the copy's text, and waits until the server sends it back.
+ *
+ * Nothing here allocates. */
 #ifndef CAROM_MATCH_H
 #define CAROM_MATCH_H
 
@@ -153,7 +176,8 @@ typedef struct carom_match {
   int64_t rulings;             /* how many there were. */
   int64_t size;                /* bytes of text[]: the lines of the last act; behind lines that were
                                   read: those that are still missing. */
-  int64_t due;                 /* of these, the bytes that carom_match_read() awaits. */
+  int64_t due;                 /* of these, the bytes that carom_match_read() awaits; 0 after
+                                  carom_match_receive(). */
   char fault[256];             /* of the last act, why it was refused. */
   char text[CAROM_MATCH_TEXT]; /* lines: `size` bytes of them. */
 } carom_match;
@@ -256,7 +280,7 @@ CAROM_API carom_status carom_match_prepare(carom_match *match, int player,
                                            const carom_plan_stroke *stroke);
 
 /* Plays a stroke of match->cue_ball, and rules. `stop` says when to stop the shot, by time_most,
- * stop_at, first_of and events_most, and may be NULL: at its end. `shot` may be NULL; else events,
+ * stop_at and first_of, and may be NULL: at its end. Its events_most is not read. `shot` may be NULL; else events,
  * brief and room in it are the caller's, and the rest is set. A stopped shot is not ruled yet; it
  * returns CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT. A shot that ends in an error is ruled as
  * one that met nothing, and the balls lie as before. */
@@ -303,11 +327,27 @@ CAROM_API carom_status carom_match_end(carom_match *match);
 CAROM_API carom_status carom_match_read(carom_match *match, carom_record *scratch, const char *line,
                                         size_t size);
 
-/* The same of a line that `seat` has sent, such as another player over a network: an act of another
- * seat is refused, with nothing changed. A stroke beyond match->seating.limits is refused as a line
- * that is not by the rules. seat -1: a judge, or a file. */
-CAROM_API carom_status carom_match_read_from(carom_match *match, carom_record *scratch,
-                                             const char *line, size_t size, int seat);
+/* Reads a line of a peer, with its end of line or without. `seat` is the seat that has sent it, or
+ * -1 for whoever may send every line: the server of a client, or a judge. `scratch` is room, of which
+ * only `text` need not be overwritten. Where the line is an act by the rules, the match does it, and
+ * match->text has its line and those of the ruling, which the peer may send too or not.
+ *
+ * Every refusal leaves the match as it was, to the bit, but for `fault` and `refusal`. So do a blank
+ * line, a line "event", and a line that equals one of match->text: such an act was taken before, and
+ * its line has come twice. An act twice in a row is therefore not received; call the function of the
+ * act for a second extension of one stroke.
+ *
+ * A seat sends its own acts only, and these without being asked: its concession at any time, the
+ * continuation of a shot that was stopped, whoever played it, the end of the recording once the
+ * match is over, and the head of the next match of a set. The lines before the first "game" are
+ * received with seat -1. Of the options of a shot a line may carry time_most, stop_at and first_of,
+ * which divide the shot and do not change it.
+ *
+ * CAROM_OK; CAROM_ERROR_NULL; an error of carom_record_read(); CAROM_ERROR_ACT with match->refusal
+ * NOT_BEGUN, TURN for an act of another seat, or LINE for a line that is not by the rules or has
+ * other values than the match makes. match->fault says why. */
+CAROM_API carom_status carom_match_receive(carom_match *match, carom_match *scratch,
+                                           const char *line, size_t size, int seat);
 
 /* How many bytes of lines of a match are left where its last act is undone: those before that act.
  * Reading these gives the match before it, and reading the others does the act again. A copy of a

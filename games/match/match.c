@@ -105,7 +105,8 @@ static void put_act(carom_match *match, carom_act act, int player, int32_t choic
   put_line(match, CAROM_RECORD_ACT);
 }
 
-/* When the next shot stops. */
+/* When the next shot stops: of the options only those that divide a shot without changing it. A
+ * shot that reaches events_most ends in an error, which would be ruled as if no ball had moved. */
 static void set_stops(carom_shot_options *options, const carom_shot_options *stop) {
   static const carom_shot_options none = {0};
   if (stop == NULL)
@@ -113,7 +114,7 @@ static void set_stops(carom_shot_options *options, const carom_shot_options *sto
   options->time_most = stop->time_most;
   options->stop_at = stop->stop_at;
   options->first_of = stop->first_of;
-  options->events_most = stop->events_most;
+  options->events_most = 0;
 }
 
 /* ---- How a match stands */
