@@ -634,6 +634,10 @@ public:
     carom_match_string(match_.get(), text.data(), text.size() + 1);
     return text;
   }
+  /* The seat that acted last; -1: none has yet. */
+  int actor() const {
+    return static_cast<int>(match_->record.actor);
+  }
   /* The side at the table; in games that each plays for itself, the seat. */
   int player() const {
     return static_cast<int>(match_->record.player);
@@ -759,14 +763,14 @@ public:
    * may send every line. What is refused changes nothing. */
   carom_status receive(std::string_view line, int seat) {
     const std::int64_t shots = match_->record.shots;
-    const std::uint64_t hash = match_->record.hash;
+    const std::int64_t line_count = match_->record.line;
     if (room_ == nullptr)
       room_ = std::make_unique<carom_match>();
     const carom_status code =
         carom_match_receive(match_.get(), room_.get(), line.data(), line.size(), seat);
     if (code < 0)
       return checked(code, match_->fault);
-    if (match_->record.hash == hash)
+    if (match_->record.line == line_count)
       return code;
     undone_.clear();
     if (match_->size > 0)

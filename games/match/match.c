@@ -273,6 +273,7 @@ static carom_status begin_layout(carom_match *match, const carom_match_setup *se
   if (count < 2 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
   record->match = 1;
+  record->actor = -1;
   record->table = *setup->table;
   if (setup->options != NULL)
     record->options = *setup->options;
@@ -609,6 +610,7 @@ static carom_status play(carom_match *match, carom_record_kind kind, const carom
   if (kind == CAROM_RECORD_SHOT) {
     memcpy(match->before, record->balls, sizeof match->before);
     match->stroke = *cue;
+    record->actor = match->seat;
   }
   match->cue_ball = (int32_t)cue->ball;
   put_line(match, kind);
@@ -708,6 +710,7 @@ static carom_status place_cue_ball(carom_match *match, int player, double x, dou
     return carom_match_refuse(match, CAROM_REFUSED_OCCUPIED, "place", right);
   }
   put_line(match, CAROM_RECORD_PLACE);
+  record->actor = player;
   match->phase = CAROM_MATCH_STROKE;
   match->may &= ~CAROM_CHOICE_STAY; /* it lies elsewhere now */
   match->touching = carom_touching(record->balls, (int)record->count, match->cue_ball);

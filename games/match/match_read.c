@@ -83,6 +83,7 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
     return CAROM_OK;
 
   /* how the game stands at its beginning */
+  record->actor = -1;
   const char *range = "";
   if (match->rules.judge == NULL) {
     if (carom_rules_about_of((carom_rules_kind)record->rules) == NULL)

@@ -1,12 +1,12 @@
 /* Lines of peers: whatever a peer sends, a refused line leaves the match as it was, and an honest line
  * is accepted after it. hostile.txt has the lines that the tests of all languages send. */
+#include "hostile.h"
 #include "match_support.h"
 
 #include <stdio.h>
 
-enum { LINE_MOST = 1 << 18 };
-static carom_match peer, room, made;
-static char line[LINE_MOST];
+static carom_match peer, room;
+static char line[CAROM_RECORD_TEXT];
 
 static const char *line_end(const char *from) {
   return strchr(from, '\n') + 1;
@@ -21,69 +21,13 @@ static void receive_all(carom_match *to, const char *text, size_t size, int seat
   }
 }
 
-/* The match of hostile.txt, in `match`; `reader` is the server's. */
+/* The match of hostile.txt, in `match`; `reader` is the server's, and `peer` has the honest act. */
 static void begin_hostile(void) {
-  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
-  expect_ok(carom_match_begin(&match, CAROM_RULES_NINEBALL, &table, 5, 0));
+  static carom_match begun;
+  expect_ok(hostile_begin(&begun, &match, &peer));
   memset(&reader, 0, sizeof reader);
-  receive_all(&reader, match.text, (size_t)match.size, -1);
-  expect_ok(carom_match_place(&match, 0, 0.6, 0.5));
+  receive_all(&reader, begun.text, (size_t)begun.size, -1);
   receive_all(&reader, match.text, (size_t)match.size, 0);
-}
-
-/* The honest act, in `peer`. */
-static void make_stroke(void) {
-  peer = match;
-  carom_cue cue = peer.cue;
-  cue.speed = 7.0;
-  cue.phi = 120.0;
-  expect_ok(carom_match_stroke(&peer, 0, &cue, NULL, NULL));
-}
-
-/* The bytes of a row's line, in `line`; returns their number. */
-static size_t write_line(const char *row) {
-  int number;
-  char old[200], new[200];
-  const char *stroke = peer.text;
-  const size_t size = (size_t)(line_end(stroke) - 1 - stroke);
-  memcpy(line, stroke, size);
-  line[size] = '\0';
-  if (strcmp(row, "STROKE") == 0)
-    return size;
-  if (strcmp(row, "GAME") == 0) {
-    const char *last = peer.text + peer.size - 1;
-    while (last > peer.text && last[-1] != '\n')
-      last--;
-    return (size_t)snprintf(line, sizeof line, "%.*s", (int)(peer.text + peer.size - 1 - last),
-                            last);
-  }
-  if (sscanf(row, "STROKE cut %d", &number) == 1)
-    return (size_t)number;
-  if (sscanf(row, "STROKE s/%199[^/]/%199[^/]/", old, new) == 2) {
-    const char *at = strstr(line, old);
-    ck_assert_msg(at != NULL, "%s: the stroke has no %s", row, old);
-    static char changed[LINE_MOST];
-    const int length = snprintf(changed, sizeof changed, "%.*s%s%s", (int)(at - line), line, new,
-                                at + strlen(old));
-    memcpy(line, changed, (size_t)length);
-    return (size_t)length;
-  }
-  if (sscanf(row, "spaces %d", &number) == 1 || sscanf(row, "brackets %d", &number) == 1) {
-    memset(line, row[0] == 's' ? ' ' : '[', (size_t)number);
-    return (size_t)number;
-  }
-  made = match;
-  carom_status status = CAROM_ERROR_ACT;
-  if (sscanf(row, "CONCEDE %d", &number) == 1)
-    status = carom_match_concede(&made, number);
-  else if (sscanf(row, "CLOCK %d", &number) == 1)
-    status = carom_match_clock(&made, number);
-  else if (sscanf(row, "PLACE %d", &number) == 1)
-    status = carom_match_place(&made, number, 0.7, 0.4);
-  const char *text = row;
-  if (status == CAROM_OK)
-    text = made.text;
-  return (size_t)snprintf(line, sizeof line, "%.*s", (int)strcspn(text, "\n"), text);
 }
 
 /* Whether the match is as it was, to the bit, but for the reason of the refusal. */
@@ -97,23 +41,19 @@ TEST(an_honest_line_after_each_hostile_one) {
   FILE *rows = fopen(CAROM_TEST_HOSTILE, "r");
   ck_assert_msg(rows != NULL, "%s cannot be read", CAROM_TEST_HOSTILE);
   begin_hostile();
-  make_stroke();
-  static char row[LINE_MOST];
+  static char text[HOSTILE_MOST];
+  static hostile_row row;
   int sent = 0;
-  while (fgets(row, sizeof row, rows) != NULL) {
-    char name[100], text[1000] = "";
-    int seat;
-    if (row[0] == '#')
+  while (fgets(text, sizeof text, rows) != NULL) {
+    if (text[0] == '#')
       continue;
-    ck_assert_msg(sscanf(row, "%99[^|]| %d | %999[^\n]", name, &seat, text) >= 2, "%s", row);
-    const size_t size = write_line(text);
+    ck_assert_msg(hostile_read(text, &match, &peer, &row), "%s", text);
     before = reader;
-    const carom_status status = carom_match_receive(&reader, &room, line, size, seat);
-    ck_assert_msg(status < 0 || size == 0 || strspn(line, " ") == size ||
-                      strncmp(line, "{\"event\"", 8) == 0,
-                  "%sfrom seat %d is accepted: %s", name, seat, text);
-    ck_assert_msg(status >= 0 || reader.fault[0] != '\0', "%shas no reason", name);
-    ck_assert_msg(is_as_before(), "%schanged the match", name);
+    const carom_status status = carom_match_receive(&reader, &room, row.line, row.size, row.seat);
+    ck_assert_msg(status < 0 || hostile_is_empty(&row), "%s from seat %d is accepted", row.name,
+                  row.seat);
+    ck_assert_msg(status >= 0 || reader.fault[0] != '\0', "%s has no reason", row.name);
+    ck_assert_msg(is_as_before(), "%s changed the match", row.name);
 
     /* the honest act, on a copy: its line alone, then with those of the ruling */
     const carom_match kept = reader;
@@ -171,7 +111,6 @@ TEST(no_option_of_a_line_changes_a_shot) {
 
 TEST(rulings_may_be_kept_back) {
   begin_hostile();
-  make_stroke();
   receive_all(&reader, peer.text, (size_t)(line_end(peer.text) - peer.text), 0);
   ck_assert_int_eq(reader.due, 0);
   ck_assert_mem_eq(reader.text, peer.text, (size_t)peer.size);
@@ -188,7 +127,6 @@ TEST(rulings_may_be_kept_back) {
 
 TEST(a_line_that_comes_twice) {
   begin_hostile();
-  make_stroke();
   for (int times = 0; times < 3; times++)
     receive_all(&reader, peer.text, (size_t)peer.size, 0);
   ck_assert(reader.record.hash == peer.record.hash);
@@ -293,4 +231,26 @@ TEST(random_lines_between_honest_ones) {
     }
   }
   ck_assert_int_gt(refused, 500);
+}
+
+/* Who acted last is readable, also behind an act that has passed the turn. */
+TEST(who_acted_last) {
+  begin_hostile();
+  static carom_match begun;
+  begin(CAROM_RULES_NINEBALL, 5, 0, 0);
+  begun = match;
+  ck_assert_int_eq(begun.record.actor, -1);
+  ck_assert_int_eq(reader.record.actor, 0); /* has placed the cue ball */
+  receive_all(&reader, peer.text, (size_t)(line_end(peer.text) - peer.text), 0);
+  ck_assert_int_eq(reader.record.actor, 0);
+  ck_assert_int_eq(reader.seat, 1);
+  match = reader;
+  if (match.phase == CAROM_MATCH_PLACE)
+    expect_ok(carom_match_place(&match, 1, 0.5, 0.5));
+  carom_cue cue = match.cue;
+  cue.speed = 1.0;
+  expect_ok(carom_match_stroke(&match, 1, &cue, NULL, NULL));
+  ck_assert_int_eq(match.record.actor, 1);
+  expect_ok(carom_match_concede(&match, 0));
+  ck_assert_int_eq(match.record.actor, 0);
 }

@@ -124,11 +124,11 @@ namespace Carom {
     /// match as it was. Returns whether the match has changed; Lines then has new ones.</summary>
     public bool Receive(string line, int? seat) {
       var shots = Shots;
-      var hash = Open->record.hash;
+      var before = Open->record.line;
       var bytes = Encoding.UTF8.GetBytes(line + "\n");
       fixed(byte *at = bytes)
           Refused(Native.carom_match_receive(match, room, at, (UIntPtr)bytes.Length, seat ?? -1));
-      if (match->record.hash == hash)
+      if (match->record.line == before)
         return false;
       undone.Clear();
       lines.Append(match->size > 0 ? Text() : line.Trim() + "\n");

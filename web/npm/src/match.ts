@@ -242,7 +242,7 @@ export class Match extends MatchActs<Host> {
    */
   receive(line: string, seat: number | null): boolean {
     const known = this.#written;
-    const before = this.#record64("hash");
+    const before = this.#record64("line");
     this.#withText(line, (text, bytes) =>
       this.#using(["carom_match"], ([room]) =>
         this.#called((pointer, call) =>
@@ -250,7 +250,7 @@ export class Match extends MatchActs<Host> {
         ),
       ),
     );
-    if (this.#record64("hash") === before) return false;
+    if (this.#record64("line") === before) return false;
     this.#lines.push(...known);
     // A line of the beginning is read, and the match makes no lines.
     if (this.#number("size") === 0) this.#lines.push(`${line.trim()}\n`);
@@ -285,7 +285,7 @@ export class Match extends MatchActs<Host> {
     const before = new Match(this.#host);
     if (this.#customRules) before.readBy({ own: this.#customRules });
     try {
-      for (const line of kept) before.#read(line, -1);
+      for (const line of kept) before.read(line);
       this.#take(before, before.#lines);
     } finally {
       before.free();
@@ -296,7 +296,9 @@ export class Match extends MatchActs<Host> {
   /** Does the act again that was undone last, unless another act followed. */
   redo(): boolean {
     const lines = this.#undone.pop();
-    for (const line of lines ?? []) this.#read(line, -1);
+    const others = this.#undone.splice(0);
+    for (const line of lines ?? []) this.read(line);
+    this.#undone.push(...others);
     return lines !== undefined;
   }
 

@@ -262,7 +262,7 @@ class Match(MatchActs):
         if rules is not None:
             match._c.rules = match._made.c[0]
         for line in lines_of(recording):
-            match._read(line, -1)
+            match.read(line)
         if match.phase == "none":
             text = "cut off: there is no line game" if match._lines else "the text is empty"
             right = f'{text}: a match begins with a line "recording", and lines up to "game"'
@@ -469,12 +469,12 @@ class Match(MatchActs):
             stays as it was, to the bit.
         """
         sender = -1 if seat is None else whole(seat, "seat", least=0, most=2**31)
-        known, previous = self._written(), self._c.record.hash
+        known, before = self._written(), self._c.record.line
         room, text = ffi.new("carom_match *"), line.encode()
         self._called(
             lambda: lib.carom_match_receive(self._c, room, text, len(text), sender), "line"
         )
-        if self._c.record.hash == previous:
+        if self._c.record.line == before:
             return False
         self._lines += known
         if self._c.size == 0:  # a line of the beginning, which is read and not made
@@ -506,8 +506,10 @@ class Match(MatchActs):
         """
         if not self._undone:
             return False
-        for line in self._undone.pop():
-            self._read(line, -1)
+        *others, lines = self._undone
+        for line in lines:
+            self.read(line)
+        self._undone = others
         return True
 
     def _seat(self, seat: int | None) -> int:
