@@ -33,8 +33,8 @@
  *     carom_match_read()      the lines of a file, in order: a game is saved by writing match.text
  *                             after each act, and loaded by reading the lines. Nothing is read
  *                             behind a line that is not by the rules.
- *     carom_match_receive()   a line of a peer, such as a client of a server. A line that is refused
- *                             leaves the match as it was, to the bit.
+ *     carom_match_receive()   a line of a peer, such as a client of a server. A line that is
+ *                             refused leaves the match as it was, to the bit.
  *
  * A game that goes on where its file ends, even where that was cut off within a line:
  *
@@ -63,7 +63,7 @@
  *       if (carom_match_receive(&match, &scratch, line, size, seat) < 0)
  *         send(seat, match.fault);                        // nothing has changed
  *       else if (match.record.line != before)
- *         send_all(match.text, match.size);               // the act with its ruling, to every client
+ *         send_all(match.text, match.size);   // the act with its ruling, to every client
  *     }
  *
  * A client has a separate match. It receives the server's lines with seat -1, acts on a copy, sends
@@ -189,27 +189,27 @@ typedef struct carom_match {
   double log_likelihood[CAROM_SEATS_MOST][CAROM_MATCH_ERRORS]; /* of each seat: how likely these
                                   strokes are for a player whose error of aim, at 2 m/s, is 0.0125
                                   degrees times sqrt(2) to the power of 0, 1, 2 ... */
-  uint32_t on;                 /* the balls that may be met first in the next stroke, as a set. */
-  uint32_t touching;           /* the balls that touch the cue ball, as a set. */
-  carom_bounds bounds;         /* of a cue ball in hand, until the stroke. */
-  int32_t leave;               /* the carom_leave of these bounds. */
-  int32_t refusal;             /* of the last act: a carom_refusal. */
-  carom_call call;             /* of the next stroke; {-1, -1}: none. */
-  carom_ruling ruling;         /* the last one; all zero before it. */
-  int64_t rulings;             /* how many there were. */
-  int64_t size;                /* bytes of text[], the lines of the last call: those of an act and its
+  uint32_t on;         /* the balls that may be met first in the next stroke, as a set. */
+  uint32_t touching;   /* the balls that touch the cue ball, as a set. */
+  carom_bounds bounds; /* of a cue ball in hand, until the stroke. */
+  int32_t leave;       /* the carom_leave of these bounds. */
+  int32_t refusal;     /* of the last act: a carom_refusal. */
+  carom_call call;     /* of the next stroke; {-1, -1}: none. */
+  carom_ruling ruling; /* the last one; all zero before it. */
+  int64_t rulings;     /* how many there were. */
+  int64_t size;        /* bytes of text[], the lines of the last call: those of an act and its
                                   ruling; after carom_match_read(), only those that were not read
                                   yet. */
-  int64_t due;                 /* how many of these bytes the next lines of the file must have, for
+  int64_t due;         /* how many of these bytes the next lines of the file must have, for
                                   carom_match_read(): all or none; 0 after an act and after
                                   carom_match_receive(). */
-  char fault[256];             /* of the last act, why it was refused. */
+  char fault[256];     /* of the last act, why it was refused. */
   char text[CAROM_MATCH_TEXT]; /* lines: `size` bytes of them, which the next call replaces. */
 } carom_match;
 
 /* Begins a match with the rack of a game, by gaps of 0.1 mm and the seed, on a table that it fits;
- * the side `player`, 0 or 1, breaks. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT for a game not listed or
- * another player; or an error of carom_rack(). */
+ * the side `player`, 0 or 1, breaks. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT for a game not
+ * listed or another player; or an error of carom_rack(). */
 CAROM_API carom_status carom_match_begin(carom_match *match, carom_rules_kind rules,
                                          const carom_table *table, uint64_t seed, int player);
 
@@ -309,8 +309,8 @@ CAROM_API carom_status carom_match_prepare(carom_match *match, int player,
  * stop_at and first_of, and may be NULL: at its end. Its events_most is not read, because a shot
  * that reaches it ends in an error, and a player could then take a stroke back. `shot` may be NULL;
  * else events, brief and room in it are the caller's, and the rest is set. A stopped shot is not
- * ruled yet; it returns CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT. A shot that ends in an error
- * is ruled as one that met nothing, and the balls lie as before. */
+ * ruled yet; it returns CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT. A shot that ends in an
+ * error is ruled as one that met nothing, and the balls lie as before. */
 CAROM_API carom_status carom_match_stroke(carom_match *match, int player, const carom_cue *cue,
                                           const carom_shot_options *stop, carom_shot *shot);
 
@@ -340,9 +340,9 @@ CAROM_API carom_status carom_match_concede(carom_match *match, int player);
  * which is a foul. */
 CAROM_API carom_status carom_match_clock(carom_match *match, int player);
 
-/* Ends the recording: match->text is its last line, and match->phase is OVER. Only the next match of
- * a set follows it. The caller may end a match early, which then has no winner; a peer's line may
- * not (see carom_match_receive()). */
+/* Ends the recording: match->text is its last line, and match->phase is OVER. Only the next match
+ * of a set follows it. The caller may end a match early, which then has no winner; a peer's line
+ * may not (see carom_match_receive()). */
 CAROM_API carom_status carom_match_end(carom_match *match);
 
 /* ---- Reading and planning -------------------------------------------------------------------- */
@@ -357,14 +357,14 @@ CAROM_API carom_status carom_match_read(carom_match *match, carom_record *scratc
                                         size_t size);
 
 /* Reads a line of a peer, with its end of line or without. `seat` is the seat that has sent it, or
- * -1 for whoever may send every line: the server of a client, or a judge. `scratch` is room, of which
- * only `text` need not be overwritten. Where the line is an act by the rules, the match does it, and
- * match->text has its line and those of the ruling, which the peer may send too or not.
+ * -1 for whoever may send every line: the server of a client, or a judge. `scratch` is room, of
+ * which only `text` need not be overwritten. Where the line is an act by the rules, the match does
+ * it, and match->text has its line and those of the ruling, which the peer may send too or not.
  *
- * Every refusal leaves the match as it was, to the bit, but for `fault` and `refusal`. So do a blank
- * line, a line "event", and a line that equals one of match->text: such an act was taken before, and
- * its line has come twice. An act twice in a row is therefore not received; call the function of the
- * act for a second extension of one stroke.
+ * Every refusal leaves the match as it was, to the bit, but for `fault` and `refusal`. So do a
+ * blank line, a line "event", and a line that equals one of match->text: such an act was taken
+ * before, and its line has come twice. An act twice in a row is therefore not received; call the
+ * function of the act for a second extension of one stroke.
  *
  * A seat sends its own acts only, and these without being asked: its concession at any time, the
  * continuation of a shot that was stopped, whoever played it, the end of the recording once the
@@ -394,11 +394,12 @@ CAROM_API carom_status carom_match_opponent(const carom_match *match, const caro
 
 /* A plan for the seat at the table: sets table, balls, count, rules, shot and leave of the job; its
  * cue to match->cue where that is NULL, and the ball of the cue to the cue ball where another one
- * may not be struck; its player, where that is NULL, by the rating of the seat, which must have one;
- * and its opponent by carom_match_opponent() where that and the one of the options are NULL. Options
- * and memory are the caller's; options->shots is 100 or more, or 0 for the default. Plans with a cue
- * ball in hand within its bounds. As carom_plan() and carom_plan_hand(); goes on by
- * carom_plan_continue(), with the match unchanged. CAROM_ERROR_ACT where no stroke may be played. */
+ * may not be struck; its player, where that is NULL, by the rating of the seat, which must have
+ * one; and its opponent by carom_match_opponent() where that and the one of the options are NULL.
+ * Options and memory are the caller's; options->shots is 100 or more, or 0 for the default. Plans
+ * with a cue ball in hand within its bounds. As carom_plan() and carom_plan_hand(); goes on by
+ * carom_plan_continue(), with the match unchanged. CAROM_ERROR_ACT where no stroke may be
+ * played. */
 CAROM_API carom_status carom_match_plan(carom_match *match, carom_plan_job *job,
                                         carom_plan_stroke *choices, int room, int *found);
 

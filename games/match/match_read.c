@@ -252,8 +252,8 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
 /* ---- A peer */
 
 /* Everything of a match but the part of its text that has no lines. */
-static void copy_match(carom_match *to, const carom_match *from) {
-  memcpy(to, from, offsetof(carom_match, text) + (size_t)from->size);
+static void copy_match(carom_match *target, const carom_match *source) {
+  memcpy(target, source, offsetof(carom_match, text) + (size_t)source->size);
 }
 
 /* Whether match->text has this line: the act was taken before, or the line is of its ruling. */
@@ -299,9 +299,9 @@ static bool may_send(const carom_match *match, const act_of_line *line, int seat
 }
 
 /* Reads an act into a match that may be spoilt, because the caller has another. */
-static carom_status receive_act(carom_match *match, const carom_match *before, const char *line,
+static carom_status receive_act(carom_match *match, const carom_match *original, const char *line,
                                 size_t size, int seat) {
-  const int64_t number = before->record.line + 1;
+  const int64_t number = original->record.line + 1;
   match->size = match->due = 0;
   carom_status status;
   char right[200];
@@ -315,7 +315,7 @@ static carom_status receive_act(carom_match *match, const carom_match *before, c
       return status;
     }
     const act_of_line act = act_in(&match->record);
-    match->record = before->record;
+    match->record = original->record;
     if (seat >= 0 && !may_send(match, &act, seat, right))
       return refuse_peer(match, CAROM_REFUSED_TURN, number, right);
     status = do_act(match, &act);

@@ -119,16 +119,17 @@ namespace Carom {
         Replay();
     }
 
-    /// <summary>Judges a line that a peer of this seat has sent, as carom_match_receive() does; null:
-    /// a sender that may send every line. A line that is refused, with a CaromException, leaves the
-    /// match as it was. Returns whether the match has changed; Lines then has new ones.</summary>
+    /// <summary>Judges a line that a peer of this seat has sent, as carom_match_receive() does;
+    /// null: a sender that may send every line. A line that is refused, with a CaromException,
+    /// leaves the match as it was. Returns whether the match has changed; Lines then has new
+    /// ones.</summary>
     public bool Receive(string line, int? seat) {
       var shots = Shots;
-      var before = Open->record.line;
+      var lineCount = Open->record.line;
       var bytes = Encoding.UTF8.GetBytes(line + "\n");
       fixed(byte *at = bytes)
           Refused(Native.carom_match_receive(match, room, at, (UIntPtr)bytes.Length, seat ?? -1));
-      if (match->record.line == before)
+      if (match->record.line == lineCount)
         return false;
       undone.Clear();
       lines.Append(match->size > 0 ? Text() : line.Trim() + "\n");

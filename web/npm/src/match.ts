@@ -221,14 +221,14 @@ export class Match extends MatchActs<Host> {
     const known = this.#written;
     const isDue = this.#number("due") > 0;
     const size = this.#number("size");
-    const before = state();
+    const previous = state();
     this.#withText(line, (text, bytes) =>
       this.#using(["carom_record"], ([scratch]) =>
         this.#called((pointer, call) => call.carom_match_read(pointer, scratch, text, bytes)),
       ),
     );
     if (isDue && this.#number("size") < size) this.#lines.push(known[0]!);
-    else if (!isDue && state() !== before) this.#lines.push(...known, `${line.trim()}\n`);
+    else if (!isDue && state() !== previous) this.#lines.push(...known, `${line.trim()}\n`);
     this.#undone.length = 0;
   }
 
@@ -242,7 +242,7 @@ export class Match extends MatchActs<Host> {
    */
   receive(line: string, seat: number | null): boolean {
     const known = this.#written;
-    const before = this.#record64("line");
+    const lineCount = this.#record64("line");
     this.#withText(line, (text, bytes) =>
       this.#using(["carom_match"], ([room]) =>
         this.#called((pointer, call) =>
@@ -250,7 +250,7 @@ export class Match extends MatchActs<Host> {
         ),
       ),
     );
-    if (this.#record64("line") === before) return false;
+    if (this.#record64("line") === lineCount) return false;
     this.#lines.push(...known);
     // A line of the beginning is read, and the match makes no lines.
     if (this.#number("size") === 0) this.#lines.push(`${line.trim()}\n`);
@@ -282,13 +282,13 @@ export class Match extends MatchActs<Host> {
       return new TextDecoder().decode(memory.u8.slice(text, text + size)).match(/.*\n/g) ?? [];
     });
     if (kept.length === lines.length) return false;
-    const before = new Match(this.#host);
-    if (this.#customRules) before.readBy({ own: this.#customRules });
+    const earlier = new Match(this.#host);
+    if (this.#customRules) earlier.readBy({ own: this.#customRules });
     try {
-      for (const line of kept) before.read(line);
-      this.#take(before, before.#lines);
+      for (const line of kept) earlier.read(line);
+      this.#take(earlier, earlier.#lines);
     } finally {
-      before.free();
+      earlier.free();
     }
     this.#undone.push(lines.slice(kept.length));
     return true;

@@ -155,14 +155,14 @@ impl Match {
     /// sender that may send every line. An error leaves the match as it was. Returns whether the
     /// match has changed; `lines` then has new ones.
     pub fn receive(&mut self, line: &str, seat: Option<usize>) -> Result<bool, Error> {
-        let (shots, before) = (self.shots(), self.of.record.line);
+        let (shots, line_count) = (self.shots(), self.of.record.line);
         let at = line.as_ptr() as *const c_char;
         let seat = seat.map_or(-1, |seat| seat as i32);
         let status = unsafe {
             sys::carom_match_receive(&mut *self.of, &mut *self.room, at, line.len(), seat)
         };
         self.refused(status)?;
-        if self.of.record.line == before {
+        if self.of.record.line == line_count {
             return Ok(false);
         }
         self.undone.clear();

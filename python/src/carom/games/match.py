@@ -469,12 +469,12 @@ class Match(MatchActs):
             stays as it was, to the bit.
         """
         sender = -1 if seat is None else whole(seat, "seat", least=0, most=2**31)
-        known, before = self._written(), self._c.record.line
+        known, count = self._written(), self._c.record.line
         room, text = ffi.new("carom_match *"), line.encode()
         self._called(
             lambda: lib.carom_match_receive(self._c, room, text, len(text), sender), "line"
         )
-        if self._c.record.line == before:
+        if self._c.record.line == count:
             return False
         self._lines += known
         if self._c.size == 0:  # a line of the beginning, which is read and not made
