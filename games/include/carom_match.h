@@ -40,6 +40,7 @@
  *
  *     static carom_match match;     // all zero
  *     static carom_record scratch;
+ *     static char line[CAROM_RECORD_TEXT];
  *     long whole = 0;
  *     while (fgets(line, sizeof line, file) != NULL && strchr(line, '\n') != NULL) {
  *       if (carom_match_read(&match, &scratch, line, strlen(line)) < 0)
@@ -47,7 +48,9 @@
  *       whole = ftell(file);
  *     }
  *     fseek(file, whole, SEEK_SET);
- *     fwrite(match.text, 1, (size_t)match.size, file);      // what the file lacks of the last act
+ *     if (whole == 0)                                       // a new file
+ *       carom_match_begin(&match, CAROM_RULES_EIGHTBALL, &table, 1, 0);
+ *     fwrite(match.text, 1, (size_t)match.size, file);      // what the file lacks
  *     while (match.phase != CAROM_MATCH_OVER) {
  *       status = act(&match);                               // any act, such as a stroke
  *       fwrite(match.text, 1, (size_t)match.size, file);    // before the next call replaces it

@@ -258,14 +258,14 @@ static void copy_match(carom_match *target, const carom_match *source) {
 
 /* Whether match->text has this line: the act was taken before, or the line is of its ruling. */
 static bool is_known(const carom_match *match, const char *line, size_t size) {
-  const char *at = match->text, *const end = match->text + match->size;
-  while (at < end) {
-    const char *next = memchr(at, '\n', (size_t)(end - at));
+  const char *start = match->text, *const end = match->text + match->size;
+  while (start < end) {
+    const char *next = memchr(start, '\n', (size_t)(end - start));
     if (next == NULL)
       return false;
-    if ((size_t)(next - at) == size && memcmp(at, line, size) == 0)
+    if ((size_t)(next - start) == size && memcmp(start, line, size) == 0)
       return true;
-    at = next + 1;
+    start = next + 1;
   }
   return false;
 }
