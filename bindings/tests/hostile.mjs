@@ -35,8 +35,7 @@ for (const line of readFileSync(process.argv[2], "utf8").split("\n").slice(0, -1
     assert(twin.receive(act[0], 0), `${name}: the honest line is not accepted behind it`);
     const lines = [...game.lines, ...act];
     assert.deepEqual(twin.lines, lines, `${name}: the honest act has other lines behind it`);
-    for (const known of [...act, ...act])
-      assert(!twin.receive(known, 0), `${name}: a line is new`);
+    for (const known of [...act, ...act]) assert(!twin.receive(known, 0), `${name}: a line is new`);
     assert.deepEqual([twin.lines, twin.actor], [lines, 0]);
     twin.free();
     sent++;
