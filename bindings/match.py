@@ -131,6 +131,7 @@ export abstract class MatchActs<L extends { memory: Memory }> extends Owner<L> {
     SEAT, BEFORE_SEAT = ("seat?: number", "this.seatOf(seat)"), []
     GETTERS = {
         "index": ("number", "{at}"),
+        "seat": ("number | undefined", "{at} < 0 ? undefined : {at}"),
         "count": ("number", "{at}"),
         "word": ("C.{type}", "names.{enum}[{at}] as C.{type}"),
         "words": ("C.{type}[]", "names.{enum}.filter((_, k) => ({at} >> k) & 1) as C.{type}[]"),
@@ -229,6 +230,7 @@ class MatchActs:
     SEAT, BEFORE_SEAT = ("seat: int | None = None", "self._seat(seat)"), ["*"]
     GETTERS = {
         "index": ("int", "int({at})"),
+        "seat": ("int | None", "int({at}) if {at} >= 0 else None"),
         "count": ("int", "int({at})"),
         "word": ("{type}", "{words}[int({at})]"),
         "words": (

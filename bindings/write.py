@@ -244,6 +244,7 @@ class CSharp(Layer):
     # said, by its form.
     GETTERS = {
         "index": ("int", "(int)Open->{at}"),
+        "seat": ("int", "(int)Open->{at}", "-1: none has yet."),
         "count": ("long", "Open->{at}"),
         "word": ("{type}", "({type})Open->{at}"),
         "side": ("int", "Drawn ? -1 : Open->{at} - 1", "-1: none has."),
@@ -520,6 +521,7 @@ class Rust(Layer):
     # The type of a getter of a match and its value, by its form; {at} is the member.
     GETTERS = {
         "index": ("usize", "self.of.{at} as usize"),
+        "seat": ("Option<usize>", "usize::try_from(self.of.{at}).ok()"),
         "count": ("u64", "self.of.{at} as u64"),
         "word": ("{type}", '{type}::try_from(self.of.{at}).expect("a value of carom_match.h")'),
         "side": (

@@ -634,6 +634,10 @@ public:
     carom_match_string(match_.get(), text.data(), text.size() + 1);
     return text;
   }
+  /* The seat that acted last; -1: none has yet. */
+  int actor() const {
+    return static_cast<int>(match_->record.actor);
+  }
   /* The side at the table; in games that each plays for itself, the seat. */
   int player() const {
     return static_cast<int>(match_->record.player);
@@ -743,16 +747,36 @@ public:
     undone_.clear();
     return read_all(text, of);
   }
-  /* Reads a line that a seat has sent, as carom_match_read_from() does; -1: anyone. */
-  carom_status read(std::string_view line, int sender = -1) {
+  /* Reads the next line of a file. Nothing is read behind a line that is not by the rules. */
+  carom_status read(std::string_view line) {
     const std::int64_t shots = match_->record.shots;
     const carom_status code =
-        carom_match_read_from(match_.get(), scratch_.get(), line.data(), line.size(), sender);
+        carom_match_read(match_.get(), scratch_.get(), line.data(), line.size());
     if (code < 0)
       return checked(code, match_->fault);
     lines_ += line;
     if (!line.empty() && line.back() != '\n')
       lines_ += '\n';
+    return match_->record.shots != shots ? replay() : code;
+  }
+  /* Reads a line that a peer of this seat has sent, as carom_match_receive() does; -1: of whoever
+   * may send every line. What is refused changes nothing. */
+  carom_status receive(std::string_view line, int seat) {
+    const std::int64_t shots = match_->record.shots;
+    const std::int64_t line_count = match_->record.line;
+    if (room_ == nullptr)
+      room_ = std::make_unique<carom_match>();
+    const carom_status code =
+        carom_match_receive(match_.get(), room_.get(), line.data(), line.size(), seat);
+    if (code < 0)
+      return checked(code, match_->fault);
+    if (match_->record.line == line_count)
+      return code;
+    undone_.clear();
+    if (match_->size > 0)
+      lines_.append(match_->text, static_cast<std::size_t>(match_->size));
+    else /* of the beginning, which makes no lines */
+      lines_.append(line.substr(0, line.find_last_not_of(" \r\n") + 1)) += '\n';
     return match_->record.shots != shots ? replay() : code;
   }
   /* Undoes the last act, by the lines before it; does it again. False: there is none. */
@@ -837,6 +861,7 @@ private:
   std::string lines_;
   std::unique_ptr<carom_match> match_;
   std::unique_ptr<carom_record> scratch_;
+  std::unique_ptr<carom_match> room_; /* of receive(), once it was called */
   shot last_;
 };
 #endif

@@ -189,7 +189,8 @@ typedef struct carom_record {
                                                carom_plan.h. */
   int64_t act;           /* the last act that was decided, a carom_act of
                                                carom_match.h. */
-  int64_t actor;         /* the seat that decided the last act. */
+  int64_t actor;         /* the seat that acted last, of a match also by a stroke
+                                               or a place; -1: none has yet. */
   int64_t choice;        /* the choice of the last act, a carom_choice. */
   int64_t call[2];       /* indices of the ball and the pocket that were called
                                                in the last act. */

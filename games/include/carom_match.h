@@ -22,9 +22,55 @@
  * An act that the rules forbid is refused with CAROM_ERROR_ACT: match.refusal is its name, and
  * match.fault says what would be right. Then nothing has changed, and match.size is 0.
  *
- * Each act is a line of a recording, of format 3, and so is each ruling. Whoever reads the lines by
- * carom_match_read() judges them again: a line that is not by the rules is refused. Nothing here
- * allocates. */
+ * A seat is who acts: match.seat, record.actor, and the argument `player` of every act. A side is
+ * who wins: one seat, or partners. record.player, the `player` or `side` of a beginning,
+ * match.winner - 1, and the arrays of carom_standing are of sides. carom_seating has the side of
+ * each seat; of the usual two seats, seat 0 is side 0 and seat 1 is side 1.
+ *
+ * Each act is a line of a recording, of format 3, and so is each ruling. Two functions read lines,
+ * and both judge them again:
+ *
+ *     carom_match_read()      the lines of a file, in order: a game is saved by writing match.text
+ *                             after each act, and loaded by reading the lines. Nothing is read
+ *                             behind a line that is not by the rules.
+ *     carom_match_receive()   a line of a peer, such as a client of a server. A line that is refused
+ *                             leaves the match as it was, to the bit.
+ *
+ * A game that goes on where its file ends, even where that was cut off within a line:
+ *
+ *     static carom_match match;     // all zero
+ *     static carom_record scratch;
+ *     long whole = 0;
+ *     while (fgets(line, sizeof line, file) != NULL && strchr(line, '\n') != NULL) {
+ *       if (carom_match_read(&match, &scratch, line, strlen(line)) < 0)
+ *         return printf("%s\n", match.fault);                // begin again with a match of zeros
+ *       whole = ftell(file);
+ *     }
+ *     fseek(file, whole, SEEK_SET);
+ *     fwrite(match.text, 1, (size_t)match.size, file);      // what the file lacks of the last act
+ *     while (match.phase != CAROM_MATCH_OVER) {
+ *       status = act(&match);                               // any act, such as a stroke
+ *       fwrite(match.text, 1, (size_t)match.size, file);    // before the next call replaces it
+ *     }
+ *
+ * A server, whose clients have the seats 0, 1, ...:
+ *
+ *     static carom_match match, scratch;
+ *     carom_match_begin_with(&match, &setup);
+ *     send_all(match.text, match.size);                   // the first lines, to every client
+ *     while (next_line(&line, &size, &seat)) {            // of any client
+ *       const int64_t before = match.record.line;
+ *       if (carom_match_receive(&match, &scratch, line, size, seat) < 0)
+ *         send(seat, match.fault);                        // nothing has changed
+ *       else if (match.record.line != before)
+ *         send_all(match.text, match.size);               // the act with its ruling, to every client
+ *     }
+ *
+ * A client has a separate match. It receives the server's lines with seat -1, acts on a copy, sends
+ * the copy's text, and waits until the server sends it back. examples/server has whole servers and
+ * clients.
+ *
+ * Nothing here allocates. */
 #ifndef CAROM_MATCH_H
 #define CAROM_MATCH_H
 
@@ -117,9 +163,9 @@ enum {
 
 /* A match. The caller reads it, and changes it by calls alone. It may be copied. */
 typedef struct carom_match {
-  carom_record record;    /* table, balls, count, options; player, who is at the table; hand,
-                                  whether the cue ball is to be placed. Its final states and facts
-                                  are of the last shot. */
+  carom_record record;    /* table, balls, count, options; player, the side at the table; actor,
+                                  the seat that acted last; hand, whether the cue ball is to be
+                                  placed. Its final states and facts are of the last shot. */
   carom_plan_rules rules; /* their state is that of the player at the table. */
   int32_t phase;          /* what the match waits for: a carom_match_phase. */
   int32_t seat;           /* the seat at the table. */
@@ -151,15 +197,18 @@ typedef struct carom_match {
   carom_call call;             /* of the next stroke; {-1, -1}: none. */
   carom_ruling ruling;         /* the last one; all zero before it. */
   int64_t rulings;             /* how many there were. */
-  int64_t size;                /* bytes of text[]: the lines of the last act; behind lines that were
-                                  read: those that are still missing. */
-  int64_t due;                 /* of these, the bytes that carom_match_read() awaits. */
+  int64_t size;                /* bytes of text[], the lines of the last call: those of an act and its
+                                  ruling; after carom_match_read(), only those that were not read
+                                  yet. */
+  int64_t due;                 /* how many of these bytes the next lines of the file must have, for
+                                  carom_match_read(): all or none; 0 after an act and after
+                                  carom_match_receive(). */
   char fault[256];             /* of the last act, why it was refused. */
-  char text[CAROM_MATCH_TEXT]; /* lines: `size` bytes of them. */
+  char text[CAROM_MATCH_TEXT]; /* lines: `size` bytes of them, which the next call replaces. */
 } carom_match;
 
 /* Begins a match with the rack of a game, by gaps of 0.1 mm and the seed, on a table that it fits;
- * `player`, 0 or 1, breaks. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT for a game not listed or
+ * the side `player`, 0 or 1, breaks. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT for a game not listed or
  * another player; or an error of carom_rack(). */
 CAROM_API carom_status carom_match_begin(carom_match *match, carom_rules_kind rules,
                                          const carom_table *table, uint64_t seed, int player);
@@ -234,7 +283,8 @@ CAROM_API size_t carom_match_string(const carom_match *match, char *text, size_t
 
 /* ---- Acts ------------------------------------------------------------------------------------ */
 
-/* All return CAROM_OK, CAROM_ERROR_NULL or CAROM_ERROR_ACT. `player` is the seat that acts. */
+/* All return CAROM_OK, CAROM_ERROR_NULL or CAROM_ERROR_ACT. `player` is the seat that acts, not its
+ * side. record.actor then has it, until the next act. */
 
 /* Takes one of the choices match->may: CAROM_CHOICE_PUSH for the next stroke, the others instead of
  * it. */
@@ -256,10 +306,11 @@ CAROM_API carom_status carom_match_prepare(carom_match *match, int player,
                                            const carom_plan_stroke *stroke);
 
 /* Plays a stroke of match->cue_ball, and rules. `stop` says when to stop the shot, by time_most,
- * stop_at, first_of and events_most, and may be NULL: at its end. `shot` may be NULL; else events,
- * brief and room in it are the caller's, and the rest is set. A stopped shot is not ruled yet; it
- * returns CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT. A shot that ends in an error is ruled as
- * one that met nothing, and the balls lie as before. */
+ * stop_at and first_of, and may be NULL: at its end. Its events_most is not read, because a shot
+ * that reaches it ends in an error, and a player could then take a stroke back. `shot` may be NULL;
+ * else events, brief and room in it are the caller's, and the rest is set. A stopped shot is not
+ * ruled yet; it returns CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT. A shot that ends in an error
+ * is ruled as one that met nothing, and the balls lie as before. */
 CAROM_API carom_status carom_match_stroke(carom_match *match, int player, const carom_cue *cue,
                                           const carom_shot_options *stop, carom_shot *shot);
 
@@ -289,25 +340,43 @@ CAROM_API carom_status carom_match_concede(carom_match *match, int player);
  * which is a foul. */
 CAROM_API carom_status carom_match_clock(carom_match *match, int player);
 
-/* Ends the recording: match->text is its last line. Nothing follows it. */
+/* Ends the recording: match->text is its last line, and match->phase is OVER. Only the next match of
+ * a set follows it. The caller may end a match early, which then has no winner; a peer's line may
+ * not (see carom_match_receive()). */
 CAROM_API carom_status carom_match_end(carom_match *match);
 
 /* ---- Reading and planning -------------------------------------------------------------------- */
 
 /* Reads a line of a match, with its end of line or without; `scratch` is room that is overwritten.
- * It applies the line by the rules, and compares
- * the lines of the ruling with those that follow. match->text has the lines that are still missing,
- * as of a file that was cut off behind a shot. CAROM_OK; CAROM_ERROR_NULL; an error of
- * carom_record_read(), with record.fault in match->fault; CAROM_ERROR_ACT for a line that is not by
- * the rules: match->fault names it. Nothing is read behind it. */
+ * The function applies the line by the rules, and compares the lines of the ruling with those that
+ * follow. match->text has the lines that are still missing, as of a file that was cut off behind a
+ * shot. CAROM_OK; CAROM_ERROR_NULL; an error of carom_record_read(), with record.fault in
+ * match->fault; CAROM_ERROR_ACT for a line that is not by the rules: match->fault names it. Nothing
+ * is read behind it; to go on, read the lines before it into a match of zeros. */
 CAROM_API carom_status carom_match_read(carom_match *match, carom_record *scratch, const char *line,
                                         size_t size);
 
-/* The same of a line that `seat` has sent, such as another player over a network: an act of another
- * seat is refused, with nothing changed. A stroke beyond match->seating.limits is refused as a line
- * that is not by the rules. seat -1: a judge, or a file. */
-CAROM_API carom_status carom_match_read_from(carom_match *match, carom_record *scratch,
-                                             const char *line, size_t size, int seat);
+/* Reads a line of a peer, with its end of line or without. `seat` is the seat that has sent it, or
+ * -1 for whoever may send every line: the server of a client, or a judge. `scratch` is room, of which
+ * only `text` need not be overwritten. Where the line is an act by the rules, the match does it, and
+ * match->text has its line and those of the ruling, which the peer may send too or not.
+ *
+ * Every refusal leaves the match as it was, to the bit, but for `fault` and `refusal`. So do a blank
+ * line, a line "event", and a line that equals one of match->text: such an act was taken before, and
+ * its line has come twice. An act twice in a row is therefore not received; call the function of the
+ * act for a second extension of one stroke.
+ *
+ * A seat sends its own acts only, and these without being asked: its concession at any time, the
+ * continuation of a shot that was stopped, whoever played it, the end of the recording once the
+ * match is over, and the head of the next match of a set. The lines before the first "game" are
+ * received with seat -1. Of the options of a shot a line may carry time_most, stop_at and first_of,
+ * which divide the shot and do not change it.
+ *
+ * CAROM_OK; CAROM_ERROR_NULL; an error of carom_record_read(); CAROM_ERROR_ACT with match->refusal
+ * NOT_BEGUN, TURN for an act of another seat, or LINE for a line that is not by the rules or has
+ * other values than the match makes. match->fault says why. */
+CAROM_API carom_status carom_match_receive(carom_match *match, carom_match *scratch,
+                                           const char *line, size_t size, int seat);
 
 /* How many bytes of lines of a match are left where its last act is undone: those before that act.
  * Reading these gives the match before it, and reading the others does the act again. A copy of a
@@ -325,11 +394,11 @@ CAROM_API carom_status carom_match_opponent(const carom_match *match, const caro
 
 /* A plan for the seat at the table: sets table, balls, count, rules, shot and leave of the job; its
  * cue to match->cue where that is NULL, and the ball of the cue to the cue ball where another one
- * may not be struck; its player by the rating of the seat where that is NULL; and its opponent by
- * carom_match_opponent() where that and the one of the options are NULL. Options and memory are the
- * caller's. Plans with a cue ball in hand within its bounds. As carom_plan() and
- * carom_plan_hand(); goes on by carom_plan_continue(), with the match unchanged. CAROM_ERROR_ACT
- * where no stroke may be played. */
+ * may not be struck; its player, where that is NULL, by the rating of the seat, which must have one;
+ * and its opponent by carom_match_opponent() where that and the one of the options are NULL. Options
+ * and memory are the caller's; options->shots is 100 or more, or 0 for the default. Plans with a cue
+ * ball in hand within its bounds. As carom_plan() and carom_plan_hand(); goes on by
+ * carom_plan_continue(), with the match unchanged. CAROM_ERROR_ACT where no stroke may be played. */
 CAROM_API carom_status carom_match_plan(carom_match *match, carom_plan_job *job,
                                         carom_plan_stroke *choices, int room, int *found);
 

@@ -105,7 +105,8 @@ static void put_act(carom_match *match, carom_act act, int player, int32_t choic
   put_line(match, CAROM_RECORD_ACT);
 }
 
-/* When the next shot stops. */
+/* When the next shot stops: of the options only those that divide a shot without changing it. A
+ * shot that reaches events_most ends in an error, which would be ruled as if no ball had moved. */
 static void set_stops(carom_shot_options *options, const carom_shot_options *stop) {
   static const carom_shot_options none = {0};
   if (stop == NULL)
@@ -113,7 +114,7 @@ static void set_stops(carom_shot_options *options, const carom_shot_options *sto
   options->time_most = stop->time_most;
   options->stop_at = stop->stop_at;
   options->first_of = stop->first_of;
-  options->events_most = stop->events_most;
+  options->events_most = 0;
 }
 
 /* ---- How a match stands */
@@ -272,6 +273,7 @@ static carom_status begin_layout(carom_match *match, const carom_match_setup *se
   if (count < 2 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
   record->match = 1;
+  record->actor = -1;
   record->table = *setup->table;
   if (setup->options != NULL)
     record->options = *setup->options;
@@ -608,6 +610,7 @@ static carom_status play(carom_match *match, carom_record_kind kind, const carom
   if (kind == CAROM_RECORD_SHOT) {
     memcpy(match->before, record->balls, sizeof match->before);
     match->stroke = *cue;
+    record->actor = match->seat;
   }
   match->cue_ball = (int32_t)cue->ball;
   put_line(match, kind);
@@ -707,6 +710,7 @@ static carom_status place_cue_ball(carom_match *match, int player, double x, dou
     return carom_match_refuse(match, CAROM_REFUSED_OCCUPIED, "place", right);
   }
   put_line(match, CAROM_RECORD_PLACE);
+  record->actor = player;
   match->phase = CAROM_MATCH_STROKE;
   match->may &= ~CAROM_CHOICE_STAY; /* it lies elsewhere now */
   match->touching = carom_touching(record->balls, (int)record->count, match->cue_ball);

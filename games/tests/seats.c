@@ -181,7 +181,7 @@ TEST(own_rules_of_three_seats) {
 /* ---- Senders: each kind of cheat is refused in words, with nothing changed */
 
 TEST(what_another_seat_sends) {
-  static carom_match peer;
+  static carom_match peer, room;
   static const char *const what[] = {"place", "stroke", "concede", "clock", "call", "extend"};
   begin_seats(CAROM_RULES_EIGHTBALL, 4);
   setup.set = &(carom_set){.race = 2, .extensions = 1};
@@ -212,7 +212,7 @@ TEST(what_another_seat_sends) {
       ck_assert_msg(status == CAROM_OK, "%s: %s", what[k], peer.fault);
       before = reader;
       const size_t size = (size_t)(strchr(peer.text, '\n') + 1 - peer.text);
-      status = carom_match_read_from(&reader, &scratch, peer.text, size, seat);
+      status = carom_match_receive(&reader, &room, peer.text, size, seat);
       if (seat == 0) {
         ck_assert_msg(status == CAROM_OK, "%s: %s", what[k], reader.fault);
         continue;

@@ -10,12 +10,14 @@ namespace Carom {
   public sealed unsafe partial class LiveMatch : IDisposable {
     Match *match;
     Record *scratch;
+    Match *room;
     readonly StringBuilder lines = new StringBuilder();
     readonly Stack<string> undone = new Stack<string>();
 
     LiveMatch() {
       match = (Match *)Zeros(sizeof(Match));
       scratch = (Record *)Zeros(sizeof(Record));
+      room = (Match *)Zeros(sizeof(Match));
     }
 
     static IntPtr Zeros(int size) {
@@ -97,24 +99,42 @@ namespace Carom {
       *match = default(Match);
       lines.Clear();
       foreach (var line in text.Split(new[] { '\n' }, StringSplitOptions.RemoveEmptyEntries))
-        ReadLine(line, -1);
+        ReadLine(line);
       lines.Append(Text());
       Replay();
     }
-    void ReadLine(string line, int sender) {
+    void ReadLine(string line) {
       var bytes = Encoding.UTF8.GetBytes(line);
       fixed(byte *at = bytes)
-          Refused(Native.carom_match_read_from(match, scratch, at, (UIntPtr)bytes.Length, sender));
+          Refused(Native.carom_match_read(match, scratch, at, (UIntPtr)bytes.Length));
       lines.Append(line.TrimEnd('\n')).Append('\n');
     }
 
-    /// <summary>Reads a line that a seat has sent, as carom_match_read_from() does; -1:
-    /// anyone.</summary>
-    public void Read(string line, int sender = -1) {
+    /// <summary>Reads the next line of a file. Nothing is read behind a line that is not by the
+    /// rules.</summary>
+    public void Read(string line) {
       var shots = Shots;
-      ReadLine(line, sender);
+      ReadLine(line);
       if (Shots != shots)
         Replay();
+    }
+
+    /// <summary>Judges a line that a peer of this seat has sent, as carom_match_receive() does; null:
+    /// a sender that may send every line. A line that is refused, with a CaromException, leaves the
+    /// match as it was. Returns whether the match has changed; Lines then has new ones.</summary>
+    public bool Receive(string line, int? seat) {
+      var shots = Shots;
+      var before = Open->record.line;
+      var bytes = Encoding.UTF8.GetBytes(line + "\n");
+      fixed(byte *at = bytes)
+          Refused(Native.carom_match_receive(match, room, at, (UIntPtr)bytes.Length, seat ?? -1));
+      if (match->record.line == before)
+        return false;
+      undone.Clear();
+      lines.Append(match->size > 0 ? Text() : line.Trim() + "\n");
+      if (Shots != shots)
+        Replay();
+      return true;
     }
 
     /// <summary>Undoes the last act. False: there is none.</summary>
@@ -230,8 +250,10 @@ namespace Carom {
     public void Dispose() {
       Marshal.FreeHGlobal((IntPtr)match);
       Marshal.FreeHGlobal((IntPtr)scratch);
+      Marshal.FreeHGlobal((IntPtr)room);
       match = null;
       scratch = null;
+      room = null;
       GC.SuppressFinalize(this);
     }
     ~LiveMatch() {

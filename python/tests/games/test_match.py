@@ -291,12 +291,12 @@ def test_a_peer_sends_its_own_acts_alone():
         act()
         sent, lines = ann.lines[known:], bob.lines
         with pytest.raises(carom.CaromError, match="seat 1 has sent an act of seat 0"):
-            bob.read(sent[0], seat=1)
+            bob.receive(sent[0], 1)
         with pytest.raises(carom.CaromError, match="line"):
-            bob.read(sent[0].replace("0.6", "0.7").replace("90.2", "90.3"), seat=0)
+            bob.receive(sent[0].replace("0.6", "0.7").replace("90.2", "90.3"), 0)
         assert bob.lines == lines
-        for line in ["", *sent]:
-            bob.read(line, seat=0)
+        changes = [bob.receive(line, 0) for line in ["", *sent]]
+        assert changes == [False, True, *[False] * (len(sent) - 1)]
         assert bob.lines == ann.lines
     assert same_bits(bob.shot.events, ann.shot.events)
     bob.read(ann.lines[-1].replace("game", "event"))

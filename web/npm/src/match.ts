@@ -212,16 +212,11 @@ export class Match extends MatchActs<Host> {
   }
 
   /**
-   * Reads a line of another program and judges it: an act, or a line of the ruling of the last act.
-   * With `seat` the act must be one of that seat. Throws a CaromError where the line is not by the
-   * rules, has other bits, or is an act of another seat; then nothing has changed.
+   * Reads the next line of a file and judges it: an act, or a line of the ruling of the last act.
+   * Throws a CaromError where the line is not by the rules or has other bits; then nothing has
+   * changed.
    */
-  read(line: string, seat?: number): void {
-    this.#read(line, seat === undefined ? -1 : this.seatOf(seat));
-    this.#undone.length = 0;
-  }
-
-  #read(line: string, seat: number): void {
+  read(line: string): void {
     const state = (): string => `${this.#record64("line")} ${this.#record64("hash")}`;
     const known = this.#written;
     const isDue = this.#number("due") > 0;
@@ -229,13 +224,38 @@ export class Match extends MatchActs<Host> {
     const before = state();
     this.#withText(line, (text, bytes) =>
       this.#using(["carom_record"], ([scratch]) =>
-        this.#called((pointer, call) =>
-          call.carom_match_read_from(pointer, scratch, text, bytes, seat),
-        ),
+        this.#called((pointer, call) => call.carom_match_read(pointer, scratch, text, bytes)),
       ),
     );
     if (isDue && this.#number("size") < size) this.#lines.push(known[0]!);
     else if (!isDue && state() !== before) this.#lines.push(...known, `${line.trim()}\n`);
+    this.#undone.length = 0;
+  }
+
+  /**
+   * Judges a line that a peer has sent, such as a client of a server. `seat` is the seat that sent
+   * it; null: a sender that may send every line, such as the server of a client. The lines of the
+   * ruling need not follow, because the match makes them, and a line of the last act that comes
+   * again changes nothing. Returns whether the match has changed; `lines` then has new ones. Throws
+   * a CaromError where the line is not by the rules, has other bits, or is an act of another seat;
+   * the match then stays as it was, to the bit.
+   */
+  receive(line: string, seat: number | null): boolean {
+    const known = this.#written;
+    const before = this.#record64("line");
+    this.#withText(line, (text, bytes) =>
+      this.#using(["carom_match"], ([room]) =>
+        this.#called((pointer, call) =>
+          call.carom_match_receive(pointer, room, text, bytes, seat ?? -1),
+        ),
+      ),
+    );
+    if (this.#record64("line") === before) return false;
+    this.#lines.push(...known);
+    // A line of the beginning is read, and the match makes no lines.
+    if (this.#number("size") === 0) this.#lines.push(`${line.trim()}\n`);
+    this.#undone.length = 0;
+    return true;
   }
 
   /** Another match that stands as this one, and goes on by itself. */
@@ -265,7 +285,7 @@ export class Match extends MatchActs<Host> {
     const before = new Match(this.#host);
     if (this.#customRules) before.readBy({ own: this.#customRules });
     try {
-      for (const line of kept) before.#read(line, -1);
+      for (const line of kept) before.read(line);
       this.#take(before, before.#lines);
     } finally {
       before.free();
@@ -276,7 +296,9 @@ export class Match extends MatchActs<Host> {
   /** Does the act again that was undone last, unless another act followed. */
   redo(): boolean {
     const lines = this.#undone.pop();
-    for (const line of lines ?? []) this.#read(line, -1);
+    const others = this.#undone.splice(0);
+    for (const line of lines ?? []) this.read(line);
+    this.#undone.push(...others);
     return lines !== undefined;
   }
 

@@ -218,11 +218,15 @@ test.each(builds)("a peer sends its own acts alone, by $name", ({ carom }) => {
     const sent = ann.lines.slice(known);
     const { lines } = bob;
     refuses(
-      [() => bob.read(sent[0]!, 1), "seat 1 has sent an act of seat 0"],
-      [() => bob.read(sent[0]!.replace("0.6", "0.7").replace("90.2", "90.3"), 0), CaromError],
+      [() => bob.receive(sent[0]!, 1), "seat 1 has sent an act of seat 0"],
+      [() => bob.receive(sent[0]!.replace("0.6", "0.7").replace("90.2", "90.3"), 0), CaromError],
     );
     expect(bob.lines).toEqual(lines);
-    for (const line of ["", ...sent]) bob.read(line, 0);
+    expect(["", ...sent].map((line) => bob.receive(line, 0))).toEqual([
+      false,
+      true,
+      ...sent.slice(1).map(() => false),
+    ]);
     expect(bob.lines).toEqual(ann.lines);
   }
   expect(bob.shot!.events).toEqual(ann.shot!.events);

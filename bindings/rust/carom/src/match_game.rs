@@ -10,6 +10,7 @@ use std::os::raw::c_char;
 pub struct Match {
     pub(crate) of: Box<sys::carom_match>,
     scratch: Box<sys::carom_record>,
+    room: Box<sys::carom_match>,
     lines: String,
     undone: Vec<String>,
     last: Option<Shot>,
@@ -124,34 +125,57 @@ impl Match {
         *self.of = Default::default();
         self.lines.clear();
         for line in lines.split_inclusive('\n') {
-            self.read_line(line, None)?;
+            self.read_line(line)?;
         }
         self.lines += &self.pending();
         self.replay()
     }
 
-    fn read_line(&mut self, line: &str, sender: Option<usize>) -> Result<(), Error> {
-        let (at, sender) = (
-            line.as_ptr() as *const c_char,
-            sender.map_or(-1, |seat| seat as i32),
-        );
-        let status = unsafe {
-            sys::carom_match_read_from(&mut *self.of, &mut *self.scratch, at, line.len(), sender)
-        };
+    fn read_line(&mut self, line: &str) -> Result<(), Error> {
+        let at = line.as_ptr() as *const c_char;
+        let status =
+            unsafe { sys::carom_match_read(&mut *self.of, &mut *self.scratch, at, line.len()) };
         self.refused(status)?;
         self.lines += line.trim_end_matches('\n');
         self.lines.push('\n');
         Ok(())
     }
 
-    /// Reads a line that a seat has sent, as `carom_match_read_from` does; `None`: anyone.
-    pub fn read(&mut self, line: &str, sender: Option<usize>) -> Result<(), Error> {
+    /// Reads the next line of a file. Nothing is read behind a line that is not by the rules.
+    pub fn read(&mut self, line: &str) -> Result<(), Error> {
         let shots = self.shots();
-        self.read_line(line, sender)?;
+        self.read_line(line)?;
         if self.shots() == shots {
             return Ok(());
         }
         self.replay()
+    }
+
+    /// Judges a line that a peer of this seat has sent, as `carom_match_receive` does; `None`: a
+    /// sender that may send every line. An error leaves the match as it was. Returns whether the
+    /// match has changed; `lines` then has new ones.
+    pub fn receive(&mut self, line: &str, seat: Option<usize>) -> Result<bool, Error> {
+        let (shots, before) = (self.shots(), self.of.record.line);
+        let at = line.as_ptr() as *const c_char;
+        let seat = seat.map_or(-1, |seat| seat as i32);
+        let status = unsafe {
+            sys::carom_match_receive(&mut *self.of, &mut *self.room, at, line.len(), seat)
+        };
+        self.refused(status)?;
+        if self.of.record.line == before {
+            return Ok(false);
+        }
+        self.undone.clear();
+        if self.of.size > 0 {
+            self.lines += &self.pending();
+        } else {
+            self.lines += line.trim();
+            self.lines.push('\n');
+        }
+        if self.shots() != shots {
+            self.replay()?;
+        }
+        Ok(true)
     }
 
     /// The last shot of a match that was read, with all its events.
@@ -209,6 +233,7 @@ impl Match {
         Match {
             of: Box::default(),
             scratch: Box::default(),
+            room: Box::default(),
             lines: String::new(),
             undone: Vec::new(),
             last: None,

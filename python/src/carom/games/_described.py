@@ -105,6 +105,11 @@ class MatchActs:
         return int(self._c.seat)
 
     @property
+    def actor(self) -> int | None:
+        """The seat that acted last."""
+        return int(self._c.record.actor) if self._c.record.actor >= 0 else None
+
+    @property
     def winner(self) -> int | None:
         """The side that has won."""
         return int(self._c.winner) - 1 if 0 < self._c.winner < lib.CAROM_DRAWN else None

@@ -262,7 +262,7 @@ class Match(MatchActs):
         if rules is not None:
             match._c.rules = match._made.c[0]
         for line in lines_of(recording):
-            match._read(line, -1)
+            match.read(line)
         if match.phase == "none":
             text = "cut off: there is no line game" if match._lines else "the text is empty"
             right = f'{text}: a match begins with a line "recording", and lines up to "game"'
@@ -424,30 +424,63 @@ class Match(MatchActs):
         self._undone.clear()
         return code == 0
 
-    def _read(self, line: str, seat: int) -> None:
-        record = self._c.record
-        known, is_due, previous = self._written(), self._c.due > 0, (record.line, record.hash)
-        scratch, text = ffi.new("carom_record *"), line.encode()
-        self._called(
-            lambda: lib.carom_match_read_from(self._c, scratch, text, len(text), seat), "line"
-        )
-        if is_due and self._c.size < sum(len(one.encode()) for one in known):
-            self._lines.append(known[0])
-        elif not is_due and (record.line, record.hash) != previous:  # no blank line, no event
-            self._lines += [*known, line.rstrip() + "\n"]
-
-    def read(self, line: str, seat: int | None = None) -> None:
-        """Read a line of another program and judge it: an act, or a line of the ruling of the last
-        act. With `seat` the act must be one of that seat.
+    def read(self, line: str) -> None:
+        """Read the next line of a file and judge it: an act, or a line of the ruling of the last
+        act.
 
         Raises
         ------
         CaromError
-            The line is not by the rules, has other bits, or is an act of another seat. Then nothing
-            has changed.
+            The line is not by the rules, or has other bits. Then nothing has changed.
         """
-        self._read(line, -1 if seat is None else self._seat(seat))
+        record = self._c.record
+        known, is_due, previous = self._written(), self._c.due > 0, (record.line, record.hash)
+        scratch, text = ffi.new("carom_record *"), line.encode()
+        self._called(lambda: lib.carom_match_read(self._c, scratch, text, len(text)), "line")
+        if is_due and self._c.size < sum(len(one.encode()) for one in known):
+            self._lines.append(known[0])
+        elif not is_due and (record.line, record.hash) != previous:  # no blank line, no event
+            self._lines += [*known, line.rstrip() + "\n"]
         self._undone.clear()
+
+    def receive(self, line: str, seat: int | None) -> bool:
+        """Judge a line that a peer has sent, such as a client of a server.
+
+        The lines of the ruling need not follow: the match makes them. A line of the last act that
+        comes again changes nothing.
+
+        Parameters
+        ----------
+        line : str
+            One line, with or without its end.
+        seat : int or None
+            The seat that sent it. None: a sender that may send every line, such as the server of a
+            client.
+
+        Returns
+        -------
+        bool
+            Whether the match has changed. Then `lines` has new ones.
+
+        Raises
+        ------
+        CaromError
+            The line is not by the rules, has other bits, or is an act of another seat. The match
+            stays as it was, to the bit.
+        """
+        sender = -1 if seat is None else whole(seat, "seat", least=0, most=2**31)
+        known, before = self._written(), self._c.record.line
+        room, text = ffi.new("carom_match *"), line.encode()
+        self._called(
+            lambda: lib.carom_match_receive(self._c, room, text, len(text), sender), "line"
+        )
+        if self._c.record.line == before:
+            return False
+        self._lines += known
+        if self._c.size == 0:  # a line of the beginning, which is read and not made
+            self._lines.append(line.rstrip() + "\n")
+        self._undone.clear()
+        return True
 
     def undo(self) -> bool:
         """Take the last act back, by judging the lines before it again.
@@ -473,8 +506,10 @@ class Match(MatchActs):
         """
         if not self._undone:
             return False
-        for line in self._undone.pop():
-            self._read(line, -1)
+        *others, lines = self._undone
+        for line in lines:
+            self.read(line)
+        self._undone = others
         return True
 
     def _seat(self, seat: int | None) -> int:
