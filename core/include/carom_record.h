@@ -131,7 +131,7 @@ typedef struct carom_note {
   int64_t by;         /* 1 + the seat that says it; 0: nobody in particular, such as a judge. The line
                          has the seat itself. */
   int64_t extras;     /* how many keys of other programs the note has. */
-  carom_note_extra extra[CAROM_NOTE_EXTRAS]; /* these keys. */
+  carom_note_extra extra[CAROM_NOTE_EXTRAS]; /* the keys of other programs, with their values. */
 } carom_note;
 
 /* A set: matches that are played one after the other, until a side has won `race` of them. */
