@@ -243,7 +243,7 @@ namespace Carom {
     /// in s that the last stroke took the player, 0: none. docs/reference/files.md has the keys; those
     /// of a caller begin with "x_". `seat` is who says it; null: nobody in particular. The game and
     /// its hashes do not change.</summary>
-    public void Note(int? seat, IDictionary<string, string> said, double seconds = 0) {
+    public void Note(int? seat, Dictionary<string, string> said, double seconds = 0) {
       var line = new StringBuilder("{\"note\":{");
       string comma = "";
       foreach (var pair in said) {
