@@ -720,7 +720,8 @@ public:
   /* Writes words into the recording: texts by their keys, such as {{"comment", "a kiss"}}, and the
    * time in s that the last stroke took the player, 0: none. docs/reference/files.md has the keys;
    * those of a caller begin with "x_". `who` -1: nobody in particular. */
-  carom_status note(int who, std::initializer_list<std::pair<std::string_view, std::string_view>> said,
+  carom_status note(int who,
+                    std::initializer_list<std::pair<std::string_view, std::string_view>> said,
                     double seconds = 0.0) {
     std::string line = "{\"note\":{";
     for (const auto &[key, text] : said) {

@@ -36,9 +36,10 @@ static class Hostile {
 
     // A note, and some that are refused.
     var talk = game.Copy();
-    talk.Note(1, new Dictionary<string, string> { { "comment", "He said \"nice\"" },
-                                                  { "offer", "draw" },
-                                                  { "x_club", "A \\ B" } },
+    talk.Note(1,
+              new Dictionary<string, string> { { "comment", "He said \"nice\"" },
+                                               { "offer", "draw" },
+                                               { "x_club", "A \\ B" } },
               12.5);
     string said = talk.Notes[0] + "\n";
     foreach (var wrong in new[] { "comment two\nlines", "offer money", "chat hello", "comment " }) {

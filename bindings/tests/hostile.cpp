@@ -42,8 +42,8 @@ int main(int, char **arguments) {
     const std::size_t bar = rest.find('|'), next = rest.find('|', bar + 1);
     const std::string name = rest.substr(0, bar), text = rest.substr(next + 1);
     const int seat = std::stoi(rest.substr(bar + 1));
-    const bool is_empty = text.find_first_not_of(' ') == std::string::npos ||
-                          text.rfind("{\"event\"", 0) == 0;
+    const bool is_empty =
+        text.find_first_not_of(' ') == std::string::npos || text.rfind("{\"event\"", 0) == 0;
     const std::string before = state_of(game);
     std::string why;
     try {

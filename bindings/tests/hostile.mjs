@@ -35,7 +35,8 @@ for (const line of readFileSync(process.argv[2], "utf8").split("\n").slice(0, -1
     assert(after.receive(act[0], 0), `${name}: the honest line is not accepted behind it`);
     const lines = [...game.lines, ...act];
     assert.deepEqual(after.lines, lines, `${name}: the honest act has other lines behind it`);
-    for (const known of [...act, ...act]) assert(!after.receive(known, 0), `${name}: a line is new`);
+    for (const known of [...act, ...act])
+      assert(!after.receive(known, 0), `${name}: a line is new`);
     assert.deepEqual([after.lines, after.actor], [lines, 0]);
     after.free();
     sent++;

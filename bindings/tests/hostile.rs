@@ -69,7 +69,11 @@ fn main() -> Result<(), Error> {
     talk.note(Some(1), &words, 12.5)?;
     let said = talk.notes().next().expect("a note").to_string() + "\n";
     let with_note = begun.lines().to_string() + &said;
-    for wrong in [("comment", "two\nlines"), ("offer", "money"), ("chat", "hello")] {
+    for wrong in [
+        ("comment", "two\nlines"),
+        ("offer", "money"),
+        ("chat", "hello"),
+    ] {
         let refused = talk.note(Some(0), &[wrong], 0.0).unwrap_err();
         assert!(!refused.fault.is_empty(), "{wrong:?} has no reason");
         assert_eq!(talk.lines(), with_note);

@@ -128,9 +128,9 @@ typedef struct carom_note {
   char offer[16];     /* "draw" or "take_back": what the seat offers or asks for. */
   char answer[16];    /* "yes" or "no": to the last offer of another seat. */
   double seconds;     /* s: the time that the last stroke, or a part of it, took the player. */
-  int64_t by;         /* 1 + the seat that says it; 0: nobody in particular, such as a judge. The line
+  int64_t by;     /* 1 + the seat that says it; 0: nobody in particular, such as a judge. The line
                          has the seat itself. */
-  int64_t extras;     /* how many keys of other programs the note has. */
+  int64_t extras; /* how many keys of other programs the note has. */
   carom_note_extra extra[CAROM_NOTE_EXTRAS]; /* the keys of other programs, with their values. */
 } carom_note;
 

@@ -195,23 +195,23 @@ typedef struct carom_match {
   double log_likelihood[CAROM_SEATS_MOST][CAROM_MATCH_ERRORS]; /* of each seat: how likely these
                                   strokes are for a player whose error of aim, at 2 m/s, is 0.0125
                                   degrees times sqrt(2) to the power of 0, 1, 2 ... */
-  uint32_t on;                 /* the balls that may be met first in the next stroke, as a set. */
-  uint32_t touching;           /* the balls that touch the cue ball, as a set. */
-  carom_bounds bounds;         /* of a cue ball in hand, until the stroke. */
-  int32_t leave;               /* the carom_leave of these bounds. */
-  int32_t refusal;             /* of the last act: a carom_refusal. */
-  carom_call call;             /* of the next stroke; {-1, -1}: none. */
-  carom_ruling ruling;         /* the last one; all zero before it. */
-  int64_t rulings;             /* how many there were. */
-  int64_t size;                /* bytes of text[], the lines of the last call: those of an act and its
+  uint32_t on;         /* the balls that may be met first in the next stroke, as a set. */
+  uint32_t touching;   /* the balls that touch the cue ball, as a set. */
+  carom_bounds bounds; /* of a cue ball in hand, until the stroke. */
+  int32_t leave;       /* the carom_leave of these bounds. */
+  int32_t refusal;     /* of the last act: a carom_refusal. */
+  carom_call call;     /* of the next stroke; {-1, -1}: none. */
+  carom_ruling ruling; /* the last one; all zero before it. */
+  int64_t rulings;     /* how many there were. */
+  int64_t size;        /* bytes of text[], the lines of the last call: those of an act and its
                                   ruling; after carom_match_read(), only those that were not read
                                   yet. */
-  int64_t known;               /* how many bytes of text[] behind these are lines of the last act before
+  int64_t known;       /* how many bytes of text[] behind these are lines of the last act before
                                   the notes: carom_match_receive() recognises them. */
-  int64_t due;                 /* how many of these bytes the next lines of the file must have, for
+  int64_t due;         /* how many of these bytes the next lines of the file must have, for
                                   carom_match_read(): all or none; 0 after an act and after
                                   carom_match_receive(). */
-  char fault[256];             /* of the last act, why it was refused. */
+  char fault[256];     /* of the last act, why it was refused. */
   char text[CAROM_MATCH_TEXT]; /* lines: `size` bytes of them, which the next call replaces. */
 } carom_match;
 

@@ -213,7 +213,8 @@ static carom_status read_note(carom_match *match, const char *line, size_t size)
   }
   if (!has_seat_of_note(match, right))
     return refuse_line(match, record->line, right);
-  if (match->due == 0) { /* the lines of an act are written; the note is no line of this match's own */
+  if (match->due ==
+      0) { /* the lines of an act are written; the note is no line of this match's own */
     match->known += match->size;
     match->size = 0;
   }

@@ -116,7 +116,8 @@ TEST(notes_that_a_match_refuses) {
   check_refusal("a seat", carom_match_note(&match, -2, &note), "turn", "seats are 0 to 1");
   note = note_of("two\nlines");
   before = match;
-  check_refusal("lines", carom_match_note(&match, 0, &note), "note", "comment must have no control");
+  check_refusal("lines", carom_match_note(&match, 0, &note), "note",
+                "comment must have no control");
   memset(note.comment, 'a', sizeof note.comment);
   before = match;
   check_refusal("long", carom_match_note(&match, 0, &note), "note", "comment has no closing 0");

@@ -110,7 +110,8 @@ static bool is_json_number(const char *text) {
 /* Whether a key is "x_" with letters, digits or "_" behind it. */
 static bool is_key_of_extra(const char *key, size_t room) {
   const size_t prefix = sizeof prefix_of_extras - 1;
-  const char *end = memchr(key, '\0', room - 1); /* a key of 31 bytes may have been cut by a reader */
+  const char *end =
+      memchr(key, '\0', room - 1); /* a key of 31 bytes may have been cut by a reader */
   if (end == NULL || (size_t)(end - key) <= prefix || memcmp(key, prefix_of_extras, prefix) != 0)
     return false;
   for (const char *c = key + prefix; c < end; c++) {
@@ -154,14 +155,11 @@ const char *carom_note_fault(const carom_note *note, const char **key) {
   const struct {
     const char *key, *text;
     size_t room;
-  } texts[] = {{"date", note->date, sizeof note->date},
-               {"event", note->event, sizeof note->event},
-               {"site", note->site, sizeof note->site},
-               {"round", note->round, sizeof note->round},
-               {"name", note->name, sizeof note->name},
-               {"comment", note->comment, sizeof note->comment},
-               {"offer", note->offer, sizeof note->offer},
-               {"answer", note->answer, sizeof note->answer}};
+  } texts[] = {
+      {"date", note->date, sizeof note->date},    {"event", note->event, sizeof note->event},
+      {"site", note->site, sizeof note->site},    {"round", note->round, sizeof note->round},
+      {"name", note->name, sizeof note->name},    {"comment", note->comment, sizeof note->comment},
+      {"offer", note->offer, sizeof note->offer}, {"answer", note->answer, sizeof note->answer}};
   bool says_something = note->extras > 0 || note->seconds != 0.0;
   for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
     *key = texts[k].key;

@@ -94,29 +94,34 @@ static const carom_field event[] = {CAROM_RECORD_FIELD("time", DOUBLE, true, 1, 
 static const carom_field end[] = {CAROM_RECORD_FIELD("shots", INT64, true, 1, shots),
                                   CAROM_RECORD_FIELD("hash", HASH, true, 1, hash), CAROM_NO_FIELD};
 
-#define NOTE_TEXT(member)                                                               \
-  {                                                                                     \
-    #member, CAROM_VALUE_WORDS, false, 1, offsetof(carom_record, note.member),          \
-        sizeof(((carom_record *)0)->note.member), 0, NULL                               \
+#define NOTE_TEXT(member)                                                      \
+  {                                                                            \
+#member, CAROM_VALUE_WORDS, false, 1, offsetof(carom_record, note.member), \
+        sizeof(((carom_record *)0)->note.member), 0, NULL                      \
   }
-static const carom_field note[] = {
-    CAROM_RECORD_FIELD("seat", SEAT, false, 1, note.by),
-    NOTE_TEXT(date),
-    NOTE_TEXT(event),
-    NOTE_TEXT(site),
-    NOTE_TEXT(round),
-    NOTE_TEXT(name),
-    NOTE_TEXT(comment),
-    NOTE_TEXT(offer),
-    NOTE_TEXT(answer),
-    CAROM_RECORD_FIELD("seconds", DOUBLE, false, 1, note.seconds),
-    {"x_", CAROM_VALUE_EXTRAS, false, CAROM_NOTE_EXTRAS, offsetof(carom_record, note.extra),
-     sizeof(carom_note_extra), offsetof(carom_record, note.extras), NULL},
-    CAROM_NO_FIELD};
+static const carom_field note[] = {CAROM_RECORD_FIELD("seat", SEAT, false, 1, note.by),
+                                   NOTE_TEXT(date),
+                                   NOTE_TEXT(event),
+                                   NOTE_TEXT(site),
+                                   NOTE_TEXT(round),
+                                   NOTE_TEXT(name),
+                                   NOTE_TEXT(comment),
+                                   NOTE_TEXT(offer),
+                                   NOTE_TEXT(answer),
+                                   CAROM_RECORD_FIELD("seconds", DOUBLE, false, 1, note.seconds),
+                                   {"x_", CAROM_VALUE_EXTRAS, false, CAROM_NOTE_EXTRAS,
+                                    offsetof(carom_record, note.extra), sizeof(carom_note_extra),
+                                    offsetof(carom_record, note.extras), NULL},
+                                   CAROM_NO_FIELD};
 /* The value of an extra. */
-static const carom_field extra_text = {
-    NULL, CAROM_VALUE_WORDS, true, 1, offsetof(carom_note_extra, text),
-    sizeof(((carom_note_extra *)0)->text), 0, NULL};
+static const carom_field extra_text = {NULL,
+                                       CAROM_VALUE_WORDS,
+                                       true,
+                                       1,
+                                       offsetof(carom_note_extra, text),
+                                       sizeof(((carom_note_extra *)0)->text),
+                                       0,
+                                       NULL};
 
 static const char *find_fault_of_note(const carom_record *record, const char **key) {
   return carom_note_fault(&record->note, key);
@@ -498,8 +503,7 @@ static bool read_digits(reader *in, const carom_field *f, unsigned char *text) {
   static const char usual[] = "+-.0123456789eE";
   words to = {text, 0, f->size - 1};
   memset(text, 0, f->size);
-  while (in->position < in->end && *in->position != '\0' &&
-         strchr(usual, *in->position) != NULL)
+  while (in->position < in->end && *in->position != '\0' && strchr(usual, *in->position) != NULL)
     if (!add_byte(in, &to, (unsigned char)*in->position++))
       return false;
   return to.size > 0 || wrong(in, "must be a text in quotes or a number");

@@ -135,7 +135,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (good_lines == 0) {
     carom_table_make(CAROM_TABLE_POOL_7FT, &game.table);
     record_game(&game);
-    game.note = (carom_note){.comment = "a \"kiss\", \\u00fc", .seconds = 2.5, .by = 1, .extras = 2};
+    game.note =
+        (carom_note){.comment = "a \"kiss\", \\u00fc", .seconds = 2.5, .by = 1, .extras = 2};
     game.note.extra[0] = (carom_note_extra){.key = "x_elo", .text = "1.5e3", .is_number = 1};
     game.note.extra[1] = (carom_note_extra){.key = "x_app", .text = "of another"};
     add_line(&game, CAROM_RECORD_NOTE);

@@ -99,7 +99,8 @@ function inJavaScript(text: string): string {
 /** The number of a text such as "0x1.8p+1". */
 function fromHex(text: string): number {
   const [, sign, whole, digits = "", exponent] = /^(-?)0x([01])(?:\.(\w+))?p([+-]\d+)$/.exec(text)!;
-  const size = Number.parseInt(`0${whole}${digits}`, 16) * 2 ** (Number(exponent) - 4 * digits.length);
+  const size =
+    Number.parseInt(`0${whole}${digits}`, 16) * 2 ** (Number(exponent) - 4 * digits.length);
   return sign === "-" ? -size : size;
 }
 

@@ -376,8 +376,7 @@ impl Match {
         }
         self.scratch.note.seconds = seconds;
         let seat = seat.map_or(-1, |seat| seat.min(sys::CAROM_SEATS_MOST as usize) as i32);
-        let status =
-            unsafe { sys::carom_match_note(&mut *self.of, seat, &self.scratch.note) };
+        let status = unsafe { sys::carom_match_note(&mut *self.of, seat, &self.scratch.note) };
         self.told(status)
     }
 
