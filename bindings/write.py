@@ -256,7 +256,7 @@ class CSharp(Layer):
 
     BASE = {c: csharp for c, _, csharp, _ in TYPES}
     SAFE_MOST = 32  # numbers of an array that code without pointers reads and sets
-    # System and UnityEngine, which games import beside Carom, have types of these names.
+    # System and UnityEngine, which games import next to Carom, have types of these names.
     RENAMED = {
         "Bounds": "HandBounds",
         "Event": "ShotEvent",
@@ -387,7 +387,7 @@ namespace Carom {"""
         return self.type({**about, "pointer": 0})
 
     def is_large(self, about):
-        """Whether Mono refuses to pass it by value."""
+        """Whether Mono cannot pass it by value."""
         return self.structs[about["type"]]["size"] > self.PASSED_MOST
 
     def function(self, function, roles, of_match):

@@ -328,9 +328,9 @@ def sentence(path=MACHINES):
     if ("time_slip", "exact", "") in known:
         error = f"{float(known['error_slip', 'exact', '']):.1e}".replace("e-0", "e-")
         text += (
-            " `base` computes pooltool's slip, the solvers the paper's: with pooltool's, a call of "
-            f"`exact` takes {known['time_slip', 'exact', '']} times as long, and its error is at "
-            f"most {error}."
+            " `base` uses pooltool's slip, and the solvers use the paper's. With pooltool's slip, "
+            f"a call of `exact` takes {known['time_slip', 'exact', '']} times as long, and its "
+            f"error is at most {error}."
         )
     return textwrap.fill(text, PAGE_WIDTH, break_on_hyphens=False) + "\n"
 

@@ -66,24 +66,24 @@ static class Hostile {
   }
 
   static void Judge(LiveMatch game, List<string> act, string[] row) {
-    string name = row[0], text = row[2], before = StateOf(game);
+    string name = row[0], text = row[2], state = StateOf(game);
     try {
       Must(!game.Receive(text, int.Parse(row[1])), $"{name} is accepted");
       Must(text.Trim() == "" || text.StartsWith("{\"event\""), $"{name} is not refused");
     } catch (CaromException refused) {
       Must(refused.Message != "", $"{name} has no reason");
     }
-    Must(StateOf(game) == before, $"{name} changed the match");
+    Must(StateOf(game) == state, $"{name} changed the match");
 
     // The honest act: its line, then those of its ruling, then all again.
-    using (var after = game.Copy()) {
-      Must(after.Receive(act[0], 0), $"{name}: the honest line is not accepted behind it");
+    using (var twin = game.Copy()) {
+      Must(twin.Receive(act[0], 0), $"{name}: the honest line is not accepted behind it");
       string lines = game.Lines + string.Join("\n", act) + "\n";
-      Must(after.Lines == lines, $"{name}: the honest act has other lines behind it");
+      Must(twin.Lines == lines, $"{name}: the honest act has other lines behind it");
       for (int times = 0; times < 2; times++)
         foreach (var one in act)
-          Must(!after.Receive(one, 0), $"{name}: a line is new");
-      Must(after.Lines == lines && after.Actor == 0, $"{name}: a known line changed the match");
+          Must(!twin.Receive(one, 0), $"{name}: a line is new");
+      Must(twin.Lines == lines && twin.Actor == 0, $"{name}: a known line changed the match");
     }
   }
 }

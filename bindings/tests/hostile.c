@@ -12,19 +12,19 @@
 
 static carom_match begun, placed, act, match;
 
-static void put_lines(FILE *file, const char *word, const carom_match *of) {
-  const char *at = of->text;
-  while (at < of->text + of->size) {
-    const int size = (int)hostile_size(at);
-    fprintf(file, "%s %.*s\n", word, size, at);
-    at += size + 1;
+static void put_lines(FILE *file, const char *word, const carom_match *source) {
+  const char *line = source->text;
+  while (line < source->text + source->size) {
+    const int size = (int)hostile_size(line);
+    fprintf(file, "%s %.*s\n", word, size, line);
+    line += size + 1;
   }
 }
 
-static int write_rows(const char *from, FILE *file) {
+static int write_rows(const char *path, FILE *file) {
   static char text[HOSTILE_MOST];
   static hostile_row row;
-  FILE *rows = fopen(from, "r");
+  FILE *rows = fopen(path, "r");
   if (rows == NULL)
     return -1;
   put_lines(file, "begin", &begun);

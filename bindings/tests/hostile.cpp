@@ -44,7 +44,7 @@ int main(int, char **arguments) {
     const int seat = std::stoi(rest.substr(bar + 1));
     const bool is_empty =
         text.find_first_not_of(' ') == std::string::npos || text.rfind("{\"event\"", 0) == 0;
-    const std::string before = state_of(game);
+    const std::string state = state_of(game);
     std::string why;
     try {
       game.receive(text, seat);
@@ -52,17 +52,17 @@ int main(int, char **arguments) {
       why = refused.what();
     }
     must(!why.empty() || is_empty, name + " is accepted, or has no reason");
-    must(state_of(game) == before, name + " changed the match");
+    must(state_of(game) == state, name + " changed the match");
 
     /* the honest act: its line, then those of its ruling, then all again */
-    carom::match after = game.copy();
-    after.receive(act[0], 0);
+    carom::match twin = game.copy();
+    twin.receive(act[0], 0);
     const std::string lines = game.lines() + honest;
-    must(after.lines() == lines, name + ": the honest act has other lines behind it");
+    must(twin.lines() == lines, name + ": the honest act has other lines behind it");
     for (int times = 0; times < 2; times++)
       for (const std::string &one : act)
-        after.receive(one, 0);
-    must(after.lines() == lines && after.actor() == 0, name + ": a known line changed the match");
+        twin.receive(one, 0);
+    must(twin.lines() == lines && twin.actor() == 0, name + ": a known line changed the match");
     sent++;
   }
 

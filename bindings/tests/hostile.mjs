@@ -20,7 +20,7 @@ for (const line of readFileSync(process.argv[2], "utf8").split("\n").slice(0, -1
   } else if (word === "act") act.push(`${rest}\n`);
   else {
     const [, name, seat, text] = /^([^|]*)\|(\d+)\|(.*)$/.exec(rest);
-    const before = stateOf(game);
+    const state = stateOf(game);
     try {
       assert(!game.receive(text, Number(seat)), `${name} is accepted`);
       assert(text.trim() === "" || text.startsWith('{"event"'), `${name} is not refused`);
@@ -28,17 +28,16 @@ for (const line of readFileSync(process.argv[2], "utf8").split("\n").slice(0, -1
       if (!(error instanceof CaromError)) throw error;
       assert.notEqual(error.message, "", `${name} has no reason`);
     }
-    assert.deepEqual(stateOf(game), before, `${name} changed the match`);
+    assert.deepEqual(stateOf(game), state, `${name} changed the match`);
 
     // The honest act: its line, then those of its ruling, then all again.
-    const after = game.copy();
-    assert(after.receive(act[0], 0), `${name}: the honest line is not accepted behind it`);
+    const twin = game.copy();
+    assert(twin.receive(act[0], 0), `${name}: the honest line is not accepted behind it`);
     const lines = [...game.lines, ...act];
-    assert.deepEqual(after.lines, lines, `${name}: the honest act has other lines behind it`);
-    for (const known of [...act, ...act])
-      assert(!after.receive(known, 0), `${name}: a line is new`);
-    assert.deepEqual([after.lines, after.actor], [lines, 0]);
-    after.free();
+    assert.deepEqual(twin.lines, lines, `${name}: the honest act has other lines behind it`);
+    for (const known of [...act, ...act]) assert(!twin.receive(known, 0), `${name}: a line is new`);
+    assert.deepEqual([twin.lines, twin.actor], [lines, 0]);
+    twin.free();
     sent++;
   }
 }

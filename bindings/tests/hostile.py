@@ -25,21 +25,21 @@ for line in Path(sys.argv[1]).read_text().split("\n")[:-1]:
     else:
         rows.append(rest.split("|", 2))
 for name, seat, text in rows:
-    before, why = state_of(game), ""
+    state, why = state_of(game), ""
     try:
         assert not game.receive(text, int(seat)), f"{name} is accepted"
         assert text.strip() == "" or text.startswith('{"event"'), f"{name} is not refused"
     except carom.CaromError as refused:
         why = str(refused)
         assert why, f"{name} has no reason"
-    assert state_of(game) == before, f"{name} changed the match"
+    assert state_of(game) == state, f"{name} changed the match"
 
     # The honest act: its line, then those of its ruling, then all again.
-    after = game.copy()
-    assert after.receive(act[0], 0), f"{name}: the honest line is not accepted behind it"
-    assert after.lines == game.lines + act, f"{name}: the honest act has other lines behind it"
-    assert not any(after.receive(line, 0) for line in act + act), f"{name}: a line is new"
-    assert (after.lines, after.actor) == (game.lines + act, 0)
+    twin = game.copy()
+    assert twin.receive(act[0], 0), f"{name}: the honest line is not accepted behind it"
+    assert twin.lines == game.lines + act, f"{name}: the honest act has other lines behind it"
+    assert not any(twin.receive(line, 0) for line in act + act), f"{name}: a line is new"
+    assert (twin.lines, twin.actor) == (game.lines + act, 0)
 
 # A note, and some that are refused.
 talk = game.copy()

@@ -12,7 +12,7 @@ fn judge(game: &mut Match, act: &[String], row: &str) -> Result<(), Error> {
     let mut parts = row.splitn(3, '|');
     let mut next = || parts.next().expect("NAME|SEAT|LINE");
     let (name, seat, text) = (next(), next(), next());
-    let before = state_of(game);
+    let state = state_of(game);
     match game.receive(text, seat.parse().ok()) {
         Ok(is_new) => {
             let is_empty = text.trim().is_empty() || text.starts_with("{\"event\"");
@@ -20,18 +20,18 @@ fn judge(game: &mut Match, act: &[String], row: &str) -> Result<(), Error> {
         }
         Err(refused) => assert!(!refused.fault.is_empty(), "{name} has no reason"),
     }
-    assert_eq!(state_of(game), before, "{name} changed the match");
+    assert_eq!(state_of(game), state, "{name} changed the match");
 
     // The honest act: its line, then those of its ruling, then all again.
-    let mut after = game.copy()?;
-    assert!(after.receive(&act[0], Some(0))?, "{name}: the honest line");
+    let mut twin = game.copy()?;
+    assert!(twin.receive(&act[0], Some(0))?, "{name}: the honest line");
     let lines = format!("{}{}\n", game.lines(), act.join("\n"));
-    assert_eq!(after.lines(), lines, "{name}: the honest act");
+    assert_eq!(twin.lines(), lines, "{name}: the honest act");
     for line in act.iter().chain(act) {
-        assert!(!after.receive(line, Some(0))?, "{name}: a line is new");
+        assert!(!twin.receive(line, Some(0))?, "{name}: a line is new");
     }
-    assert_eq!(after.lines(), lines, "{name}: a known line");
-    assert_eq!(after.actor(), Some(0));
+    assert_eq!(twin.lines(), lines, "{name}: a known line");
+    assert_eq!(twin.actor(), Some(0));
     Ok(())
 }
 

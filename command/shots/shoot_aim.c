@@ -80,12 +80,14 @@ bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *op
   char text[BALL_TEXT], names[NAMES_TEXT], hint[HINT_TEXT];
   carom_event contact;
   const int index = ball_named(l, name, strlen(name), names);
-  did_you_mean(name, names, hint);
-  if (index < 0)
-    complain("--at-ball '%s': there is no such ball; the balls of --balls are %s%s", name,
-             names_there(names), hint);
+  if (index < 0 && names[0] == '\0')
+    complain("--at-ball '%s': there is no ball to aim at; try --balls 0.6,1.5 with --at-ball 1",
+             name);
+  else if (index < 0)
+    complain("--at-ball '%s': no such ball; try %s, of --balls", name,
+             words_to_try(name, names, hint));
   else if (!(fabs(cut) < 90.0))
-    complain("--cut is between -90 and 90 degrees");
+    complain("--cut '%g': no contact; try an angle between -90 and 90 degrees", cut);
   else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)
     return true; /* which is told when it is played */
   else {

@@ -12,10 +12,10 @@ static const carom_plan_options options = {.shots = 100};
 static carom_plan_job job = {.options = &options};
 static char awaited[CAROM_RECORD_TEXT]; /* the last line that was sent, until it comes back. */
 
-static void expect(carom_status status, const carom_match *of) {
+static void expect(carom_status status, const carom_match *judge) {
   if (status >= 0)
     return;
-  fprintf(stderr, "%s: %s\n", carom_status_string(status), of->fault);
+  fprintf(stderr, "%s: %s\n", carom_status_string(status), judge->fault);
   exit(EXIT_FAILURE);
 }
 
@@ -46,12 +46,13 @@ static void act(FILE *server) {
 int main(int count, char **arguments) {
   if (count != 3)
     return EXIT_FAILURE;
-  struct sockaddr_in to = {.sin_family = AF_INET, .sin_port = htons((in_port_t)atoi(arguments[2]))};
+  struct sockaddr_in address = {.sin_family = AF_INET,
+                                .sin_port = htons((uint16_t)atoi(arguments[2]))};
   const int connection = socket(AF_INET, SOCK_STREAM, 0);
-  if (inet_pton(AF_INET, arguments[1], &to.sin_addr) != 1 ||
-      connect(connection, (const void *)&to, sizeof to) != 0)
+  if (inet_pton(AF_INET, arguments[1], &address.sin_addr) != 1 ||
+      connect(connection, (const void *)&address, sizeof address) != 0)
     return EXIT_FAILURE;
-  FILE *from = fdopen(connection, "r"), *server = fdopen(dup(connection), "w");
+  FILE *input = fdopen(connection, "r"), *server = fdopen(dup(connection), "w");
   const carom_player player = carom_player_rated(600.0, CAROM_RULES_NINEBALL);
   job.player = &player;
   job.memory_size = carom_plan_memory(&options);
@@ -59,7 +60,7 @@ int main(int count, char **arguments) {
   char *line = NULL;
   size_t room = 0;
   int seat = -1;
-  while (match.record.kind != CAROM_RECORD_END && getline(&line, &room, from) > 0) {
+  while (match.record.kind != CAROM_RECORD_END && getline(&line, &room, input) > 0) {
     if (line[0] == '{') {
       expect(carom_match_receive(&match, &scratch, line, strlen(line), -1), &match);
       fputs(line, stdout);

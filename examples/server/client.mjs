@@ -33,7 +33,7 @@ function receive(line) {
     server.close();
   } else if (isMine && awaited === "") {
     const lines = act();
-    awaited = lines.at(-1).trimEnd();
+    awaited = lines[lines.length - 1].trimEnd();
     server.send(lines.join(""));
   }
 }

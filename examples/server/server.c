@@ -37,11 +37,11 @@ static void receive(int seat) {
   const ssize_t got = read(sockets[seat].fd, line + sizes[seat], LINE_MOST - sizes[seat]);
   sizes[seat] += got > 0 ? (size_t)got : 0;
   for (char *end; (end = memchr(line, '\n', sizes[seat])) != NULL;) {
-    const int64_t before = match.record.line;
+    const int64_t known = match.record.line;
     const size_t size = (size_t)(end + 1 - line);
     if (carom_match_receive(&match, &scratch, line, size, seat) < 0)
       send_to(seat, why, (size_t)snprintf(why, sizeof why, "refused %s\n", match.fault));
-    else if (match.record.line != before)
+    else if (match.record.line != known)
       publish();
     sizes[seat] -= size;
     memmove(line, end + 1, sizes[seat]);
@@ -65,13 +65,13 @@ static void let_in(int connection) {
   send_to(seat, text, (size_t)snprintf(text, sizeof text, "seat %d\n", seat));
 }
 
-int main(int count, char **arguments) {
+int main(int count, char **words) {
   if (count != 3)
     return EXIT_FAILURE;
-  struct sockaddr_in at = {.sin_family = AF_INET, .sin_port = htons((in_port_t)atoi(arguments[1]))};
+  struct sockaddr_in address = {.sin_family = AF_INET, .sin_port = htons((uint16_t)atoi(words[1]))};
   const int listening = socket(AF_INET, SOCK_STREAM, 0);
   setsockopt(listening, SOL_SOCKET, SO_REUSEADDR, &(int){1}, sizeof(int));
-  if (bind(listening, (const void *)&at, sizeof at) != 0 || listen(listening, 8) != 0)
+  if (bind(listening, (const void *)&address, sizeof address) != 0 || listen(listening, 8) != 0)
     return EXIT_FAILURE;
   memset(sockets, -1, sizeof sockets);
   sockets[CLIENTS_MOST] = (struct pollfd){.fd = listening, .events = POLLIN};
@@ -92,7 +92,7 @@ int main(int count, char **arguments) {
       publish();
     }
     if (turn != match.rulings && (turn >= 0 || sockets[1].fd >= 0))
-      due = time(NULL) + atoi(arguments[2]);
+      due = time(NULL) + atoi(words[2]);
     if (due > 0)
       turn = match.rulings;
   }

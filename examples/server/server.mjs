@@ -52,22 +52,22 @@ let turn;
 let due = 0; // of the stroke, once both seats are taken
 while (match.phase !== "over") {
   await sleep(100);
-  const now = `${match.shots} ${match.seat}`;
-  const isDue = turn === now && Date.now() >= due;
+  const state = `${match.shots} ${match.seat}`;
+  const isDue = turn === state && Date.now() >= due;
   if (isDue) {
     const known = match.lines.length;
     if (match.phase === "moving") match.continue();
     else match.clock();
     publish(known);
   }
-  if (isDue || (turn !== now && (turn !== undefined || clients.has(1)))) {
+  if (isDue || (turn !== state && (turn !== undefined || clients.has(1)))) {
     turn = `${match.shots} ${match.seat}`;
     due = Date.now() + 1000 * seconds;
   }
 }
-if (!match.lines.at(-1).startsWith('{"end"')) {
+if (!match.lines.pop().startsWith('{"end"')) {
   const known = match.lines.length;
-  match.receive(match.copy().end().split("\n").at(-2), null);
+  match.receive(match.copy().end().trimEnd().split("\n").pop(), null);
   publish(known);
 }
 await sleep(1000); // in which all read the end

@@ -58,13 +58,13 @@ async def main(port, seconds):
     turn, due = None, 0.0  # of the stroke, once both seats are taken
     while match.phase != "over":
         await asyncio.sleep(0.1)
-        now = match.shots, match.seat
-        is_due = turn == now and time.monotonic() >= due
+        state = match.shots, match.seat
+        is_due = turn == state and time.monotonic() >= due
         if is_due:
             known = len(match.lines)
             match.resume() if match.phase == "moving" else match.clock()
             publish(known)
-        if is_due or (turn != now and (turn is not None or 1 in clients)):
+        if is_due or (turn != state and (turn is not None or 1 in clients)):
             turn, due = (match.shots, match.seat), time.monotonic() + seconds
     server.close()
     await asyncio.sleep(1)  # in which all read the end

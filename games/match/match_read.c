@@ -28,7 +28,7 @@ static size_t line_due(const carom_match *match) {
   return (size_t)(end - match->text) + 1;
 }
 
-/* The line that was due has come. */
+/* The line that was due was read. */
 static void take_line(carom_match *match, size_t length) {
   match->size = match->due -= (int64_t)length;
   memmove(match->text, match->text + length, (size_t)match->size);
@@ -81,10 +81,10 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
   const int64_t kind = record->kind;
   if (kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE || kind == CAROM_RECORD_ACT ||
       kind == CAROM_RECORD_END)
-    return refuse_line(match, record->line, "a line \"game\" must come before it");
+    return refuse_line(match, record->line, "a line \"game\" must precede it");
   if (kind == CAROM_RECORD_HEAD && record->match != 1)
     return refuse_line(match, record->line,
-                       "this is a recording of format 2, and no match: replay it");
+                       "this is a recording of format 2, not a match; replay it");
   if (kind != CAROM_RECORD_GAME)
     return CAROM_OK;
 
@@ -165,7 +165,7 @@ static carom_status do_act(carom_match *match, const act_of_line *line) {
     break;
   default:
     return carom_match_refuse(match, CAROM_REFUSED_LINE, "line",
-                              "by the rules nothing of this kind follows");
+                              "the rules allow no line of this kind here");
   }
   switch (line->act) {
   case CAROM_ACT_CHOOSE:
@@ -200,21 +200,31 @@ static bool has_seat_of_note(const carom_match *match, char right[80]) {
   return by <= match->seating.count;
 }
 
+/* How many lines are due, which the record has counted already. */
+static int64_t count_due(const carom_match *match) {
+  int64_t lines = 0;
+  for (int64_t k = 0; k < match->due; k++)
+    if (match->text[k] == '\n')
+      lines++;
+  return lines;
+}
+
 /* A note of a file. */
 static carom_status read_note(carom_match *match, const char *line, size_t size) {
   carom_record *record = &match->record;
+  const int64_t number = record->line + 1 - count_due(match);
   char right[80];
   const carom_status status = carom_record_read(record, line, size);
   if (status != CAROM_OK) {
-    snprintf(match->fault, sizeof match->fault, "line %lld: %s", (long long)record->line,
-             record->fault);
+    snprintf(match->fault, sizeof match->fault, "line %lld: %s", (long long)number, record->fault);
     match->refusal = CAROM_REFUSED_LINE;
     return status;
   }
   if (!has_seat_of_note(match, right))
-    return refuse_line(match, record->line, right);
-  if (match->due ==
-      0) { /* the lines of an act are written; the note is no line of this match's own */
+    return refuse_line(match, number, right);
+
+  /* where nothing is due, the caller has the lines of the last act already */
+  if (match->due == 0) {
     match->known += match->size;
     match->size = 0;
   }
@@ -267,7 +277,7 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
     return read_beginning(match, line, size);
   }
   if (is_kind(line, size, "event") && record->kind != CAROM_RECORD_WRONG)
-    return CAROM_OK; /* the shot tells its events */
+    return CAROM_OK; /* the shot reports its events */
   if (is_kind(line, size, "note") && record->kind != CAROM_RECORD_WRONG)
     return read_note(match, line, size);
 
@@ -291,21 +301,21 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
 /* ---- A peer */
 
 /* Everything of a match but the part of its text that has no lines. */
-static void copy_match(carom_match *to, const carom_match *from) {
-  memcpy(to, from, offsetof(carom_match, text) + (size_t)(from->size + from->known));
+static void copy_match(carom_match *target, const carom_match *source) {
+  memcpy(target, source, offsetof(carom_match, text) + (size_t)(source->size + source->known));
 }
 
 /* Whether match->text has this line: the act was taken before, or the line is of its ruling, or it is
  * the last note. */
 static bool is_known(const carom_match *match, const char *line, size_t size) {
-  const char *at = match->text, *const end = match->text + match->size + match->known;
-  while (at < end) {
-    const char *next = memchr(at, '\n', (size_t)(end - at));
+  const char *start = match->text, *const end = match->text + match->size + match->known;
+  while (start < end) {
+    const char *next = memchr(start, '\n', (size_t)(end - start));
     if (next == NULL)
       return false;
-    if ((size_t)(next - at) == size && memcmp(at, line, size) == 0)
+    if ((size_t)(next - start) == size && memcmp(start, line, size) == 0)
       return true;
-    at = next + 1;
+    start = next + 1;
   }
   return false;
 }
@@ -339,9 +349,9 @@ static bool may_send(const carom_match *match, const act_of_line *line, int seat
 }
 
 /* Reads an act into a match that may be spoilt, because the caller has another. */
-static carom_status receive_act(carom_match *match, const carom_match *before, const char *line,
+static carom_status receive_act(carom_match *match, const carom_match *original, const char *line,
                                 size_t size, int seat) {
-  const int64_t number = before->record.line + 1;
+  const int64_t number = original->record.line + 1;
   match->size = match->known = match->due = 0;
   carom_status status;
   char right[200];
@@ -355,7 +365,7 @@ static carom_status receive_act(carom_match *match, const carom_match *before, c
       return status;
     }
     const act_of_line act = act_in(&match->record);
-    match->record = before->record;
+    match->record = original->record;
     if (seat >= 0 && !may_send(match, &act, seat, right))
       return refuse_peer(match, CAROM_REFUSED_TURN, number, right);
     status = do_act(match, &act);
@@ -435,7 +445,8 @@ carom_status carom_match_receive(carom_match *match, carom_match *scratch, const
 
 /* ---- Undo */
 
-/* Whether a line is one that a player caused: an act. A cue ball that comes in hand is none. */
+/* Whether a line is one that a player caused: an act. A cue ball that is taken in hand is not
+ * placed. */
 static bool is_act(const char *line, size_t size) {
   static const char in_hand[] = "\"hand\":1";
   if (is_kind(line, size, "act") || is_kind(line, size, "shot") ||

@@ -53,11 +53,11 @@ static inline carom_status hostile_begin(carom_match *begun, carom_match *placed
 /* The line with the first `old` replaced by `new`. */
 static inline bool hostile_replace(hostile_row *row, const char *old, const char *new) {
   static char changed[HOSTILE_MOST];
-  const char *at = strstr(row->line, old);
-  if (at == NULL)
+  const char *found = strstr(row->line, old);
+  if (found == NULL)
     return false;
-  row->size = (size_t)snprintf(changed, sizeof changed, "%.*s%s%s", (int)(at - row->line),
-                               row->line, new, at + strlen(old));
+  row->size = (size_t)snprintf(changed, sizeof changed, "%.*s%s%s", (int)(found - row->line),
+                               row->line, new, found + strlen(old));
   memcpy(row->line, changed, row->size + 1);
   return true;
 }
@@ -82,8 +82,8 @@ static inline bool hostile_act(hostile_row *row, const char *text, const carom_m
 }
 
 /* Reads a row of hostile.txt. False: it is not as the head of that file says. */
-static inline bool hostile_read(const char *text, const carom_match *placed,
-                                const carom_match *act, hostile_row *row) {
+static inline bool hostile_read(const char *text, const carom_match *placed, const carom_match *act,
+                                hostile_row *row) {
   int number, seat;
   char old[200], new[200], form[1000] = "";
   if (sscanf(text, "%99[^|]| %d | %999[^\n]", row->name, &seat, form) < 2)

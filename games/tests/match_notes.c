@@ -182,7 +182,7 @@ TEST(hostile_notes) {
       {"{\"note\":{\"seat\":2,\"comment\":\"x\"}}", -1, "turn", "seat 2 is not one of"},
       {"{\"note\":{\"seat\":0,\"comment\":\"\\u001b[2J\"}}", 0, "line", "no control characters"},
       {"{\"note\":{\"seat\":0,\"comment\":\"\xff\"}}", 0, "line", "must be UTF-8"},
-      {"{\"note\":{\"seat\":0,\"winner\":1}}", 0, "line", "note.winner is no key"},
+      {"{\"note\":{\"seat\":0,\"winner\":1}}", 0, "line", "note.winner is not a key"},
       {"{\"note\":{\"seat\":0}}", 0, "line", "says nothing"},
       {"{\"note\":{\"seat\":0,\"comment\":\"x\"}", 0, "line", "cut off"},
       {"{\"note\":{\"seat\":0,\"comment\":\"x\"},\"end\":{}}", 0, "line", "only key"},

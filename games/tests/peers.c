@@ -1,5 +1,5 @@
-/* Lines of peers: whatever a peer sends, a refused line leaves the match as it was, and an honest line
- * is accepted after it. hostile.txt has the lines that the tests of all languages send. */
+/* Lines of peers: whatever a peer sends, a refused line leaves the match as it was, and an honest
+ * line is accepted after it. hostile.txt has the lines that the tests of all languages send. */
 #include "hostile.h"
 #include "match_support.h"
 

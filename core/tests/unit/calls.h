@@ -1,4 +1,4 @@
-/* Every public function, a row each, for functions.h, which says what stands in a row. */
+/* Every public function, a row each, for functions.h, which says what is in a row. */
 OTHER(alciatore, (law = carom_alciatore(), ACCEPTED))
 STATUS(bank_of, INT(bank_index), PTR(&bank))
 STATUS(calibrate, PTR(&table), PTR(&balls[0].kind), MAYBE(readings), PTR(&calibration))

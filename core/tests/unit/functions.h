@@ -469,7 +469,7 @@ static carom_match *moving(void) {
 #endif
 
 /* ---- The functions. calls.h has a row for each, with the arguments of carom_NAME(): once they
- * are its call, and once its place in a table. The call gives a STATUS; or ACCEPTED, with any
+ * are its call, and once its position in a table. The call gives a STATUS; or ACCEPTED, with any
  * VALUE, a NUMBER, NAN where there is none, a WORD, NULL where there is none, or by OTHER steps. */
 
 #define LAYOUT PTR(balls), INT(count)

@@ -156,8 +156,8 @@ TEST(notes_that_are_refused) {
   write_game(false);
   refused("{}", "note says nothing");
   refused("{\"seat\":1}", "note says nothing");
-  refused("{\"chat\":\"hi\"}", "note.chat is no key of the format");
-  refused("{\"X_a\":\"hi\"}", "note.X_a is no key of the format");
+  refused("{\"chat\":\"hi\"}", "note.chat is not a key of the format");
+  refused("{\"X_a\":\"hi\"}", "note.X_a is not a key of the format");
   refused("{\"comment\":7}", "note.comment must be a text in quotes");
   refused("{\"comment\":\"a\",\"comment\":\"b\"}", "note.comment comes twice");
   refused("{\"comment\":\"\x1b[2J\"}", "note.comment must have no control characters");
@@ -189,7 +189,7 @@ TEST(notes_that_are_refused) {
   refused("{\"comment\":\"a\",\"seat\":8}", "note.seat must be 0 to 7");
   refused("{\"comment\":\"a\",\"seat\":-1}", "note.seat must be 0 to 7");
   refused("{\"comment\":\"a\",\"seat\":0.5}", "note.seat must be 0 to 7");
-  refused("{\"comment\":\"a\",\"hash\":\"0123456789abcdef\"}", "note.hash is no key");
+  refused("{\"comment\":\"a\",\"hash\":\"0123456789abcdef\"}", "note.hash is not a key");
   refused("{\"x_\":1}", "must have keys of x_");
   refused("{\"x_a-b\":1}", "must have keys of x_");
   refused("{\"x_a234567890123456789012345678901\":1}", "must have keys of x_");

@@ -1,14 +1,15 @@
-"""The racks, with the cue ball first: `carom.racks.nineball(table)`.
+"""Racks, with the cue ball first: `carom.racks.nineball(table)`.
 
-Each takes the table, the gap between neighbours (m; 0 is a frozen rack), the seed, a whole number
-or a `numpy.random.Generator`, and the model of the cushion whose constants the balls have, as in
-`carom.balls`. The seed draws by how much each ball is moved, up to a quarter of the gap, and where
-the other balls of the rack go. The result is an ndarray of `carom.dtypes.shot_ball`.
+Each function has the same parameters: the table; the gap between neighbours, m (0: a frozen rack);
+a seed, an integer or a `numpy.random.Generator`; and the model of the cushion for which the balls'
+constants are chosen, as in `carom.balls`. The seed determines the displacement of each ball, up to
+a quarter of the gap, and the order of the balls that may be anywhere. Each returns an ndarray of
+`carom.dtypes.shot_ball`.
 """
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, cast
 
 import numpy as np
 
@@ -20,7 +21,18 @@ from carom.layouts import Table, check_table
 from carom.status import CaromError
 
 
-_GAMES: dict[str, Game] = {"snooker": "snooker", "threecushion": "billiard"}
+def _games() -> dict[int, Game]:
+    """The game whose balls each rack has, for racks of games other than pool."""
+    names = list(worded("GAME"))
+    found: dict[int, Game] = {}
+    k = 0
+    while about := lib.carom_rules_about_of(k):
+        found[about.rack] = cast(Game, names[about.balls])
+        k += 1
+    return found
+
+
+_GAMES = _games()
 
 
 class _Rack(Protocol):
@@ -37,7 +49,7 @@ def _maker(name: str) -> _Rack:
     kind = worded("RACK")[name]
     text = f"{lib.carom_rack_size(kind)} balls: {ffi.string(lib.carom_word_text(lib.CAROM_WORDS_RACK, kind)).decode()}."
 
-    game: Game = _GAMES.get(name, "pool")
+    game: Game = _GAMES.get(kind, "pool")
 
     def make(
         table: Table,
@@ -52,7 +64,7 @@ def _maker(name: str) -> _Rack:
             pointer("carom_table[]", table.record),
             seed_of(seed, 2**64 - 1),
         )
-        gap = number(gap, "gap", "a distance in m is needed")
+        gap = number(gap, "gap", "a distance in m")
         code = lib.carom_rack(kind, of_table, gap, drawn, pointer("carom_shot_ball[]", balls), size)
         if code < 0:
             raise CaromError(code, "gap", gap, text="it must be 0 m to the radius of a ball")

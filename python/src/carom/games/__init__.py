@@ -1,4 +1,4 @@
-"""Games: their rules and plans, and environments for agents. `carom.plan` is `carom.games.plan`."""
+"""Rules of games, plans, and environments for agents. `carom.plan` is `carom.games.plan`."""
 
 from carom.games.coach import Drill, Odds, Review, best_breaks, odds, review
 from carom.games.match import Match

@@ -2,6 +2,7 @@
 // balls.
 import type { Contact, Cue, PlanStroke, ShotBall } from "carom";
 import { line } from "../../../player/table.js";
+import { colourOfShot } from "../../../player/words.js";
 import { onTable } from "./filmed.js";
 
 export const DEGREES = 180 / Math.PI;
@@ -113,7 +114,10 @@ export interface Sketch {
 }
 /** The colour of a sketch, as dense as it is to be. */
 export const colourOfSketch = (k: number, density = 1): string =>
-  `hsla(${47 + 70 * k}, 90%, 65%, ${density})`;
+  colourOfShot(k + 1) +
+  Math.round(255 * density)
+    .toString(16)
+    .padStart(2, "0");
 /** Draws zones, and the number of each sketch. Its lines are among those of the aim. */
 export function drawSketches({ g, place }: Pen, sketches: readonly Sketch[]): void {
   g.save();
