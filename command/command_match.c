@@ -2,6 +2,7 @@
  * carom_match.h. */
 #include "game/ratings.h"
 #include "program/program.h"
+#include "rows/number.h"
 #include "shots/places.h"
 #include "subcommands.h"
 
@@ -159,6 +160,46 @@ static void tell_act(FILE *out, const char *line, int64_t player, int64_t ruling
   decided[0] = '\0';
 }
 
+/* ---- Notes */
+
+/* Prints "NAME: VALUE" where there is a value, behind what is there already. */
+static void tell_text(FILE *out, const char **comma, const char *name, const char *words) {
+  if (words[0] == '\0')
+    return;
+  fprintf(out, "%s%s%s%s", *comma, name, text_if(name[0] != '\0', ": "), words);
+  *comma = "; ";
+}
+
+/* Tells the last note: who says it, and what. */
+static void tell_note(FILE *out) {
+  const carom_note *note = &match.record.note;
+  const char *comma = "";
+  char seconds[NUMBER_TEXT] = "";
+  if (out == NULL)
+    return;
+  if (note->by > 0)
+    fprintf(out, "note of player %" PRId64 ": ", note->by);
+  else
+    fprintf(out, "note: ");
+  tell_text(out, &comma, "", note->comment);
+  if (note->offer[0] != '\0')
+    tell_text(out, &comma, "offers",
+              strcmp(note->offer, "draw") == 0 ? "a draw" : "to take the last act back");
+  tell_text(out, &comma, "answers", note->answer);
+  if (note->seconds > 0.0) {
+    number_text(note->seconds, seconds);
+    tell_text(out, &comma, "seconds", seconds);
+  }
+  tell_text(out, &comma, "name", note->name);
+  tell_text(out, &comma, "date", note->date);
+  tell_text(out, &comma, "event", note->event);
+  tell_text(out, &comma, "site", note->site);
+  tell_text(out, &comma, "round", note->round);
+  for (int64_t k = 0; k < note->extras; k++)
+    tell_text(out, &comma, note->extra[k].key, note->extra[k].text);
+  fprintf(out, "\n");
+}
+
 /* ---- Reading */
 
 /* A saved match that is read: its file, where its lines are kept, and where they are told; NULL:
@@ -172,14 +213,17 @@ typedef struct saved_match {
 static bool read_line(void *context, const char *line, size_t size) {
   static carom_record scratch;
   saved_match *saved = context;
-  const int64_t player = match.seat, rulings = match.rulings;
+  const int64_t player = match.seat, rulings = match.rulings, before = match.record.line;
   const bool goes_on = match.phase != CAROM_MATCH_NONE && match.phase != CAROM_MATCH_OVER;
   if (carom_match_read(&match, &scratch, line, size) != CAROM_OK) {
     complain("%s: %s", saved->path, match.fault);
     saved->failed = true;
     return false;
   }
-  if (goes_on && (match.phase != CAROM_MATCH_OVER || match.winner != 0))
+  const bool is_note = match.record.line > before && match.record.kind == CAROM_RECORD_NOTE;
+  if (is_note)
+    tell_note(saved->words);
+  else if (goes_on && (match.phase != CAROM_MATCH_OVER || match.winner != 0))
     tell_act(saved->words, line, player, rulings);
   fwrite(line, 1, size, saved->text);
   return true;

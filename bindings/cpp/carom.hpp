@@ -27,6 +27,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -716,6 +717,41 @@ public:
   }
   carom_status end() {
     return told(carom_match_end(match_.get()));
+  }
+  /* Writes words into the recording: texts by their keys, such as {{"comment", "a kiss"}}, and the
+   * time in s that the last stroke took the player, 0: none. docs/reference/files.md has the keys;
+   * those of a caller begin with "x_". `who` -1: nobody in particular. */
+  carom_status note(int who,
+                    std::initializer_list<std::pair<std::string_view, std::string_view>> said,
+                    double seconds = 0.0) {
+    std::string line = "{\"note\":{";
+    for (const auto &[key, text] : said) {
+      line += line.back() == '{' ? "\"" : ",\"";
+      line += key;
+      line += "\":\"";
+      for (const char c : text) {
+        if (c == '"' || c == '\\')
+          line += '\\';
+        line += c;
+      }
+      line += '"';
+    }
+    line += "}}";
+
+    /* the library reads the texts, as it would those of a file */
+    *scratch_ = match_->record;
+    scratch_->note = {};
+    if (said.size() > 0) {
+      const carom_status code = carom_record_read(scratch_.get(), line.data(), line.size());
+      if (code < 0)
+        return checked(code, scratch_->fault);
+    }
+    scratch_->note.seconds = seconds;
+    return told(carom_match_note(match_.get(), who, &scratch_->note));
+  }
+  /* The last note. */
+  const carom_note &note() const {
+    return match_->record.note;
   }
 
   /* The best strokes of the seat at the table with its cue, whose errors are those of `by`. */

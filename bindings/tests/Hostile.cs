@@ -34,6 +34,29 @@ static class Hostile {
       }
     }
 
+    // A note, and some that are refused.
+    var talk = game.Copy();
+    talk.Note(1,
+              new Dictionary<string, string> { { "comment", "He said \"nice\"" },
+                                               { "offer", "draw" },
+                                               { "x_club", "A \\ B" } },
+              12.5);
+    string said = talk.Notes[0] + "\n";
+    foreach (var wrong in new[] { "comment two\nlines", "offer money", "chat hello", "comment " }) {
+      var parts = wrong.Split(new[] { ' ' }, 2);
+      string why = "";
+      try {
+        talk.Note(0, new Dictionary<string, string> { { parts[0], parts[1] } });
+      } catch (CaromException refused) {
+        why = refused.Message;
+      }
+      Must(why != "" && talk.Lines == game.Lines + said, $"{wrong} is not refused");
+    }
+    Must(talk.Receive(act[0], 0), "the act behind a note is refused");
+    Must(talk.Lines == game.Lines + said + string.Join("\n", act) + "\n",
+         "the act behind a note has other lines");
+    Console.Write(said);
+
     // The whole match, to its end.
     string lines = File.ReadAllText(arguments[1]);
     foreach (var line in lines.Substring(game.Lines.Length).Split('\n'))

@@ -90,6 +90,15 @@ static void play_match(FILE *file, FILE *sends) {
   free(job.memory);
 }
 
+/* The line of a note, which each language writes too. */
+static void write_note(void) {
+  carom_note note = {.comment = "He said \"nice\"", .offer = "draw", .seconds = 12.5, .extras = 1};
+  note.extra[0] = (carom_note_extra){.key = "x_club", .text = "A \\ B"};
+  match = placed;
+  carom_match_note(&match, 1, &note);
+  printf("%.*s", (int)match.size, match.text);
+}
+
 int main(int count, char **arguments) {
   if (count != 5 || hostile_begin(&begun, &placed, &act) != CAROM_OK)
     return EXIT_FAILURE;
@@ -103,6 +112,7 @@ int main(int count, char **arguments) {
   fclose(rows);
   fclose(file);
   fclose(sends);
+  write_note();
   printf("%d rows\n", written);
   return written < 30;
 }

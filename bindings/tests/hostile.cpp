@@ -66,6 +66,26 @@ int main(int, char **arguments) {
     sent++;
   }
 
+  /* a note, and some that are refused */
+  carom::match talk = game.copy();
+  talk.note(1, {{"comment", "He said \"nice\""}, {"offer", "draw"}, {"x_club", "A \\ B"}}, 12.5);
+  const std::string said = talk.lines().substr(game.lines().size());
+  const std::pair<std::string_view, std::string_view> wrong[] = {
+      {"comment", "two\nlines"}, {"offer", "money"}, {"chat", "hello"}, {"comment", ""}};
+  for (const auto &one : wrong) {
+    std::string why;
+    try {
+      talk.note(0, {one});
+    } catch (const carom::error &refused) {
+      why = refused.what();
+    }
+    must(!why.empty() && talk.lines() == game.lines() + said,
+         std::string(one.first) + ": the note is not refused");
+  }
+  talk.receive(act[0], 0);
+  must(talk.lines() == game.lines() + said + honest, "the act behind a note has other lines");
+  std::printf("%s", said.c_str());
+
   /* the whole match, to its end */
   std::ifstream file(arguments[2]);
   const std::string lines(std::istreambuf_iterator<char>(file), {});

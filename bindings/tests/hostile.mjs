@@ -42,6 +42,25 @@ for (const line of readFileSync(process.argv[2], "utf8").split("\n").slice(0, -1
   }
 }
 
+// A note, and some that are refused.
+const talk = game.copy();
+const note = { seat: 1, comment: 'He said "nice"', offer: "draw", seconds: 12.5, x_club: "A \\ B" };
+talk.note(note);
+const said = talk.lines.at(-1);
+assert.deepEqual(talk.notes, [note]);
+for (const wrong of [{ comment: "two\nlines" }, { offer: "money" }, { chat: "hello" }, {}]) {
+  assert.throws(() => talk.note({ seat: 0, ...wrong }), CaromError);
+  assert.deepEqual(talk.lines, [...game.lines, said]);
+}
+assert.throws(() => talk.note({ seat: 2, comment: "hello" }), /seat 2 is not one of the match/);
+assert(talk.receive(act[0], 0));
+assert.deepEqual(talk.lines, [...game.lines, said, ...act]);
+const loaded = carom.match();
+for (const line of talk.lines) loaded.read(line);
+assert.deepEqual(loaded.notes, [note]);
+assert.deepEqual(loaded.lines, talk.lines);
+process.stdout.write(said);
+
 // The whole match, to its end.
 const lines = readFileSync(process.argv[3], "utf8").match(/.*\n/g);
 for (const line of lines.slice(game.lines.length)) game.receive(line, null);

@@ -41,6 +41,32 @@ for name, seat, text in rows:
     assert not any(twin.receive(line, 0) for line in act + act), f"{name}: a line is new"
     assert (twin.lines, twin.actor) == (game.lines + act, 0)
 
+# A note, and some that are refused.
+talk = game.copy()
+talk.note(seat=1, comment='He said "nice"', offer="draw", seconds=12.5, x_club="A \\ B")
+said = talk.lines[-1]
+assert talk.notes == [
+    {
+        "seat": 1,
+        "comment": 'He said "nice"',
+        "offer": "draw",
+        "seconds": 12.5,
+        "x_club": "A \\ B",
+    }
+]
+for wrong in ({"comment": "two\nlines"}, {"offer": "money"}, {"chat": "hello"}, {"seat": 2}, {}):
+    try:
+        talk.note(**{"seat": 0, **wrong, **({"comment": "hello"} if "seat" in wrong else {})})
+    except carom.CaromError as refused:
+        assert str(refused)
+    else:
+        raise AssertionError(f"{wrong} is not refused")
+    assert talk.lines == [*game.lines, said]
+assert talk.receive(act[0], 0)
+assert talk.lines == [*game.lines, said, *act]
+assert carom.Match.load(talk.lines).notes == talk.notes
+print(said, end="")
+
 # The whole match, to its end.
 lines = Path(sys.argv[2]).read_text().splitlines(keepends=True)
 for line in lines[len(game.lines) :]:

@@ -58,6 +58,31 @@ fn main() -> Result<(), Error> {
         }
     }
 
+    // A note, and some that are refused.
+    let begun = game.as_ref().expect("a line place");
+    let mut talk = begun.copy()?;
+    let words = [
+        ("comment", "He said \"nice\""),
+        ("offer", "draw"),
+        ("x_club", "A \\ B"),
+    ];
+    talk.note(Some(1), &words, 12.5)?;
+    let said = talk.notes().next().expect("a note").to_string() + "\n";
+    let with_note = begun.lines().to_string() + &said;
+    for wrong in [
+        ("comment", "two\nlines"),
+        ("offer", "money"),
+        ("chat", "hello"),
+    ] {
+        let refused = talk.note(Some(0), &[wrong], 0.0).unwrap_err();
+        assert!(!refused.fault.is_empty(), "{wrong:?} has no reason");
+        assert_eq!(talk.lines(), with_note);
+    }
+    assert!(talk.note(Some(0), &[], 0.0).is_err());
+    assert!(talk.receive(&act[0], Some(0))?);
+    assert_eq!(talk.lines(), with_note + &act.join("\n") + "\n");
+    print!("{said}");
+
     // The whole match, to its end.
     let path = std::env::args().nth(2).expect("the match of hostile.c");
     let lines = std::fs::read_to_string(path).expect("the match of hostile.c");

@@ -8,6 +8,21 @@ cmp whole.jsonl saved.jsonl
 try carom match --show whole.jsonl
 echo "--- cut off behind a shot: the lines that are missing are made"
 sed '/^{"shot"/q' whole.jsonl | carom match --fargo 650,500 --shots 100 - | cmp - whole.jsonl
+echo "--- notes: told, kept, and judged as lines that no hash covers"
+{
+  sed '/^{"shot"/q' whole.jsonl
+  echo '{"note":{"seat":1,"comment":"a \"good\" break","offer":"draw","seconds":12.5,"x_camera":3}}'
+  sed '1,/^{"shot"/d; /^{"end"/i {"note":{"date":"2026-11-30","event":"club evening","answer":"no"}}' whole.jsonl
+} > noted.jsonl
+try carom verify noted.jsonl
+carom match --show noted.jsonl | grep note
+carom match --show noted.jsonl | grep -v note > noted
+carom match --show whole.jsonl | cmp - noted
+sed '/^{"note"/q' noted.jsonl | carom match --fargo 650,500 --shots 100 - > goes-on.jsonl
+grep -v '"date"' noted.jsonl | cmp - goes-on.jsonl
+sed 's/"seconds":12.5/"secs":12.5/' noted.jsonl > wrong.jsonl
+try carom verify wrong.jsonl
+try carom match --show -o /dev/null wrong.jsonl
 echo "--- other games"
 for rules in nineball snooker threecushion; do
   carom match --rules $rules --shots 100 --strokes 4 --breaks 2 -o $rules.jsonl

@@ -49,7 +49,9 @@ typedef enum carom_record_kind {
                               placement */
   CAROM_RECORD_SEATS = 13,   /* "seats", of a match: the players, their cues, and the limits of
                               strokes */
-  CAROM_RECORD_SET = 14      /* "set", of a match: the set that it belongs to */
+  CAROM_RECORD_SET = 14,     /* "set", of a match: the set that it belongs to */
+  CAROM_RECORD_NOTE = 15     /* "note": words about the game, anywhere between the head and the end
+                              */
 } carom_record_kind;
 
 /* What the last shot of a recording waits for. */
@@ -108,6 +110,35 @@ typedef struct carom_seating {
                                         1: after each stroke, as in Scotch doubles. */
   carom_stroke_limits limits;        /* the limits of all strokes. */
 } carom_seating;
+
+/* The most keys of other programs in a note. */
+enum { CAROM_NOTE_EXTRAS = 8 };
+
+/* A key of another program in a note. Recordings keep it, and this library does not interpret it. */
+typedef struct carom_note_extra {
+  char key[32];      /* "x_" and letters, digits or "_": 30 bytes at most. */
+  char text[256];    /* its value. */
+  int64_t is_number; /* 1: the text is a number of JSON, written without quotes, else 0. */
+} carom_note_extra;
+
+/* Words about a game: a line "note". Notes are not sealed: they change neither the game nor a hash,
+ * so anybody who can edit a recording can add, change and remove them. Texts are UTF-8 with a
+ * closing 0 and without control characters; "" and 0: the note does not have this key. */
+typedef struct carom_note {
+  char date[32];      /* when, such as "2026-11-30" or "2026-11-30T20:15:00Z" (ISO 8601). */
+  char event[128];    /* the tournament or the league. */
+  char site[128];     /* where it is played. */
+  char round[32];     /* the round of the event. */
+  char name[64];      /* of the seat, or of the author of a note that no seat says. */
+  char comment[1024]; /* any text. */
+  char offer[16];     /* "draw" or "take_back": what the seat offers or asks for. */
+  char answer[16];    /* "yes" or "no": to the last offer of another seat. */
+  double seconds;     /* s: the time that the last stroke, or a part of it, took the player. */
+  int64_t by;     /* 1 + the seat that says it; 0: nobody in particular, such as a judge. The line
+                         has the seat itself. */
+  int64_t extras; /* how many keys of other programs the note has. */
+  carom_note_extra extra[CAROM_NOTE_EXTRAS]; /* the keys of other programs, with their values. */
+} carom_note;
 
 /* A set: matches that are played one after the other, until a side has won `race` of them. */
 typedef struct carom_set {
@@ -214,6 +245,9 @@ typedef struct carom_record {
   int64_t moved;             /* 1: final[] has not been put into balls[] yet. */
   carom_facts facts;         /* facts of the last shot. */
   carom_shot_state state;    /* where the last shot was stopped. */
+  carom_note note;           /* the last note. */
+  int64_t before_notes;      /* where `kind` is CAROM_RECORD_NOTE: the kind of the last line that is
+                                no note. */
   char fault[192];           /* after CAROM_ERROR_RECORD: what is wrong, with the key. */
 } carom_record;
 

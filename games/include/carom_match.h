@@ -19,6 +19,11 @@
  *         printf("%s\n", match.fault);  // such as "place: the cue ball must be within ..."
  *     }
  *
+ * Words go into the recording by carom_match_note(): a comment, the time that a stroke took, an offer
+ * of a draw and its answer. A note is no act. It changes neither the game nor a hash, and the rules
+ * have no draw by agreement and no take-back: after both sides have agreed, the caller ends the match
+ * with carom_match_end(), or reads the lines before the last act again (carom_match_undone()).
+ *
  * An act that the rules forbid is rejected with CAROM_ERROR_ACT: match.refusal is the reason, and
  * match.fault describes what would be right. Nothing else has changed, and match.size is 0.
  *
@@ -154,7 +159,8 @@ typedef enum carom_refusal {
   CAROM_REFUSED_BEGIN = 14,    /* a match cannot begin in this way */
   CAROM_REFUSED_LINE = 15,     /* a line that was read breaks the rules */
   CAROM_REFUSED_LIMIT = 16,    /* the stroke is beyond the limits of the match */
-  CAROM_REFUSED_TIME = 17      /* no extension or timeout is left */
+  CAROM_REFUSED_TIME = 17,     /* no extension or timeout is left */
+  CAROM_REFUSED_NOTE = 18      /* a value of the note is not allowed */
 } carom_refusal;
 
 /* The name of a refusal, such as "bounds"; "" for NOT and a value not listed. */
@@ -206,6 +212,8 @@ typedef struct carom_match {
   int64_t size;        /* bytes of text[], the lines of the last call: those of an act and its
                                   ruling; after carom_match_read(), only those that were not read
                                   yet. */
+  int64_t known;       /* how many bytes of text[] behind these are lines of the last act before
+                                  the notes: carom_match_receive() recognises them. */
   int64_t due;         /* how many of these bytes the next lines of the file must have, for
                                   carom_match_read(): all or none; 0 after an act and after
                                   carom_match_receive(). */
@@ -351,6 +359,14 @@ CAROM_API carom_status carom_match_concede(carom_match *match, int player);
  * which is a foul. */
 CAROM_API carom_status carom_match_clock(carom_match *match, int player);
 
+/* Writes a note of a seat into the recording: match->text is its line. `seat` -1: of nobody in
+ * particular, such as a judge; note->by is not read. Every seat may do this in every phase, from the
+ * beginning to the end of the recording. The game and its hashes do not change, and record.note is
+ * the note. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT with the refusal NOT_BEGUN, OVER behind the
+ * end of the recording, TURN for a seat that the match does not have, or NOTE for a value that is not
+ * allowed. */
+CAROM_API carom_status carom_match_note(carom_match *match, int seat, const carom_note *note);
+
 /* Ends the recording: match->text is its last line, and match->phase is OVER. Only the next match
  * of a set follows it. The caller may end a match early, which then has no winner; a peer's line
  * may not (see carom_match_receive()). */
@@ -376,6 +392,9 @@ CAROM_API carom_status carom_match_read(carom_match *match, carom_record *scratc
  * blank line, a line "event", and a line that equals one of match->text: such an act was taken
  * before, and its line has come twice. An act twice in a row is therefore not received; call the
  * function of the act for a second extension of one stroke.
+ *
+ * A note of a peer becomes a line of the match too: record.line grows, and match->text is the line,
+ * which a server sends to every client. A seat sends its own notes only.
  *
  * A seat sends its own acts only, and these without being asked: its concession at any time, the
  * continuation of a shot that was stopped, whoever played it, the end of the recording once the

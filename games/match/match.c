@@ -8,6 +8,7 @@
  * them back. */
 #include "match.h"
 #include "games.h"
+#include "record/lines.h"
 #include "rules.h"
 #include "seats.h"
 
@@ -85,7 +86,7 @@ static carom_status check_turn(carom_match *match, int player, const char *act) 
 static void begin_act(carom_match *match) {
   match->refusal = CAROM_REFUSED_NOT;
   match->fault[0] = '\0';
-  match->size = match->due = 0;
+  match->size = match->known = match->due = 0;
 }
 
 static void put_line(carom_match *match, carom_record_kind kind) {
@@ -930,6 +931,76 @@ carom_status carom_match_clock(carom_match *match, int player) {
   put_act(match, CAROM_ACT_CLOCK, player, 0, (carom_call){-1, -1});
   rule(match, true, (carom_call){-1, -1});
   apply(match, true);
+  return CAROM_OK;
+}
+
+/* ---- Notes */
+
+static void reverse(char *text, size_t size) {
+  for (size_t k = 0; k < size / 2; k++) {
+    const char first = text[k];
+    text[k] = text[size - 1 - k];
+    text[size - 1 - k] = first;
+  }
+}
+
+/* The lines of the last act become known ones: those behind the note that was written last. */
+static void keep_act_known(carom_match *match) {
+  static const char begins_note[] = "{\"note\"";
+  const bool is_note =
+      match->size > 0 && strncmp(match->text, begins_note, sizeof begins_note - 1) == 0;
+  if (is_note)
+    memmove(match->text, match->text + match->size, (size_t)match->known);
+  else
+    match->known += match->size;
+  match->size = match->due = 0;
+}
+
+/* Writes the line of record.note in front of the lines of the last act, which stay known. */
+static void put_note(carom_match *match) {
+  size_t known = (size_t)match->known;
+  size_t size = carom_record_write(&match->record, CAROM_RECORD_NOTE, match->text + known,
+                                   sizeof match->text - known);
+  if (size == 0) { /* there is no room for both */
+    known = 0;
+    size = carom_record_write(&match->record, CAROM_RECORD_NOTE, match->text, sizeof match->text);
+  }
+  reverse(match->text, known);
+  reverse(match->text + known, size);
+  reverse(match->text, known + size);
+  match->size = (int64_t)size;
+  match->known = (int64_t)known;
+}
+
+carom_status carom_match_note(carom_match *match, int seat, const carom_note *note) {
+  if (match == NULL || note == NULL)
+    return CAROM_ERROR_NULL;
+  keep_act_known(match);
+  match->refusal = CAROM_REFUSED_NOT;
+  match->fault[0] = '\0';
+  if (match->phase == CAROM_MATCH_NONE)
+    return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, "note", "the match has not begun");
+  if (match->record.kind == CAROM_RECORD_END)
+    return carom_match_refuse(match, CAROM_REFUSED_OVER, "note", "the recording has ended");
+  if (match->record.kind == CAROM_RECORD_WRONG)
+    return carom_match_refuse(match, CAROM_REFUSED_OVER, "note",
+                              "nothing follows a line that was refused");
+  char right[160];
+  if (seat < -1 || seat >= match->seating.count) {
+    snprintf(right, sizeof right, "seat %d is not one of the match; its seats are 0 to %d", seat,
+             (int)match->seating.count - 1);
+    return carom_match_refuse(match, CAROM_REFUSED_TURN, "note", right);
+  }
+  carom_note said = *note;
+  said.by = 1 + seat;
+  const char *key = NULL, *fault = carom_note_fault(&said, &key);
+  if (fault != NULL) {
+    snprintf(right, sizeof right, "%s%s%s", key == NULL ? "" : key, key == NULL ? "it " : " ",
+             fault);
+    return carom_match_refuse(match, CAROM_REFUSED_NOTE, "note", right);
+  }
+  match->record.note = said;
+  put_note(match);
   return CAROM_OK;
 }
 

@@ -8,7 +8,10 @@
  * need not send them, because the match has them already; a line that equals one of match->text is
  * known and changes nothing. A peer's act is done on a copy of the match, which replaces the match
  * only where the whole line is right. So whatever a peer sends, a refused line leaves the match as
- * it was. */
+ * it was.
+ *
+ * A note is no act: a file may have it between any two lines, also between an act and its ruling,
+ * and it is read into the record without a change of the lines that are due. */
 #include "match.h"
 #include "rules.h"
 #include "seats.h"
@@ -46,8 +49,11 @@ static const char *trimmed(const char *line, size_t *size) {
 /* Whether a line is of a kind, such as "event". */
 static bool is_kind(const char *line, size_t size, const char *kind) {
   const size_t length = strlen(kind);
-  return size > length + 3 && line[0] == '{' && line[1] == '"' &&
-         memcmp(line + 2, kind, length) == 0 && line[2 + length] == '"';
+  size_t at = 1; /* of the quote behind the brace */
+  while (at < size && (line[at] == ' ' || line[at] == '\t'))
+    at++;
+  return size > at + length + 2 && line[0] == '{' && line[at] == '"' &&
+         memcmp(line + at + 1, kind, length) == 0 && line[at + 1 + length] == '"';
 }
 
 /* A line that is not by the rules: what is due, and why. Nothing is read behind it. */
@@ -184,6 +190,47 @@ static bool begins_next(const carom_match *match, const char *line, size_t size)
   return match->record.kind == CAROM_RECORD_END && is_kind(line, size, "recording");
 }
 
+/* ---- Notes */
+
+/* Whether the match has the seat that says the last note; writes why not. */
+static bool has_seat_of_note(const carom_match *match, char right[80]) {
+  const int64_t by = match->record.note.by;
+  snprintf(right, 80, "note.seat is %d, and the seats of the match are 0 to %d", (int)by - 1,
+           (int)match->seating.count - 1);
+  return by <= match->seating.count;
+}
+
+/* How many lines are due, which the record has counted already. */
+static int64_t count_due(const carom_match *match) {
+  int64_t lines = 0;
+  for (int64_t k = 0; k < match->due; k++)
+    if (match->text[k] == '\n')
+      lines++;
+  return lines;
+}
+
+/* A note of a file. */
+static carom_status read_note(carom_match *match, const char *line, size_t size) {
+  carom_record *record = &match->record;
+  const int64_t number = record->line + 1 - count_due(match);
+  char right[80];
+  const carom_status status = carom_record_read(record, line, size);
+  if (status != CAROM_OK) {
+    snprintf(match->fault, sizeof match->fault, "line %lld: %s", (long long)number, record->fault);
+    match->refusal = CAROM_REFUSED_LINE;
+    return status;
+  }
+  if (!has_seat_of_note(match, right))
+    return refuse_line(match, number, right);
+
+  /* where nothing is due, the caller has the lines of the last act already */
+  if (match->due == 0) {
+    match->known += match->size;
+    match->size = 0;
+  }
+  return CAROM_OK;
+}
+
 /* ---- A file */
 
 /* The line of an act, or the head of the next match of a set: it is done again, and its lines are
@@ -231,6 +278,8 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
   }
   if (is_kind(line, size, "event") && record->kind != CAROM_RECORD_WRONG)
     return CAROM_OK; /* the shot reports its events */
+  if (is_kind(line, size, "note") && record->kind != CAROM_RECORD_WRONG)
+    return read_note(match, line, size);
 
   /* a line that the rules have made already, or an act */
   const int64_t number = record->line + 1;
@@ -253,12 +302,13 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
 
 /* Everything of a match but the part of its text that has no lines. */
 static void copy_match(carom_match *target, const carom_match *source) {
-  memcpy(target, source, offsetof(carom_match, text) + (size_t)source->size);
+  memcpy(target, source, offsetof(carom_match, text) + (size_t)(source->size + source->known));
 }
 
-/* Whether match->text has this line: the act was taken before, or the line is of its ruling. */
+/* Whether match->text has this line: the act was taken before, or the line is of its ruling, or it is
+ * the last note. */
 static bool is_known(const carom_match *match, const char *line, size_t size) {
-  const char *start = match->text, *const end = match->text + match->size;
+  const char *start = match->text, *const end = match->text + match->size + match->known;
   while (start < end) {
     const char *next = memchr(start, '\n', (size_t)(end - start));
     if (next == NULL)
@@ -302,7 +352,7 @@ static bool may_send(const carom_match *match, const act_of_line *line, int seat
 static carom_status receive_act(carom_match *match, const carom_match *original, const char *line,
                                 size_t size, int seat) {
   const int64_t number = original->record.line + 1;
-  match->size = match->due = 0;
+  match->size = match->known = match->due = 0;
   carom_status status;
   char right[200];
   if (begins_next(match, line, size))
@@ -332,6 +382,34 @@ static carom_status receive_act(carom_match *match, const carom_match *original,
   return refuse_peer(match, CAROM_REFUSED_LINE, number, right);
 }
 
+/* Reads a note into a match that may be spoilt, likewise. */
+static carom_status receive_note(carom_match *match, const carom_match *before, const char *line,
+                                 size_t size, int seat) {
+  const int64_t number = before->record.line + 1;
+  char right[200];
+  carom_status status = carom_record_read(&match->record, line, size);
+  if (status != CAROM_OK) {
+    snprintf(right, sizeof right, "%.199s", match->record.fault);
+    refuse_peer(match, CAROM_REFUSED_LINE, number, right);
+    return status;
+  }
+  const carom_note note = match->record.note;
+  const int by = (int)note.by - 1;
+  match->record = before->record;
+  if (seat >= 0 && by != seat) {
+    if (by < 0)
+      snprintf(right, sizeof right, "seat %d has sent a note without its seat", seat);
+    else
+      snprintf(right, sizeof right, "seat %d has sent a note of seat %d", seat, by);
+    return refuse_peer(match, CAROM_REFUSED_TURN, number, right);
+  }
+  status = carom_match_note(match, by, &note);
+  if (status >= 0)
+    return status;
+  snprintf(right, sizeof right, "%.199s", match->fault);
+  return refuse_peer(match, (carom_refusal)match->refusal, number, right);
+}
+
 carom_status carom_match_receive(carom_match *match, carom_match *scratch, const char *line,
                                  size_t size, int seat) {
   if (match == NULL || scratch == NULL || line == NULL)
@@ -349,8 +427,13 @@ carom_status carom_match_receive(carom_match *match, carom_match *scratch, const
     return CAROM_OK;
   }
   copy_match(scratch, match);
-  const carom_status status = has_begun ? receive_act(scratch, match, line, size, seat)
-                                        : read_beginning(scratch, line, size);
+  carom_status status;
+  if (!has_begun)
+    status = read_beginning(scratch, line, size);
+  else if (is_kind(line, size, "note"))
+    status = receive_note(scratch, match, line, size, seat);
+  else
+    status = receive_act(scratch, match, line, size, seat);
   if (status != CAROM_OK) {
     match->refusal = scratch->refusal;
     memcpy(match->fault, scratch->fault, sizeof match->fault);

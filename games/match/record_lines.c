@@ -28,7 +28,7 @@ static const carom_field act_fields[] = {CAROM_RECORD_FIELD("act", INT64, true, 
 #define SEAT_FIELD(member) CAROM_MEMBER_FIELD(#member, carom_seat, member)
 #define STICK_FIELD(member, ...) CAROM_MEMBER_FIELD(#member, carom_seat, cue.member)
 static const carom_field seat_fields[] = {
-    {"name", CAROM_VALUE_TEXT, false, 1, offsetof(carom_seat, name), 0, 0, NULL},
+    {"name", CAROM_VALUE_TEXT, false, 1, offsetof(carom_seat, name), CAROM_SEAT_NAME, 0, NULL},
     SEAT_FIELD(side) SEAT_FIELD(handicap) SEAT_FIELD(rating)
         CAROM_CUE_NUMBERS(STICK_FIELD, STICK_FIELD) CAROM_NO_FIELD};
 #define LIMIT_FIELD(member) CAROM_MEMBER_FIELD(#member, carom_record, seating.limits.member)

@@ -80,6 +80,7 @@
   WORD(REFUSAL, REFUSED_LINE, "line", "a line that was read breaks the rules")                     \
   WORD(REFUSAL, REFUSED_LIMIT, "limit", "the stroke is beyond the limits of the match")            \
   WORD(REFUSAL, REFUSED_TIME, "time", "no extension or timeout is left")                           \
+  WORD(REFUSAL, REFUSED_NOTE, "note", "a value of the note is not allowed")                        \
   /* what a stroke is to leave */                                                                  \
   WORD(GOAL, GOAL_WIN, "win", "the best chance to win")                                            \
   WORD(GOAL, GOAL_HIDDEN, "hidden", "no ball that is on can be hit in a straight line")            \

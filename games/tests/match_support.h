@@ -55,7 +55,7 @@ static inline void check_recording(const char *title) {
 /* What an act that is rejected may change. */
 static inline void forget_refusal(carom_match *target) {
   target->refusal = 0;
-  target->size = target->due = 0;
+  target->size = target->known = target->due = 0;
   memset(target->fault, 0, sizeof target->fault);
   memset(target->text, 0, sizeof target->text);
 }

@@ -240,6 +240,43 @@ namespace Carom {
     public void Concede(int player) {
       Told(Native.carom_match_concede(Open, player));
     }
+    /// <summary>Writes words into the recording: texts by their keys, such as "comment", and the time
+    /// in s that the last stroke took the player, 0: none. docs/reference/files.md has the keys; those
+    /// of a caller begin with "x_". `seat` is who says it; null: nobody in particular. The game and
+    /// its hashes do not change.</summary>
+    public void Note(int? seat, Dictionary<string, string> said, double seconds = 0) {
+      var line = new StringBuilder("{\"note\":{");
+      string comma = "";
+      foreach (var pair in said) {
+        var text = pair.Value.Replace("\\", "\\\\").Replace("\"", "\\\"");
+        line.Append(comma).Append('"').Append(pair.Key).Append("\":\"").Append(text).Append('"');
+        comma = ",";
+      }
+      line.Append("}}");
+
+      // The library reads the texts, as it would those of a file.
+      *scratch = Open->record;
+      scratch->note = default(Note);
+      var bytes = Encoding.UTF8.GetBytes(line.ToString());
+      var status = Status.Ok;
+      if (said.Count > 0)
+        fixed(byte *at = bytes) status =
+            Native.carom_record_read(scratch, at, (UIntPtr)bytes.Length);
+      if (status < 0)
+        throw new CaromException(status, Marshal.PtrToStringAnsi((IntPtr)scratch->fault));
+      scratch->note.seconds = seconds;
+      Told(Native.carom_match_note(match, seat ?? -1, &scratch->note));
+    }
+    /// <summary>The lines of the notes of the recording so far, which it does not seal.</summary>
+    public List<string> Notes {
+      get {
+        var notes = new List<string>();
+        foreach (var line in Lines.Split('\n'))
+          if (line.TrimStart(' ', '{').StartsWith("\"note\"", StringComparison.Ordinal))
+            notes.Add(line);
+        return notes;
+      }
+    }
     /// <summary>Plays a choice of a plan: places, calls and plays its stroke, or passes. `cue` is
     /// the stroke as the player makes it; `stop` as for a stroke.</summary>
     public void Take(PlanStroke best, Cue cue, ShotOptions stop = default(ShotOptions)) {

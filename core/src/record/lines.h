@@ -15,8 +15,11 @@ typedef enum carom_value_type {
   CAROM_VALUE_INT32,
   CAROM_VALUE_INT64,
   CAROM_VALUE_HASH,
-  CAROM_VALUE_TEXT, /* CAROM_SEAT_NAME bytes with a closing 0 */
-  CAROM_VALUE_LIST
+  CAROM_VALUE_TEXT,  /* `size` bytes with a closing 0, without quotes and backslashes */
+  CAROM_VALUE_WORDS, /* the same with quotes and backslashes, which are escaped */
+  CAROM_VALUE_SEAT,  /* int64_t: 1 + the number of the line; 0: the key is missing */
+  CAROM_VALUE_LIST,
+  CAROM_VALUE_EXTRAS /* all keys that begin as this one: a list of carom_note_extra */
 } carom_value_type;
 
 typedef struct carom_field {
@@ -25,7 +28,8 @@ typedef struct carom_field {
   bool is_required;     /* and written whatever it is */
   int count;            /* of its values: [x, y] of 2; the most objects of a list */
   size_t offset;        /* its position in the object, */
-  size_t size, counted; /* of a list: bytes of an object, offset of their number (int64_t), */
+  size_t size, counted; /* bytes of a text; of a list: of an object, and offset of their number
+                           (int64_t), */
   const struct carom_field *fields; /* and its fields. Tables of fields end with a key of NULL. */
 } carom_field;
 
@@ -59,6 +63,7 @@ typedef struct carom_line {
   const carom_field *fields;
   bool is_sealed;   /* ends with the hash so far in a match */
   bool is_of_match; /* only in matches */
+  bool is_note;     /* is no part of the hash, and does not count for what may follow */
   /* What is wrong with the values of a line, and *key becomes the key at fault; NULL: nothing. */
   const char *(*find_fault)(const carom_record *record, const char **key);
 } carom_line;
@@ -68,7 +73,11 @@ static inline bool carom_is_in_text(char c) {
   return (unsigned char)c >= ' ' && c != '"' && c != '\\' && c != 127;
 }
 
-enum { CAROM_LINE_KINDS = CAROM_RECORD_SET + 1 };
+/* What is wrong with a note, and *key becomes the key at fault, NULL: the whole note. Returns NULL
+ * for a note that may be written. */
+const char *carom_note_fault(const carom_note *note, const char **key);
+
+enum { CAROM_LINE_KINDS = CAROM_RECORD_NOTE + 1 };
 
 /* Lines that a layer above this one has, by their carom_record_kind. A row without a key, of a
  * kind that record.c has, adds its find_fault to that. */

@@ -4,7 +4,7 @@
  * value and its position in carom_record. A key that is missing has the value 0; in an object of a
  * list, the value of the object before it. So a writer leaves out the fields that have the bytes of
  * that default, and a reader begins with it. Every other key is rejected, and every key that occurs
- * twice.
+ * twice. Only a note may have keys of other programs, with one prefix, which are kept.
  *
  * The command has a second reader of balls and cues, command/shots/shot_file.c, because its files
  * are another format: pooltool's keys and defaults, in JSON that people write by hand and that
@@ -94,6 +94,39 @@ static const carom_field event[] = {CAROM_RECORD_FIELD("time", DOUBLE, true, 1, 
 static const carom_field end[] = {CAROM_RECORD_FIELD("shots", INT64, true, 1, shots),
                                   CAROM_RECORD_FIELD("hash", HASH, true, 1, hash), CAROM_NO_FIELD};
 
+#define NOTE_TEXT(member)                                                      \
+  {                                                                            \
+#member, CAROM_VALUE_WORDS, false, 1, offsetof(carom_record, note.member), \
+        sizeof(((carom_record *)0)->note.member), 0, NULL                      \
+  }
+static const carom_field note[] = {CAROM_RECORD_FIELD("seat", SEAT, false, 1, note.by),
+                                   NOTE_TEXT(date),
+                                   NOTE_TEXT(event),
+                                   NOTE_TEXT(site),
+                                   NOTE_TEXT(round),
+                                   NOTE_TEXT(name),
+                                   NOTE_TEXT(comment),
+                                   NOTE_TEXT(offer),
+                                   NOTE_TEXT(answer),
+                                   CAROM_RECORD_FIELD("seconds", DOUBLE, false, 1, note.seconds),
+                                   {"x_", CAROM_VALUE_EXTRAS, false, CAROM_NOTE_EXTRAS,
+                                    offsetof(carom_record, note.extra), sizeof(carom_note_extra),
+                                    offsetof(carom_record, note.extras), NULL},
+                                   CAROM_NO_FIELD};
+/* The value of an extra. */
+static const carom_field extra_text = {NULL,
+                                       CAROM_VALUE_WORDS,
+                                       true,
+                                       1,
+                                       offsetof(carom_note_extra, text),
+                                       sizeof(((carom_note_extra *)0)->text),
+                                       0,
+                                       NULL};
+
+static const char *find_fault_of_note(const carom_record *record, const char **key) {
+  return carom_note_fault(&record->note, key);
+}
+
 static const char *find_fault_of_place(const carom_record *record, const char **key) {
   *key = "hand";
   if (record->hand < 0 || record->hand > 1)
@@ -114,7 +147,9 @@ static const carom_line lines[CAROM_LINE_KINDS] = {
     [CAROM_RECORD_SHOT] = {.key = "shot", .fields = shot},
     [CAROM_RECORD_CONTINUE] = {.key = "continue", .fields = continued},
     [CAROM_RECORD_EVENT] = {.key = "event", .fields = event},
-    [CAROM_RECORD_END] = {.key = "end", .fields = end}};
+    [CAROM_RECORD_END] = {.key = "end", .fields = end},
+    [CAROM_RECORD_NOTE] = {
+        .key = "note", .fields = note, .is_note = true, .find_fault = find_fault_of_note}};
 
 #ifdef CAROM_WITHOUT_PLAN
 const carom_line carom_upper_lines[CAROM_LINE_KINDS] = {{.key = NULL}};
@@ -135,13 +170,34 @@ static bool is_shot(int kind) {
   return kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE;
 }
 
+/* The kind of the last line that is no note. */
+static int kind_before_notes(const carom_record *record) {
+  if (record->kind == CAROM_RECORD_NOTE)
+    return (int)record->before_notes;
+  return (int)record->kind;
+}
+
+/* A line of a kind is now the last one. */
+static void set_kind(carom_record *record, int kind) {
+  record->before_notes = 0;
+  if (kind == CAROM_RECORD_NOTE)
+    record->before_notes = kind_before_notes(record);
+  record->kind = kind;
+}
+
+static bool is_list(const carom_field *f) {
+  return f->type == CAROM_VALUE_LIST || f->type == CAROM_VALUE_EXTRAS;
+}
+
+static bool is_text(const carom_field *f) {
+  return f->type == CAROM_VALUE_TEXT || f->type == CAROM_VALUE_WORDS;
+}
+
 static size_t size_of(const carom_field *f) {
-  if (f->type == CAROM_VALUE_LIST)
+  if (is_list(f) || is_text(f))
     return f->size;
   if (f->type == CAROM_VALUE_INT32)
     return sizeof(int32_t);
-  if (f->type == CAROM_VALUE_TEXT)
-    return CAROM_SEAT_NAME;
   return sizeof(int64_t);
 }
 
@@ -152,9 +208,9 @@ static const int64_t MOST_WHOLE = 9007199254740991; /* of a double, 2^53 - 1 */
 /* Of recordings of shots, and of matches. */
 enum { FORMAT = 2, FORMAT_OF_MATCH = 3 };
 
-/* Adds a text, in words of 8 bytes. */
-static uint64_t stir_text(uint64_t hash, const unsigned char *text) {
-  for (int k = 0; k < CAROM_SEAT_NAME; k += 8) {
+/* Adds a text in `size` bytes, by words of 8 bytes. */
+static uint64_t stir_text(uint64_t hash, const unsigned char *text, size_t size) {
+  for (size_t k = 0; k < size; k += 8) {
     uint64_t word;
     memcpy(&word, text + k, sizeof word);
     hash = carom_stir(hash, word);
@@ -186,7 +242,7 @@ static uint64_t stir_object(uint64_t hash, const carom_field *fields, const unsi
       if (f->type == CAROM_VALUE_TEXT) {
         place++;
         if (element[0] != '\0')
-          hash = stir_text(carom_stir(hash, place), element);
+          hash = stir_text(carom_stir(hash, place), element, size_of(f));
         continue;
       }
       memcpy(f->type == CAROM_VALUE_INT32 ? (void *)&half : (void *)&word, element, size_of(f));
@@ -206,8 +262,10 @@ static uint64_t stir_line(uint64_t hash, int kind, const carom_record *record) {
 }
 
 /* The hash behind a line: that of a shot covers the lines before it, so that a forged stroke is
- * reported once and not by every line that follows. */
+ * reported once and not by every line that follows. Notes are not covered. */
 static uint64_t hash_behind(uint64_t hash, int kind, const carom_record *record) {
+  if (line_of(kind)->is_note)
+    return hash;
   if (is_shot(kind))
     return record->recorded.hash;
   return stir_line(hash, kind, record);
@@ -317,7 +375,7 @@ static bool read_hash(reader *in, uint64_t *hash) {
   return (good && next_is(in, '"')) || wrong(in, "must be 16 hexadecimal digits in quotes");
 }
 
-/* A text in quotes. */
+/* A text in quotes, without escapes. */
 static bool read_text(reader *in, unsigned char *text) {
   int n = 0;
   memset(text, 0, CAROM_SEAT_NAME);
@@ -331,11 +389,165 @@ static bool read_text(reader *in, unsigned char *text) {
   return expect(in, '"', "");
 }
 
+/* The bytes of a text that is read, and how many of them it may have. */
+typedef struct words {
+  unsigned char *text;
+  size_t size, most;
+} words;
+
+/* Adds a byte to a text. */
+static bool add_byte(reader *in, words *to, unsigned char byte) {
+  if (to->size == to->most) {
+    char what[64], number[CAROM_NUMBER_TEXT];
+    number[carom_number_write((double)to->most, number)] = '\0';
+    char *tail = put(what, what + 48, "must have at most ");
+    *put(put(tail, what + 48, number), what + 56, " bytes") = '\0';
+    return wrong(in, what);
+  }
+  if (byte < ' ' || byte == 127)
+    return wrong(in, "must have no control characters and line ends");
+  to->text[to->size++] = byte;
+  return true;
+}
+
+/* Adds a code point as UTF-8. */
+static bool add_code_point(reader *in, words *to, uint32_t point) {
+  if (point < 0x80)
+    return add_byte(in, to, (unsigned char)point);
+  int more = 1; /* continuation bytes, of 6 bits each */
+  uint32_t mark = 0xc0;
+  if (point >= 0x800) {
+    more = 2;
+    mark = 0xe0;
+  }
+  if (point >= 0x10000) {
+    more = 3;
+    mark = 0xf0;
+  }
+  if (!add_byte(in, to, (unsigned char)(mark | point >> 6 * more)))
+    return false;
+  while (more-- > 0)
+    if (!add_byte(in, to, (unsigned char)(0x80 | (point >> 6 * more & 0x3f))))
+      return false;
+  return true;
+}
+
+/* 4 hexadecimal digits behind \u. */
+static bool read_unit(reader *in, uint32_t *unit) {
+  static const char digits[] = "0123456789abcdefABCDEF";
+  *unit = 0;
+  for (int k = 0; k < 4; k++) {
+    const char *digit = NULL;
+    if (in->position < in->end && *in->position != '\0')
+      digit = strchr(digits, *in->position);
+    if (digit == NULL)
+      return wrong(in, "must have 4 hexadecimal digits behind \\u");
+    uint32_t value = (uint32_t)(digit - digits);
+    if (value > 15)
+      value -= 6;
+    *unit = *unit << 4 | value;
+    in->position++;
+  }
+  return true;
+}
+
+/* \uXXXX, or two of them for a code point beyond 16 bits; the "\u" was read. */
+static bool read_code_point(reader *in, words *to) {
+  uint32_t point, low;
+  if (!read_unit(in, &point))
+    return false;
+  if (point >= 0xd800 && point < 0xdc00) {
+    const bool has_low =
+        in->end - in->position >= 2 && in->position[0] == '\\' && in->position[1] == 'u';
+    if (!has_low)
+      return wrong(in, "must have the second half of a surrogate pair");
+    in->position += 2;
+    if (!read_unit(in, &low))
+      return false;
+    if (low < 0xdc00 || low > 0xdfff)
+      return wrong(in, "must have the second half of a surrogate pair");
+    point = 0x10000 + ((point - 0xd800) << 10 | (low - 0xdc00));
+  }
+  return add_code_point(in, to, point);
+}
+
+/* A text in quotes, with the escapes of JSON for characters that it may have. */
+static bool read_words(reader *in, const carom_field *f, unsigned char *text) {
+  words to = {text, 0, f->size - 1};
+  memset(text, 0, f->size);
+  if (!next_is(in, '"'))
+    return wrong(in, "must be a text in quotes");
+  while (in->position < in->end && *in->position != '"') {
+    char c = *in->position++;
+    if (c == '\\' && in->position < in->end) {
+      c = *in->position++;
+      if (c == 'u') {
+        if (!read_code_point(in, &to))
+          return false;
+        continue;
+      }
+      if (c == 'n' || c == 'r' || c == 't' || c == 'b' || c == 'f')
+        c = '\n'; /* a control character, which add_byte() refuses */
+      else if (c != '"' && c != '\\' && c != '/')
+        return wrong(in, "has an unknown escape: JSON has \\\", \\\\, \\/ and \\u");
+    }
+    if (!add_byte(in, &to, (unsigned char)c))
+      return false;
+  }
+  return expect(in, '"', "");
+}
+
+/* A number as it is written, up to the next character that no number has; carom_note_fault() checks
+ * it. */
+static bool read_digits(reader *in, const carom_field *f, unsigned char *text) {
+  static const char usual[] = "+-.0123456789eE";
+  words to = {text, 0, f->size - 1};
+  memset(text, 0, f->size);
+  while (in->position < in->end && *in->position != '\0' && strchr(usual, *in->position) != NULL)
+    if (!add_byte(in, &to, (unsigned char)*in->position++))
+      return false;
+  return to.size > 0 || wrong(in, "must be a text in quotes or a number");
+}
+
+/* The value of a key of another program, which is kept with its key. */
+static bool read_extra(reader *in, const carom_field *f, unsigned char *object, const char *key) {
+  int64_t n;
+  memcpy(&n, object + f->counted, sizeof n);
+  if (n == f->count)
+    return wrong(in, "is one key too many: a note has at most 8 that begin with x_");
+  carom_note_extra *extra = (carom_note_extra *)(void *)(object + f->offset) + n;
+  memset(extra, 0, sizeof *extra);
+  *put(extra->key, extra->key + sizeof extra->key - 1, key) = '\0';
+  skip_blanks(in);
+  unsigned char *text = (unsigned char *)extra->text;
+  extra->is_number = in->position < in->end && *in->position != '"';
+  n++;
+  memcpy(object + f->counted, &n, sizeof n);
+  if (extra->is_number == 0)
+    return read_words(in, &extra_text, text);
+  return read_digits(in, &extra_text, text);
+}
+
+/* The number of a seat, which the record has as 1 + this number. */
+static bool read_seat(reader *in, unsigned char *value) {
+  double x;
+  if (!read_number(in, &x))
+    return false;
+  if (!(x >= 0.0 && x < CAROM_SEATS_MOST) || x != (double)(int64_t)x)
+    return wrong(in, "must be 0 to 7");
+  memcpy(value, &(int64_t){1 + (int64_t)x}, sizeof(int64_t));
+  return true;
+}
+
 /* One value of a field that is no list. */
 static bool read_value(reader *in, const carom_field *f, unsigned char *value) {
   double x;
   if (f->type == CAROM_VALUE_TEXT)
     return read_text(in, value);
+  if (f->type == CAROM_VALUE_WORDS)
+    return read_words(in, f, value);
+  if (f->type == CAROM_VALUE_SEAT)
+    return read_seat(in, value);
   if (f->type == CAROM_VALUE_HASH) {
     uint64_t hash;
     if (!read_hash(in, &hash))
@@ -415,6 +627,13 @@ static bool read_field(reader *in, const carom_field *f, unsigned char *object) 
   return f->count == 1 || expect(in, ']', "has too many numbers");
 }
 
+/* Whether a key is that of a field, or begins as those of other programs do. */
+static bool is_key_of(const carom_field *f, const char *key) {
+  if (f->type == CAROM_VALUE_EXTRAS)
+    return strncmp(key, f->key, strlen(f->key)) == 0;
+  return strcmp(f->key, key) == 0;
+}
+
 /* A key with its value. `seen` has a bit for each field that was read. */
 static bool read_entry(reader *in, const carom_field *fields, unsigned char *object,
                        uint64_t *seen) {
@@ -422,13 +641,19 @@ static bool read_entry(reader *in, const carom_field *fields, unsigned char *obj
   if (!read_key(in, key))
     return false;
   int k = 0;
-  while (fields[k].key != NULL && strcmp(fields[k].key, key) != 0)
+  while (fields[k].key != NULL && !is_key_of(&fields[k], key))
     k++;
 
-  /* keys are known, and occur once */
+  /* keys are known, and occur once; carom_note_fault() looks for those of other programs */
   in->key = key;
   if (fields[k].key == NULL)
     return wrong(in, "is not a key of the format");
+  if (fields[k].type == CAROM_VALUE_EXTRAS) {
+    if (!read_extra(in, &fields[k], object, key))
+      return false;
+    in->key = NULL;
+    return true;
+  }
   CAROM_PROMISE(k < 64);
   if (*seen >> k & 1)
     return wrong(in, "comes twice");
@@ -472,7 +697,7 @@ static void clear(carom_record *record, const carom_field *fields) {
   unsigned char *object = (unsigned char *)record;
   for (const carom_field *f = fields; f->key != NULL; f++) {
     memset(object + f->offset, 0, (size_t)f->count * size_of(f));
-    if (f->type == CAROM_VALUE_LIST)
+    if (is_list(f))
       memset(object + f->counted, 0, sizeof(int64_t));
   }
 }
@@ -481,7 +706,8 @@ static void clear(carom_record *record, const carom_field *fields) {
 
 /* Whether a line of a kind may follow those before it; else why not. */
 static const char *out_of_place(const carom_record *record, int kind) {
-  const bool follows_shot = is_shot((int)record->kind) || (int)record->kind == CAROM_RECORD_EVENT;
+  const int before = kind_before_notes(record);
+  const bool follows_shot = is_shot(before) || before == CAROM_RECORD_EVENT;
   const bool needs_layout = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_PLACE;
   const carom_line *line = line_of(kind);
   if (record->kind == CAROM_RECORD_END)
@@ -670,7 +896,6 @@ static bool may_come(reader *in, int kind) {
 static bool read_fields(reader *in, const carom_field *fields) {
   carom_record *record = in->record;
   clear(record, fields);
-  record->seal = 0;
   if (!read_object(in, fields, (unsigned char *)record))
     return false;
   if (!expect(in, '}', "must be the only key of its line"))
@@ -696,10 +921,12 @@ static bool read_line(reader *in, int *kind) {
   const carom_line *line = line_of(*kind);
   const int64_t shots = record->shots;
   const uint64_t hash = record->hash;
+  if (!line->is_note)
+    record->seal = 0;
   in->line = line->key;
   if (!read_fields(in, line->fields) || !apply(in, *kind, shots, hash))
     return false;
-  if (*kind == CAROM_RECORD_END)
+  if (*kind == CAROM_RECORD_END || line->is_note)
     return true;
 
   /* the hash after the line covers its seal only through the lines before it */
@@ -720,12 +947,14 @@ carom_status carom_record_read(carom_record *record, const char *line, size_t si
   if (in.position == in.end)
     return CAROM_OK;
   const bool good = read_line(&in, &kind);
+  const int64_t last = record->kind;
   record->kind = CAROM_RECORD_WRONG; /* nothing is read behind a fault */
   if (!good)
     return CAROM_ERROR_RECORD;
   if (kind == CAROM_RECORD_HEAD && record->revision != carom_physics_revision())
     return CAROM_ERROR_REVISION;
-  record->kind = kind;
+  record->kind = last;
+  set_kind(record, kind);
   return CAROM_OK;
 }
 
@@ -886,7 +1115,30 @@ static void write_number(writer *out, const carom_field *f, const unsigned char 
   write_text(out, text);
 }
 
+/* A text in quotes, with its quotes and backslashes escaped. */
+static void write_words(writer *out, const char *text) {
+  write_text(out, "\"");
+  for (; *text != '\0'; text++) {
+    const char c[2] = {*text, '\0'};
+    if (*text == '"' || *text == '\\')
+      write_text(out, "\\");
+    write_text(out, c);
+  }
+  write_text(out, "\"");
+}
+
 static void write_value(writer *out, const carom_field *f, const unsigned char *value) {
+  if (f->type == CAROM_VALUE_WORDS) {
+    write_words(out, (const char *)value);
+    return;
+  }
+  if (f->type == CAROM_VALUE_SEAT) {
+    int64_t by;
+    memcpy(&by, value, sizeof by);
+    const char digit[2] = {(char)('0' + by - 1), '\0'};
+    write_text(out, digit);
+    return;
+  }
   if (f->type == CAROM_VALUE_TEXT) {
     write_text(out, "\"");
     write_text(out, (const char *)value);
@@ -922,7 +1174,7 @@ static void write_list(writer *out, const carom_field *f, const unsigned char *o
 /* How many numbers or elements a field has; -1: a count that was damaged. */
 static int64_t count_of(const carom_field *f, const unsigned char *object) {
   int64_t n = f->count;
-  if (f->type == CAROM_VALUE_LIST)
+  if (is_list(f))
     memcpy(&n, object + f->counted, sizeof n);
   if (n < 0 || n > f->count)
     return -1;
@@ -934,14 +1186,38 @@ static int64_t count_of(const carom_field *f, const unsigned char *object) {
 static bool is_left_out(const carom_field *f, const unsigned char *object,
                         const unsigned char *previous, int64_t n) {
   static const unsigned char zeros[8 * sizeof(double)] = {0};
-  if (f->type == CAROM_VALUE_LIST)
+  if (is_list(f))
     return n == 0;
   if (f->is_required)
     return false;
+  if (f->type == CAROM_VALUE_WORDS)
+    return object[f->offset] == '\0';
   const unsigned char *usual = zeros;
   if (previous != NULL)
     usual = previous + f->offset;
   return memcmp(object + f->offset, usual, (size_t)n * size_of(f)) == 0;
+}
+
+static void write_key(writer *out, const char *key) {
+  write_text(out, "\"");
+  write_text(out, key);
+  write_text(out, "\":");
+}
+
+/* The keys of other programs with their values. */
+static void write_extras(writer *out, const carom_field *f, const unsigned char *object,
+                         int64_t n) {
+  for (int64_t k = 0; k < n; k++) {
+    carom_note_extra extra;
+    memcpy(&extra, object + f->offset + (size_t)k * f->size, sizeof extra);
+    if (k > 0)
+      write_text(out, ",");
+    write_key(out, extra.key);
+    if (extra.is_number != 0)
+      write_text(out, extra.text);
+    else
+      write_words(out, extra.text);
+  }
 }
 
 /* A list, a number, or numbers in brackets. */
@@ -976,9 +1252,11 @@ static void write_object(writer *out, const carom_field *fields, const unsigned 
     if (!first)
       write_text(out, ",");
     first = false;
-    write_text(out, "\"");
-    write_text(out, f->key);
-    write_text(out, "\":");
+    if (f->type == CAROM_VALUE_EXTRAS) {
+      write_extras(out, f, object, n);
+      continue;
+    }
+    write_key(out, f->key);
     write_field(out, f, object, n);
   }
   write_text(out, "}");
@@ -992,7 +1270,7 @@ static bool can_be_written(const carom_record *record, int kind) {
   if (kind == CAROM_RECORD_BALLS)
     return record->count > 0;
   if (is_shot(kind))
-    return record->pending == CAROM_PENDING_LINE && (int)record->kind == kind;
+    return record->pending == CAROM_PENDING_LINE && kind_before_notes(record) == kind;
   return true;
 }
 
@@ -1006,6 +1284,8 @@ static uint64_t complete_line(carom_record *record, int kind) {
   }
   if (is_shot(kind))
     record->recorded = record->played;
+  if (line_of(kind)->is_note)
+    return record->hash;
   record->seal = 0;
   const uint64_t hash = hash_behind(record->hash, kind, record);
   if (record->match == 1 && line_of(kind)->is_sealed)
@@ -1021,7 +1301,7 @@ static void pass_line(carom_record *record, int kind, uint64_t hash) {
   }
   if (kind != CAROM_RECORD_END)
     record->hash = hash;
-  record->kind = kind;
+  set_kind(record, kind);
   record->line++;
 }
 

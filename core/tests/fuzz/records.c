@@ -125,7 +125,8 @@ static void check_written(carom_record *record, carom_record *before) {
       memcmp(&before->table, &record->table, sizeof record->table) != 0 ||
       memcmp(&before->cue, &record->cue, sizeof record->cue) != 0 ||
       memcmp(&before->options, &record->options, sizeof record->options) != 0 ||
-      memcmp(&before->event, &record->event, sizeof record->event) != 0)
+      memcmp(&before->event, &record->event, sizeof record->event) != 0 ||
+      memcmp(&before->note, &record->note, sizeof record->note) != 0)
     fail("a line says something else when it was written again");
 }
 
@@ -134,6 +135,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (good_lines == 0) {
     carom_table_make(CAROM_TABLE_POOL_7FT, &game.table);
     record_game(&game);
+    game.note =
+        (carom_note){.comment = "a \"kiss\", \\u00fc", .seconds = 2.5, .by = 1, .extras = 2};
+    game.note.extra[0] = (carom_note_extra){.key = "x_elo", .text = "1.5e3", .is_number = 1};
+    game.note.extra[1] = (carom_note_extra){.key = "x_app", .text = "of another"};
+    add_line(&game, CAROM_RECORD_NOTE);
     add_line(&game, CAROM_RECORD_END);
   }
   if (size == 0)

@@ -334,6 +334,7 @@ static OWN carom_plan_stroke choices[4];
 static OWN carom_match_setup setup;
 static OWN carom_seating seating;
 static OWN carom_standing standing;
+static OWN carom_note note;
 static OWN carom_match match, reader, match_room;
 static OWN carom_bounds bounds;
 static OWN carom_turn settled;

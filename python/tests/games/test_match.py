@@ -401,3 +401,81 @@ def test_touching_ball_of_snooker_in_the_sizes_of_the_rules(diameter, fair):
     ruling = carom.referee(table, balls, cue, rules="snooker", state={"on": 0})
     assert tuple(ruling.potted) == (2,)
     assert (not ruling.foul) == fair
+
+
+def test_notes():
+    match = begun()
+    match.note(date="2026-11-30", event="Clube «Carambola»", x_elo=1700, x_app="kiosk 3")
+    match.place(0.6, 0.6)
+    assert not match.stroke(BREAK, t_final=0.3)
+    match.note(seat=0, comment='a "long" break\\', seconds=0.1 + 0.2)
+    assert match.resume()
+    match.note(seat=1, offer="draw")
+    match.note(seat=0, answer="no")
+    notes = [
+        {"date": "2026-11-30", "event": "Clube «Carambola»", "x_elo": 1700, "x_app": "kiosk 3"},
+        {"seat": 0, "comment": 'a "long" break\\', "seconds": 0.3},
+        {"seat": 1, "offer": "draw"},
+        {"seat": 0, "answer": "no"},
+    ]
+    assert match.notes == notes
+
+    # The game has the bits and hashes that it has without them.
+    silent = begun()
+    silent.place(0.6, 0.6)
+    silent.stroke(BREAK, t_final=0.3)
+    silent.resume()
+    assert [line for line in match.lines if '"note"' not in line] == silent.lines
+    assert same_bits(match.balls, silent.balls) and match.state == silent.state
+
+    # They are read again, byte for byte, and copied; an undone act takes those behind it with it.
+    for other in (carom.Match.load(match.lines), match.copy(), pickle.loads(pickle.dumps(match))):
+        assert other.lines == match.lines and other.notes == notes
+    undone = match.copy()
+    assert undone.undo() and undone.notes == notes[:2]
+    assert undone.redo() and undone.lines == match.lines
+
+
+def test_a_note_between_an_act_and_its_ruling():
+    match = begun()
+    match.place(0.6, 0.6)
+    match.stroke(BREAK)
+    note = '{"note":{"comment":"a good break","seconds":"0x1.8p+1"}}\n'
+    lines = [line for each in match.lines for line in (each, note)]
+    loaded = carom.Match.load(lines)
+    assert loaded.lines == lines
+    assert loaded.notes[-1] == {"comment": "a good break", "seconds": 3.0}
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ({}, "says nothing"),
+        ({"comment": "two\nlines"}, "comment must have no control characters"),
+        ({"comment": "\x85"}, "comment must have no control characters"),
+        ({"comment": "é" * 512}, "comment must have at most 1023 bytes"),
+        ({"offer": "money"}, "offer must be draw or take_back"),
+        ({"answer": "maybe"}, "answer must be yes or no"),
+        ({"seconds": -1}, "seconds must be 0 or more"),
+        ({"seconds": float("nan")}, "seconds must be a number"),
+        ({"comment": "hello", "seat": 2}, "seat 2 is not one of the match"),
+        ({"chat": "hello"}, "note.chat is not a key of the format"),
+        ({"x_": "hello"}, "must have keys of x_"),
+        ({f"x_{k}": k for k in range(9)}, "x_8 is one key too many"),
+        ({"x_a": float("inf")}, "x_a must be a text in quotes or a number"),
+    ],
+)
+def test_notes_that_are_refused(words, message):
+    match = begun()
+    lines = match.lines
+    with pytest.raises(carom.CaromError, match=message):
+        match.note(**words)
+    assert match.lines == lines and match.notes == []
+    match.place(0.6, 0.6)
+
+
+def test_notes_of_wrong_types_are_refused():
+    match = begun()
+    for words in ({"comment": 7}, {"x_a": None, "date": 2026}, {"x_a": True}, {"x_a": [1]}):
+        with pytest.raises(TypeError, match="it must be a text"):
+            match.note(**words)

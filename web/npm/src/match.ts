@@ -27,6 +27,7 @@ import type {
   GameState,
   MatchOptions,
   MatchSet,
+  Note,
   PlanOptions,
   Player,
   Ruling,
@@ -95,6 +96,14 @@ function inJavaScript(text: string): string {
     .replace(/\b(cue|match|set)\.(\w+)/g, (_, of: string, name: string) => {
       return `${of}.${name.replace(/_(.)/g, (_, letter: string) => letter.toUpperCase())}`;
     });
+}
+
+/** The number of a text such as "0x1.8p+1". */
+function fromHex(text: string): number {
+  const [, sign, whole, digits = "", exponent] = /^(-?)0x([01])(?:\.(\w+))?p([+-]\d+)$/.exec(text)!;
+  const size =
+    Number.parseInt(`0${whole}${digits}`, 16) * 2 ** (Number(exponent) - 4 * digits.length);
+  return sign === "-" ? -size : size;
 }
 
 /**
@@ -229,6 +238,8 @@ export class Match extends MatchActs<Host> {
       ),
     );
     if (isDue && this.#number("size") < size) this.#lines.push(known[0]!);
+    // A note, before the lines that are due.
+    else if (isDue && state() !== previous) this.#lines.push(`${line.trim()}\n`);
     else if (!isDue && state() !== previous) this.#lines.push(...known, `${line.trim()}\n`);
     this.#undone.length = 0;
   }
@@ -311,6 +322,20 @@ export class Match extends MatchActs<Host> {
    */
   get lines(): string[] {
     return [...this.#lines, ...this.#written];
+  }
+  /**
+   * The notes of the recording so far. A recording does not seal its notes: anybody who can edit it
+   * can change them.
+   */
+  get notes(): Note[] {
+    return this.lines
+      .filter((line) => /^\s*\{\s*"note"/.test(line))
+      .map((line) => {
+        const { note } = JSON.parse(line) as { note: Note & { seconds?: number | string } };
+        const { seconds } = note;
+        // More digits than a decimal of a recording has.
+        return typeof seconds === "string" ? { ...note, seconds: fromHex(seconds) } : note;
+      });
   }
   get table(): Table {
     return readTable(this.#host.memory, this.#record("table"));
@@ -482,6 +507,36 @@ export class Match extends MatchActs<Host> {
   take(choice: PlanStroke, cue: Partial<Cue> = choice.cue, options: StrokeOptions = {}): boolean {
     this.prepare(choice, options.seat);
     return choice.kind === "pass" || this.stroke(cue, options);
+  }
+  /**
+   * Writes words into the recording. They change neither the game nor a hash, and `note.seat` is who
+   * says them; without it, nobody in particular. The rules have no draw by agreement and no
+   * take-back: after both sides have agreed, `end()` the match, or `undo()` the last act.
+   */
+  note({ seconds, ...words }: Note): void {
+    for (const [key, value] of Object.entries<unknown>(words))
+      if (value !== undefined && typeof value !== "string" && !Number.isFinite(value))
+        throw new TypeError(`note.${key}: it must be a text or a number, not ${String(value)}`);
+    if (seconds !== undefined && !Number.isFinite(seconds))
+      throw new TypeError(`note.seconds: it must be a number, not ${String(seconds)}`);
+    // The digits that a line may have.
+    const rounded = seconds === undefined ? {} : { seconds: Number(seconds.toPrecision(15)) };
+    const line = JSON.stringify({ note: { ...words, ...rounded } });
+    const { memory } = this.#host;
+    this.#withText(line, (text, bytes) =>
+      this.#using(["carom_record"], ([scratch]) => {
+        const record = this.#pointer + MATCH.record;
+        memory.u8.copyWithin(scratch, record, record + layout.carom_record.size);
+        const code = memory.exports.carom_record_read(scratch, text, bytes);
+        if (code < 0) {
+          const fault = memory.text(scratch + layout.carom_record.offset.fault)!;
+          throw new CaromError(code, this.#host.statusName(code), fault, "note");
+        }
+        const note = scratch + layout.carom_record.offset.note;
+        const seat = Number(memory.i64[(note + layout.carom_note.offset.by) / 8]) - 1;
+        this.act((pointer, call) => call.carom_match_note(pointer, seat, note));
+      }),
+    );
   }
   /** The complete text, with its last line: nothing follows, and the memory is freed. */
   end(): string {

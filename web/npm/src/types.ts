@@ -608,6 +608,35 @@ export interface MatchSet extends Omit<C.Set, "order"> {
   order: C.BreakOrder;
 }
 
+/**
+ * Words in a recording, which carom keeps and does not seal. Texts are UTF-8 without control
+ * characters.
+ */
+export interface Note {
+  /** Who says it; without it, nobody in particular, such as a judge. */
+  seat?: number;
+  /** Such as "2026-11-30" or "2026-11-30T20:15:00Z": at most 31 bytes. */
+  date?: string;
+  /** The tournament or the league: at most 127 bytes. */
+  event?: string;
+  /** Where it is played: at most 127 bytes. */
+  site?: string;
+  /** The round of the event: at most 31 bytes. */
+  round?: string;
+  /** Of the seat, or of the author of a note that no seat says: at most 63 bytes. */
+  name?: string;
+  /** At most 1023 bytes. */
+  comment?: string;
+  /** What the seat offers or asks for. */
+  offer?: "draw" | "take_back";
+  /** To the last offer of another seat. */
+  answer?: "yes" | "no";
+  /** The time that the last stroke took the player, s. */
+  seconds?: number;
+  /** Keys of your own program, at most 8: texts of at most 255 bytes, or numbers. */
+  [key: `x_${string}`]: string | number;
+}
+
 /** How a match begins. */
 export interface MatchOptions {
   /** For the displacements of the balls in the rack, whose gaps are 0.1 mm. */

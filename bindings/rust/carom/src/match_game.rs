@@ -342,6 +342,52 @@ impl Match {
         self.told(status)
     }
 
+    /// Writes words into the recording: texts by their keys, such as `("comment", "a kiss")`, and
+    /// the time in s that the last stroke took the player, 0: none. docs/reference/files.md has the
+    /// keys; those of a caller begin with `x_`. `seat` is who says it; `None`: nobody in
+    /// particular. The game and its hashes do not change.
+    pub fn note(
+        &mut self,
+        seat: Option<usize>,
+        said: &[(&str, &str)],
+        seconds: f64,
+    ) -> Result<(), Error> {
+        let texts: Vec<String> = said
+            .iter()
+            .map(|(key, text)| {
+                let escaped = text.replace('\\', "\\\\").replace('"', "\\\"");
+                format!("\"{key}\":\"{escaped}\"")
+            })
+            .collect();
+        let line = format!("{{\"note\":{{{}}}}}", texts.join(","));
+
+        // The library reads the texts, as it would those of a file.
+        *self.scratch = self.of.record;
+        self.scratch.note = Default::default();
+        if !said.is_empty() {
+            let at = line.as_ptr() as *const c_char;
+            let status = unsafe { sys::carom_record_read(&mut *self.scratch, at, line.len()) };
+            if status < 0 {
+                let fault = text(self.scratch.fault.as_ptr());
+                return Err(Error {
+                    status: status_of(status),
+                    fault,
+                });
+            }
+        }
+        self.scratch.note.seconds = seconds;
+        let seat = seat.map_or(-1, |seat| seat.min(sys::CAROM_SEATS_MOST as usize) as i32);
+        let status = unsafe { sys::carom_match_note(&mut *self.of, seat, &self.scratch.note) };
+        self.told(status)
+    }
+
+    /// The lines of the notes of the recording so far, which it does not seal.
+    pub fn notes(&self) -> impl Iterator<Item = &str> {
+        self.lines
+            .lines()
+            .filter(|line| line.trim_start_matches([' ', '{']).starts_with("\"note\""))
+    }
+
     /// Plays a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the stroke
     /// as the player makes it. `prepare` and `stroke` can stop its shot.
     pub fn take(&mut self, best: &PlanStroke, cue: &Cue) -> Result<(), Error> {

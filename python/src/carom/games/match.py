@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
+import re
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple, cast, get_args
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, cast, get_args
 
 import numpy as np
 
@@ -45,6 +47,7 @@ __dir__ = listing(__name__)
 
 _USUAL = Options()
 _OWN = 1000  # the number of a game of one's own in recordings
+_NOTE = re.compile(r'\s*\{\s*"note"')  # how the line of a note begins
 ORDERS = {word: k for k, word in enumerate(get_args(BreakOrder))}
 
 
@@ -300,6 +303,21 @@ class Match(MatchActs):
         """The recording so far. Each line that was read is followed by its ruling."""
         return [*self._lines, *self._written()]
 
+    @property
+    def notes(self) -> list[dict[str, str | int | float]]:
+        """The notes of the recording so far, with the keys of `note` that each has. A recording does
+        not seal its notes: anybody who can edit it can change them.
+        """
+        notes: list[dict[str, str | int | float]] = []
+        for line in self.lines:
+            if _NOTE.match(line):
+                note = json.loads(line)["note"]
+                seconds = note.get("seconds", 0)
+                if isinstance(seconds, str):  # more digits than a decimal of a recording has
+                    note["seconds"] = float.fromhex(seconds)
+                notes.append(note)
+        return notes
+
     def _written(self) -> list[str]:
         text: bytes = ffi.unpack(self._c.text, self._c.size)
         return text.decode().splitlines(keepends=True)
@@ -451,6 +469,8 @@ class Match(MatchActs):
         self._called(lambda: lib.carom_match_read(self._c, scratch, text, len(text)), "line")
         if is_due and self._c.size < sum(len(one.encode()) for one in known):
             self._lines.append(known[0])
+        elif is_due and record.line != previous[0]:  # a note, before the lines that are due
+            self._lines.append(line.rstrip() + "\n")
         elif not is_due and (record.line, record.hash) != previous:  # no blank line, no event
             self._lines += [*known, line.rstrip() + "\n"]
         self._undone.clear()
@@ -595,6 +615,75 @@ class Match(MatchActs):
             return True
         stroke = best["cue"] if cue is None else cue
         return self.stroke(stroke, t_final=t_final, stop_at=stop_at, seat=seat)
+
+    def note(
+        self,
+        *,
+        seat: int | None = None,
+        date: str | None = None,
+        event: str | None = None,
+        site: str | None = None,
+        round: str | None = None,
+        name: str | None = None,
+        comment: str | None = None,
+        offer: Literal["draw", "take_back"] | None = None,
+        answer: Literal["yes", "no"] | None = None,
+        seconds: float | None = None,
+        **extras: str | float,
+    ) -> None:
+        """Write words into the recording. They change neither the game nor a hash.
+
+        The rules have no draw by agreement and no take-back: an offer and its answer are words.
+        After both sides have agreed, `end` the match, or `undo` the last act.
+
+        Parameters
+        ----------
+        seat : int or None
+            Who says it. None: nobody in particular, such as a judge.
+        date, event, site, round, name, comment : str
+            UTF-8 of at most 31 bytes (`date`, `round`), 127 (`event`, `site`), 63 (`name`) or 1023
+            (`comment`), without control characters.
+        offer : {"draw", "take_back"}
+            What the seat offers or asks for.
+        answer : {"yes", "no"}
+            The answer to the last offer of another seat.
+        seconds : float
+            The time, s, that the last stroke took the player.
+        **extras
+            At most 8 keys of your own program, which begin with `x_`: texts of at most 255 bytes, or
+            numbers. carom keeps them.
+
+        Raises
+        ------
+        CaromError
+            A key or a value is not allowed, or the match has no such seat. Nothing has changed.
+        """
+        texts = {
+            "date": date,
+            "event": event,
+            "site": site,
+            "round": round,
+            "name": name,
+            "comment": comment,
+        }
+        words = {**texts, "offer": offer, "answer": answer, **extras}
+        for key, value in words.items():
+            is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+            if not (value is None or isinstance(value, str) or (key in extras and is_number)):
+                needed = "a text or a number" if key in extras else "a text"
+                raise TypeError(f"{key}: it must be {needed}, not {value!r}")
+        if seconds is not None:
+            words["seconds"] = float(f"{float(seconds):.15g}")  # the digits that a line may have
+        said = {key: value for key, value in words.items() if value is not None}
+        line = json.dumps({"note": said}, ensure_ascii=False).encode()
+        scratch = ffi.new("carom_record *")
+        ffi.buffer(scratch)[:] = ffi.buffer(ffi.addressof(self._c, "record"))
+        code = lib.carom_record_read(scratch, line, len(line))
+        if code < 0:
+            raise CaromError(code, "note", text=ffi.string(scratch.fault).decode())
+        sender = -1 if seat is None else whole(seat, "seat", most=2**31 - 1)
+        note = ffi.addressof(scratch, "note")
+        self._act(lambda: lib.carom_match_note(self._c, sender, note), "note")
 
     def end(self) -> str:
         """End the recording and return all of it; only the next match of a set can follow."""
