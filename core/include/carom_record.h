@@ -114,7 +114,8 @@ typedef struct carom_seating {
 /* The most keys of other programs in a note. */
 enum { CAROM_NOTE_EXTRAS = 8 };
 
-/* A key of another program in a note. Recordings keep it, and this library does not interpret it. */
+/* A key of another program in a note. Recordings keep it, and this library does not interpret
+ * it. */
 typedef struct carom_note_extra {
   char key[32];      /* "x_" and letters, digits or "_": 30 bytes at most. */
   char text[256];    /* its value. */

@@ -19,10 +19,11 @@
  *         printf("%s\n", match.fault);  // such as "place: the cue ball must be within ..."
  *     }
  *
- * Words go into the recording by carom_match_note(): a comment, the time that a stroke took, an offer
- * of a draw and its answer. A note is no act. It changes neither the game nor a hash, and the rules
- * have no draw by agreement and no take-back: after both sides have agreed, the caller ends the match
- * with carom_match_end(), or reads the lines before the last act again (carom_match_undone()).
+ * Words go into the recording by carom_match_note(): a comment, the time that a stroke took, an
+ * offer of a draw and its answer. A note is no act. It changes neither the game nor a hash, and
+ * the rules have no draw by agreement and no take-back: after both sides have agreed, the
+ * caller ends the match with carom_match_end(), or reads the lines before the last act again
+ * (carom_match_undone()).
  *
  * An act that the rules forbid is rejected with CAROM_ERROR_ACT: match.refusal is the reason, and
  * match.fault describes what would be right. Nothing else has changed, and match.size is 0.
@@ -360,11 +361,11 @@ CAROM_API carom_status carom_match_concede(carom_match *match, int player);
 CAROM_API carom_status carom_match_clock(carom_match *match, int player);
 
 /* Writes a note of a seat into the recording: match->text is its line. `seat` -1: of nobody in
- * particular, such as a judge; note->by is not read. Every seat may do this in every phase, from the
- * beginning to the end of the recording. The game and its hashes do not change, and record.note is
- * the note. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT with the refusal NOT_BEGUN, OVER behind the
- * end of the recording, TURN for a seat that the match does not have, or NOTE for a value that is not
- * allowed. */
+ * particular, such as a judge; note->by is not read. Every seat may do this in every phase,
+ * from the beginning to the end of the recording. The game and its hashes do not change, and
+ * record.note is the note. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT with the refusal
+ * NOT_BEGUN, OVER behind the end of the recording, TURN for a seat that the match does not
+ * have, or NOTE for a value that is not allowed. */
 CAROM_API carom_status carom_match_note(carom_match *match, int seat, const carom_note *note);
 
 /* Ends the recording: match->text is its last line, and match->phase is OVER. Only the next match

@@ -305,8 +305,8 @@ static void copy_match(carom_match *target, const carom_match *source) {
   memcpy(target, source, offsetof(carom_match, text) + (size_t)(source->size + source->known));
 }
 
-/* Whether match->text has this line: the act was taken before, or the line is of its ruling, or it is
- * the last note. */
+/* Whether match->text has this line: the act was taken before, or the line is of its ruling, or
+ * it is the last note. */
 static bool is_known(const carom_match *match, const char *line, size_t size) {
   const char *start = match->text, *const end = match->text + match->size + match->known;
   while (start < end) {

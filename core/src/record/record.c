@@ -99,20 +99,20 @@ static const carom_field end[] = {CAROM_RECORD_FIELD("shots", INT64, true, 1, sh
 #member, CAROM_VALUE_WORDS, false, 1, offsetof(carom_record, note.member), \
         sizeof(((carom_record *)0)->note.member), 0, NULL                      \
   }
-static const carom_field note[] = {CAROM_RECORD_FIELD("seat", SEAT, false, 1, note.by),
-                                   NOTE_TEXT(date),
-                                   NOTE_TEXT(event),
-                                   NOTE_TEXT(site),
-                                   NOTE_TEXT(round),
-                                   NOTE_TEXT(name),
-                                   NOTE_TEXT(comment),
-                                   NOTE_TEXT(offer),
-                                   NOTE_TEXT(answer),
-                                   CAROM_RECORD_FIELD("seconds", DOUBLE, false, 1, note.seconds),
-                                   {"x_", CAROM_VALUE_EXTRAS, false, CAROM_NOTE_EXTRAS,
-                                    offsetof(carom_record, note.extra), sizeof(carom_note_extra),
-                                    offsetof(carom_record, note.extras), NULL},
-                                   CAROM_NO_FIELD};
+static const carom_field note_fields[] = {
+    CAROM_RECORD_FIELD("seat", SEAT, false, 1, note.by),
+    NOTE_TEXT(date),
+    NOTE_TEXT(event),
+    NOTE_TEXT(site),
+    NOTE_TEXT(round),
+    NOTE_TEXT(name),
+    NOTE_TEXT(comment),
+    NOTE_TEXT(offer),
+    NOTE_TEXT(answer),
+    CAROM_RECORD_FIELD("seconds", DOUBLE, false, 1, note.seconds),
+    {"x_", CAROM_VALUE_EXTRAS, false, CAROM_NOTE_EXTRAS, offsetof(carom_record, note.extra),
+     sizeof(carom_note_extra), offsetof(carom_record, note.extras), NULL},
+    CAROM_NO_FIELD};
 /* The value of an extra. */
 static const carom_field extra_text = {NULL,
                                        CAROM_VALUE_WORDS,
@@ -149,7 +149,7 @@ static const carom_line lines[CAROM_LINE_KINDS] = {
     [CAROM_RECORD_EVENT] = {.key = "event", .fields = event},
     [CAROM_RECORD_END] = {.key = "end", .fields = end},
     [CAROM_RECORD_NOTE] = {
-        .key = "note", .fields = note, .is_note = true, .find_fault = find_fault_of_note}};
+        .key = "note", .fields = note_fields, .is_note = true, .find_fault = find_fault_of_note}};
 
 #ifdef CAROM_WITHOUT_PLAN
 const carom_line carom_upper_lines[CAROM_LINE_KINDS] = {{.key = NULL}};
@@ -533,7 +533,7 @@ static bool read_seat(reader *in, unsigned char *value) {
   double x;
   if (!read_number(in, &x))
     return false;
-  if (!(x >= 0.0 && x < CAROM_SEATS_MOST) || x != (double)(int64_t)x)
+  if (!(x >= 0.0 && x < (double)CAROM_SEATS_MOST) || x != (double)(int64_t)x)
     return wrong(in, "must be 0 to 7");
   memcpy(value, &(int64_t){1 + (int64_t)x}, sizeof(int64_t));
   return true;
