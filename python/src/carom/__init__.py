@@ -6,7 +6,7 @@
     shots        simulate, simulate_batch, simulate_arrow, resume, Options, ALL_THREADS
     results      Shot, Shots, Features, EventType, Label, Status, CaromError
     derivatives  tangents, jacobian, hessian, aim_slope, Tangents, Hessian, Flag
-    plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating; Goal, sequence,
+    plans        plan, player, with_errors, aim, value, chances, rating, Hit, Pot, Rating; Goal, sequence,
                  RunOut
     coach        odds, Odds; review, Review, Drill; best_breaks
     rules        Match, a whole game; referee, Rules, Ruling, Facts, Turn, Foul
@@ -97,6 +97,7 @@ if _TYPE_CHECKING:
         Facts as Facts,
         Foul as Foul,
         Goal as Goal,
+        Hit as Hit,
         Match as Match,
         Odds as Odds,
         Pot as Pot,
@@ -134,6 +135,7 @@ _OFFERED = [
     "Foul",
     "Goal",
     "Hessian",
+    "Hit",
     "Label",
     "Match",
     "Odds",
@@ -200,6 +202,7 @@ _OF_GAMES = frozenset(
         "Facts",
         "Foul",
         "Goal",
+        "Hit",
         "Match",
         "Odds",
         "Pot",

@@ -2,12 +2,13 @@
 
 from carom.games.coach import Drill, Odds, Review, best_breaks, odds, review
 from carom.games.match import Match
-from carom.games.plans import Goal, Pot, Rating, RunOut, aim, chances, plan, player, rating
+from carom.games.plans import Goal, Hit, Pot, Rating, RunOut, aim, chances, plan, player, rating
 from carom.games.plans import sequence, value, with_errors
 from carom.games.rules import Facts, Foul, Rules, Ruling, Turn, referee
 
-__all__ = ["Drill", "Facts", "Foul", "Goal", "Match", "Odds", "Pot", "Rating", "Review", "Rules"]
+__all__ = ["Drill", "Facts", "Foul", "Goal", "Hit", "Match", "Odds", "Pot", "Rating", "Review"]
 __all__ += [
+    "Rules",
     "Ruling",
     "RunOut",
     "Turn",
