@@ -4,6 +4,7 @@
                  step: trace, cushion_trace; a table's cushion by three banks: calibrate, Calibration
     layouts      tables, Table, racks, balls, by_number, cue, struck, place_ball
     shots        simulate, simulate_batch, simulate_arrow, resume, Options, ALL_THREADS
+    files        load; Shot.save, Shots.save, Match.save
     results      Shot, Shots, Features, EventType, Label, Status, CaromError
     derivatives  tangents, jacobian, hessian, aim_slope, Tangents, Hessian, Flag
     plans        plan, player, with_errors, aim, value, chances, rating, Hit, Pot, Rating; Goal, sequence,
@@ -69,6 +70,7 @@ from carom.results import (
     Shot as Shot,
     Shots as Shots,
 )
+from carom.saved import load as load
 from carom.shots import (
     cite as cite,
     resume as resume,
@@ -82,6 +84,13 @@ from carom.status import (
 )
 
 if _TYPE_CHECKING:
+    from carom import film as film
+    from carom import games as games
+    from carom import jax as jax
+    from carom import pooltool as pooltool
+    from carom import record as record
+    from carom import torch as torch
+    from carom import tracks as tracks
     from carom import drills as drills
     from carom import fit as fit
     from carom import gymnasium as gymnasium
@@ -172,6 +181,7 @@ _OFFERED = [
     "impacts",
     "isa_in_force",
     "jacobian",
+    "load",
     "mu_ball",
     "odds",
     "physics_revision",
@@ -240,6 +250,8 @@ _MODULES_OF_FOLDERS = frozenset(
         "sb3",
     ]
 )
+# Other parts of the package, which are loaded when they are asked for, too.
+_PARTS = frozenset(["film", "games", "jax", "pooltool", "record", "torch", "tracks"])
 
 _MODULES_OF_LISTINGS = [
     "collisions",
@@ -266,7 +278,7 @@ def __dir__() -> list[str]:
 def __getattr__(name: str) -> object:
     """What lies in a folder of the package, which the core loads only when it is asked for."""
     try:
-        if name in _MODULES_OF_FOLDERS:
+        if name in _MODULES_OF_FOLDERS or name in _PARTS:
             return _importlib.import_module(f"carom.{name}")
         if name in _OF_GAMES:
             return getattr(_importlib.import_module("carom.games"), name)

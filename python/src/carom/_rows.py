@@ -335,12 +335,14 @@ def called(function: _Made, name: str, text: str) -> _Made:
     return function
 
 
-def needed(module: str, user: str) -> Any:
-    """A module of another package, or the error that says how to get it."""
+def needed(module: str, user: str, package: str = "") -> Any:
+    """A module of another package, or the error that says how to get it. `package` is its name
+    where that differs from the module's.
+    """
     try:
         return importlib.import_module(module)
     except ImportError as missing:
-        package = module.partition(".")[0]
+        package = package or module.partition(".")[0]
         raise ImportError(
             f"{user} needs {package}, which is not installed here: pip install {package}",
             name=missing.name,

@@ -36,8 +36,9 @@ from carom._rows import (
 )
 from carom._shot_options import Options, shot_options
 from carom.dtypes import Doubles, Record, Records
+from carom._verbs import ShotsVerbs, ShotVerbs, states_frame
+from carom.animations import Animation, animated
 from carom.layouts import Table
-from carom.pictures import Animation
 from carom.status import CaromError, Status
 
 
@@ -85,7 +86,7 @@ UNKNOWN = fill(dtypes.ball_state, {}, {**dict.fromkeys("rvw", np.nan), "label": 
 
 
 @dataclass(eq=False, repr=False)
-class Shot:
+class Shot(ShotVerbs):
     """One shot.
 
     The table, the balls, the cue and the events cannot be written to, because later calls, such as
@@ -217,13 +218,18 @@ class Shot:
         """
         return np.asarray(self.states(times)["r"], dtype=np.float64)
 
-    def to_dataframe(self) -> Any:
-        """The events as a pandas DataFrame, a row an event: time, type (by name), a, b,
+    def to_dataframe(self, dt: float | None = None) -> Any:
+        """The events as a pandas DataFrame, or with `dt` the states, a row for each ball and time:
+        time, ball, r_x and so on, every `dt` seconds and at the end.
+
+        The events have a row an event: time, type (by name), a, b,
         before_a_r_x and so on. Where there is no second ball, the numbers of one are nan, and its
         labels -1.
 
         Needs pandas. `carom.dtypes.columns` makes columns of any records.
         """
+        if dt is not None:
+            return states_frame(self, dt)
         pandas = needed("pandas", "to_dataframe()")
         names = {kind.value: kind.name.lower() for kind in EventType}
         events = self.events.copy()
@@ -252,9 +258,10 @@ class Shot:
 
     def animate(self, speed: float = 1.0) -> Animation:
         """A moving picture, for Jupyter or a file: `speed` 1 is that of the shot, and `svg` is the
-        text, which moves in any browser.
+        text, which moves in any browser. `save("shot.gif", fps=30)` writes a file: .svg, .gif or
+        .mp4.
         """
-        return pictures.animation(self, speed)
+        return animated(self, speed)
 
 
 class _OfBatch(Shot):
@@ -392,7 +399,7 @@ def _units(name: str) -> dict[str, str]:
 _OF_BALLS = {"pocket", "pocket_time", "cushions"}
 
 
-class Shots:
+class Shots(ShotsVerbs):
     """Many shots: arrays of the shape of the batch.
 
     A batch is indexed, iterated and measured by `len` as its array `status` is. Where NumPy gives a
@@ -706,14 +713,19 @@ class Shots:
             found,
         )
 
-    def to_dataframe(self, dims: Sequence[str] | None = None) -> Any:
+    def to_dataframe(
+        self, dims: Sequence[str] | None = None, *, dt: float | None = None
+    ) -> Any:
         """The shots as a pandas DataFrame, a row a shot: status (by name), time, count, cue_speed
         and what else the cue has, ball_0_r_x and what else is known of each ball at the end, and
         the features where they were asked for, such as pocket_3.
 
         Needs pandas. The index is that of the batch; `dims` names its levels, which are else
-        "shot", or "shot_0", "shot_1" and so on.
+        "shot", or "shot_0", "shot_1" and so on. With `dt` there is a row for each shot, time and
+        ball instead, every `dt` seconds up to the end of the longest shot, with the states.
         """
+        if dt is not None:
+            return states_frame(self, dt, self._dims(dims))
         pandas, dims, (codes, names, found) = (
             needed("pandas", "to_dataframe()"),
             self._dims(dims),

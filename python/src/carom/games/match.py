@@ -14,6 +14,7 @@ from carom._rows import Seed, choice, copied, listing, pointer, seed_of, several
 from carom._shot_options import Options, StopAt, chosen, options_of, shot_options
 from carom.dtypes import Records
 from carom.games._described import BreakOrder, Kind, MatchActs
+from carom.games._match_verbs import MatchVerbs
 from carom.games.plans import ByMatch, plan, player
 from carom.games.rules import (
     GAMES,
@@ -138,7 +139,7 @@ def _seating(
     return seating
 
 
-class Match(MatchActs):
+class Match(MatchVerbs, MatchActs):
     """A game of 2 to 8 seats: the table, the balls, the rules, the players with their cues, the last
     shot and the recording in one object, which takes one act after another.
 
