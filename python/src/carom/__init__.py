@@ -9,7 +9,8 @@
     derivatives  tangents, jacobian, hessian, aim_slope, Tangents, Hessian, Flag
     plans        plan, player, with_errors, aim, value, chances, rating, Hit, Pot, Rating; Goal, sequence,
                  RunOut
-    coach        odds, Odds; review, Review, Drill; best_breaks
+    coach        odds, Odds; review, Review, Drill; best_breaks; ways, Ways; why, Why; breaks,
+                 Breaks; practice, Practice, Reviewed
     rules        Match, a whole game; referee, Rules, Ruling, Facts, Turn, Foul
     other        dtypes, the structured dtypes; cite, physics_revision, isa_in_force
     modules      record, tracks, fit, jax, torch, pooltool; games: potting, drills, pool, matches,
@@ -102,6 +103,7 @@ if _TYPE_CHECKING:
     from carom import rules as rules
     from carom import sb3 as sb3
     from carom.games import (
+        Breaks as Breaks,
         Drill as Drill,
         Facts as Facts,
         Foul as Foul,
@@ -110,23 +112,31 @@ if _TYPE_CHECKING:
         Match as Match,
         Odds as Odds,
         Pot as Pot,
+        Practice as Practice,
         Rating as Rating,
         Review as Review,
+        Reviewed as Reviewed,
         Rules as Rules,
         Ruling as Ruling,
         RunOut as RunOut,
         Turn as Turn,
+        Ways as Ways,
+        Why as Why,
         aim as aim,
         best_breaks as best_breaks,
+        breaks as breaks,
         chances as chances,
         odds as odds,
         plan as plan,
         player as player,
+        practice as practice,
         rating as rating,
         referee as referee,
         review as review,
         sequence as sequence,
         value as value,
+        ways as ways,
+        why as why,
         with_errors as with_errors,
     )
 
@@ -134,6 +144,7 @@ if _TYPE_CHECKING:
 # whole of every name there.
 _OFFERED = [
     "ALL_THREADS",
+    "Breaks",
     "Calibration",
     "CaromError",
     "Drill",
@@ -151,8 +162,10 @@ _OFFERED = [
     "Options",
     "Outcome",
     "Pot",
+    "Practice",
     "Rating",
     "Review",
+    "Reviewed",
     "Rules",
     "Ruling",
     "RunOut",
@@ -162,11 +175,14 @@ _OFFERED = [
     "Table",
     "Tangents",
     "Turn",
+    "Ways",
+    "Why",
     "aim",
     "aim_slope",
     "alciatore",
     "balls",
     "best_breaks",
+    "breaks",
     "by_number",
     "calibrate",
     "chances",
@@ -188,6 +204,7 @@ _OFFERED = [
     "place_ball",
     "plan",
     "player",
+    "practice",
     "racks",
     "rating",
     "referee",
@@ -202,12 +219,15 @@ _OFFERED = [
     "tangents",
     "trace",
     "value",
+    "ways",
+    "why",
     "with_errors",
 ]
 
 # Names of the folder games, and modules of folders, which are loaded when they are asked for.
 _OF_GAMES = frozenset(
     [
+        "Breaks",
         "Drill",
         "Facts",
         "Foul",
@@ -216,23 +236,31 @@ _OF_GAMES = frozenset(
         "Match",
         "Odds",
         "Pot",
+        "Practice",
         "Rating",
         "Review",
+        "Reviewed",
         "Rules",
         "Ruling",
         "RunOut",
         "Turn",
+        "Ways",
+        "Why",
         "aim",
         "best_breaks",
+        "breaks",
         "chances",
         "odds",
         "plan",
         "player",
+        "practice",
         "rating",
         "referee",
         "review",
         "sequence",
         "value",
+        "ways",
+        "why",
         "with_errors",
     ]
 )

@@ -79,7 +79,7 @@ def _maker(name: str) -> _Rack:
         cue_ball: ArrayLike | None = None,
     ) -> dtypes.Records:
         check_table(table)
-        if np.ndim(cast(Any, gap)) == 0:
+        if not isinstance(gap, (list, tuple, np.ndarray)):
             gap = number(gap, "gap", "a distance in m is needed")
         gaps, seeds = as_array(gap, "gap", np.float64), _seeds(seed)
         shapes = {"gap": gaps.shape, "seed": seeds.shape}

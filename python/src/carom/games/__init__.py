@@ -1,5 +1,7 @@
 """Games: their rules and plans, and environments for agents. `carom.plan` is `carom.games.plan`."""
 
+from carom.games.advice import Breaks, Practice, Reviewed, Ways, Why
+from carom.games.advice import breaks, practice, ways, why
 from carom.games.coach import Drill, Odds, Review, best_breaks, odds, review
 from carom.games.match import Match
 from carom.games.plans import Goal, Hit, Pot, Rating, RunOut, aim, chances, plan, player, rating
@@ -21,3 +23,4 @@ __all__ += [
     "rating",
 ]
 __all__ += ["referee", "review", "sequence", "value", "with_errors"]
+__all__ += ["Breaks", "Practice", "Reviewed", "Ways", "Why", "breaks", "practice", "ways", "why"]
