@@ -29,9 +29,8 @@ static void complain_of(const char *name, const layout *l, const carom_pot *pot)
 bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *options, double cut,
                  carom_cue *cue) {
   char names[NAMES_TEXT], hint[HINT_TEXT];
-  carom_pot pot = {.ball = ball_named(l, name, strlen(name), names),
-                   .pocket = CAROM_POT_NO_POCKET,
-                   .cut = cut};
+  carom_pot pot = {
+      .ball = ball_named(l, name, strlen(name), names), .pocket = CAROM_POT_NO_POCKET, .cut = cut};
   did_you_mean(name, names, hint);
   if (pot.ball < 0)
     complain("--at-ball '%s': there is no such ball; the balls of --balls are %s%s", name,

@@ -699,8 +699,8 @@ static carom_status aim_by_cut(const carom_table *table, const carom_shot_ball *
   pot->margin = pot->phi[0] = pot->phi[1] = pot->speed[0] = pot->speed[1] = 0.0;
   pot->met = (carom_brief_event){0};
   if (pot->outcome == CAROM_POT_BARRED)
-    pot->met = (carom_brief_event){
-        .time = first.time, .type = first.type, .a = first.a, .b = first.b};
+    pot->met =
+        (carom_brief_event){.time = first.time, .type = first.type, .a = first.a, .b = first.b};
   if (pot->outcome == CAROM_POT_SHORT)
     pot->met.a = (int32_t)cue->ball;
   if (pot->outcome == CAROM_POT_FALLS)

@@ -133,8 +133,7 @@ static bool holds(const target *t, const double q[2], double time, carom_cue *cu
                   carom_event *first, bool *barred) {
   carom_event events[MOST_EVENTS];
   carom_shot shot = {.events = events, .room = MOST_EVENTS};
-  cue->phi =
-      remainder((carom_angle_of(t->x, t->y) - carom_angle_of(q[0], q[1])) / degree, 360.0);
+  cue->phi = remainder((carom_angle_of(t->x, t->y) - carom_angle_of(q[0], q[1])) / degree, 360.0);
   if (carom_shoot(t->table, t->balls, t->count, cue, &t->options, &shot) != CAROM_STOPPED_AT_EVENT)
     return false;
   /* The contacts of a rack that breaks share one instant: that of the cue's ball is wanted. */

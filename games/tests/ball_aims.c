@@ -7,7 +7,6 @@
 #include <math.h>
 #include <stdio.h>
 
-
 static const double per_degree = 3.14159265358979323846 / 180.0;
 enum { LAYOUTS = 2000, MOST_BALLS = 8, DIRECTIONS = 720, HALVINGS = 50 };
 
@@ -145,9 +144,10 @@ TEST(the_ball_is_met_at_the_cut_or_cannot_be) {
                     "layout %d: refused (%d), but there is a direction for a cut of %.9g", k,
                     result, p.cut);
     if (result == CAROM_POT_BARRED)
-      ck_assert_msg(pot.met.time >= 0.0 && pot.met.type != 0 &&
-                        (pot.met.type != CAROM_EVENT_BALL_BALL || pot.met.a + pot.met.b != p.offset),
-                    "layout %d: barred by event %d", k, pot.met.type);
+      ck_assert_msg(
+          pot.met.time >= 0.0 && pot.met.type != 0 &&
+              (pot.met.type != CAROM_EVENT_BALL_BALL || pot.met.a + pot.met.b != p.offset),
+          "layout %d: barred by event %d", k, pot.met.type);
   }
   printf("%d found, %d barred, %d not reached, %d without direction\n", found[CAROM_POT_FALLS],
          found[CAROM_POT_BARRED], found[CAROM_POT_SHORT], found[CAROM_POT_NO_WAY]);

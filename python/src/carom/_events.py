@@ -52,22 +52,22 @@ def _unknown(shape: tuple[int, ...], dtype: Any) -> Array:
 
 
 def first_events(
-    events: Records, counts: Array, kind: str, ball: int | None, after: ArrayLike, balls: int
+    events: Records, counts: Array, kind: str, ball: int | None, earliest: ArrayLike, balls: int
 ) -> FirstEvents:
     """The first event of a kind in each row of events, of which `counts` happened in each shot."""
     number = choice(_TYPES, kind, "kind")
     if events.dtype != dtypes.event:
         raise ValueError('events: they are brief; first() needs simulate_batch(records="full")')
     shape, room = events.shape[:-1], events.shape[-1]
-    moment = np.broadcast_to(as_array(after, "after", np.float64), shape)
-    kept: NDArray[np.int64] = np.minimum(counts, room)
-    wanted = (np.arange(room) < kept[..., np.newaxis]) & (events["type"] == number)
-    wanted &= events["time"] > moment[..., np.newaxis]
+    moment = np.broadcast_to(as_array(earliest, "after", np.float64), shape)
+    valid: NDArray[np.int64] = np.minimum(counts, room)
+    is_match = (np.arange(room) < valid[..., np.newaxis]) & (events["type"] == number)
+    is_match &= events["time"] > moment[..., np.newaxis]
     if ball is not None:
         index = whole(ball, "ball", most=balls - 1)
         of_second = (events["b"] == index) & (number == EventType.BALL_BALL)
-        wanted &= (events["a"] == index) | of_second
-    found = wanted.any(axis=-1)
+        is_match &= (events["a"] == index) | of_second
+    found = is_match.any(axis=-1)
     if (~found & (counts > room)).any():
         raise ValueError(
             f"events: up to {int(counts.max())} happened in a shot, and {room} were kept; "
@@ -75,19 +75,21 @@ def first_events(
         )
     if room == 0:
         return _found_none(shape)
-    at = wanted.argmax(axis=-1)
-    event: Array = np.take_along_axis(events, at[..., np.newaxis], axis=-1)[..., 0]
+    places = is_match.argmax(axis=-1)
+    event: Array = np.take_along_axis(events, places[..., np.newaxis], axis=-1)[..., 0]
     event = np.where(found, event, _unknown((), dtypes.event)).astype(dtypes.event)
     # Of a collision of two balls, the ball that was asked for is a or b.
     second = np.zeros(shape, np.bool_)
     if ball is not None and number == EventType.BALL_BALL:
         second = found & (event["b"] == ball)
-    before, later = (
+    state_before, later = (
         np.where(second, event[side][..., 1], event[side][..., 0]).astype(dtypes.ball_state)
         for side in ("before", "after")
     )
-    other = np.where(second, event["a"], event["b"]).astype(np.int32)
-    return FirstEvents(np.where(found, at, -1), event["time"], other, before, later, event)
+    partner = np.where(second, event["a"], event["b"]).astype(np.int32)
+    return FirstEvents(
+        np.where(found, places, -1), event["time"], partner, state_before, later, event
+    )
 
 
 def _found_none(shape: tuple[int, ...]) -> FirstEvents:
@@ -96,9 +98,7 @@ def _found_none(shape: tuple[int, ...]) -> FirstEvents:
     return FirstEvents(none, event["time"], event["b"], state, state.copy(), event)
 
 
-def potted(
-    layouts: Records, final: Records, ball: ArrayLike | None
-) -> NDArray[np.bool_]:
+def potted(layouts: Records, final: Records, ball: ArrayLike | None) -> NDArray[np.bool_]:
     """Which balls were on the table at the start and are in a pocket at the end."""
     states = layouts if layouts.dtype == dtypes.ball_state else layouts["state"]
     start = np.broadcast_to(states["label"], final.shape)

@@ -105,7 +105,9 @@ class Animation(pictures.Animation):
 def _save_gif(animation: Animation, path: Path, fps: float) -> None:
     image = needed("PIL.Image", "save() of a .gif", "pillow")
     if number(fps, "fps") > _GIF_FPS_MOST:
-        raise ValueError(f"fps: a GIF has at most {_GIF_FPS_MOST:g}, not {fps:g}; .mp4 may have more")
+        raise ValueError(
+            f"fps: a GIF has at most {_GIF_FPS_MOST:g}, not {fps:g}; .mp4 may have more"
+        )
     frames = [image.fromarray(frame) for frame in animation.frames(fps)]
     # One palette for all frames, so that colours do not flicker.
     palette = frames[0].quantize(_GIF_COLOURS)

@@ -713,9 +713,7 @@ class Shots(ShotsVerbs):
             found,
         )
 
-    def to_dataframe(
-        self, dims: Sequence[str] | None = None, *, dt: float | None = None
-    ) -> Any:
+    def to_dataframe(self, dims: Sequence[str] | None = None, *, dt: float | None = None) -> Any:
         """The shots as a pandas DataFrame, a row a shot: status (by name), time, count, cue_speed
         and what else the cue has, ball_0_r_x and what else is known of each ball at the end, and
         the features where they were asked for, such as pocket_3.

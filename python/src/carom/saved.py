@@ -267,9 +267,11 @@ def load(
     if shape is None and len(found) == 1:
         return _played(found[0])
     sizes = (shape,) if isinstance(shape, int) else shape
-    wanted = (len(found),) if sizes is None else tuple(whole(size, "shape") for size in sizes)
-    if math.prod(wanted) != len(found):
-        raise ValueError(f"shape: {wanted} is not the shape of the {len(found)} shots of the file")
+    batch_shape = (len(found),) if sizes is None else tuple(whole(size, "shape") for size in sizes)
+    if math.prod(batch_shape) != len(found):
+        raise ValueError(
+            f"shape: {batch_shape} is not the shape of the {len(found)} shots of the file"
+        )
     first = found[0]
     for read in found:
         alike = (read.table, read.options, len(read.balls)) == (
@@ -284,10 +286,8 @@ def load(
                 "carom.record.replay() plays them one after another"
             )
     table = Table.from_record(np.frombuffer(first.table, dtypes.table).reshape(()))
-    balls: Records = np.stack([read.balls for read in found]).reshape((*wanted, -1))
-    cues: Records | None = np.array([read.cue for read in found], dtypes.cue).reshape(wanted)
+    balls: Records = np.stack([read.balls for read in found]).reshape((*batch_shape, -1))
+    cues: Records | None = np.array([read.cue for read in found], dtypes.cue).reshape(batch_shape)
     if cues is not None and not (cues["speed"] > 0.0).any():
         cues = None
-    return simulate_batch(
-        table, balls, cues, room=room, features=features, options=first.options
-    )
+    return simulate_batch(table, balls, cues, room=room, features=features, options=first.options)

@@ -49,7 +49,9 @@ def test_games_are_alike_and_within_their_space(name):
 
 
 def test_a_game_of_many_is_the_game_alone():
-    many = gymnasium.make_vec("carom/OnePocket-v1", num_envs=2, vectorization_mode="vector_entry_point")
+    many = gymnasium.make_vec(
+        "carom/OnePocket-v1", num_envs=2, vectorization_mode="vector_entry_point"
+    )
     alone = gymnasium.make("carom/OnePocket-v1")
     observations, _ = many.reset(seed=4)
     observation, _ = alone.reset(seed=5)

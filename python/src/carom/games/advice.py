@@ -143,11 +143,11 @@ def ways(
     if code_of_goal == _WAY_GOALS["place"] and place is None:
         raise ValueError('place: the goal "place" needs where the cue ball is to come to rest')
     tried = _SCANNED_TO_SCORE if code_of_goal else max(_SCANNED, _SCANNED_EACH * strokes.size)
-    one = one_player(usual_player() if player is None else player)
+    striker = one_player(usual_player() if player is None else player)
     shot, record = shot_options(chosen(options, changes)), table.record
     room = whole(most, "most", least=1, most=_WAYS_MOST)
     memory: Array = np.empty(lib.carom_ways_memory(room) // 8 + 1, np.float64)
-    at = (0.0, 0.0) if place is None else tuple(number(x, "place") for x in place)
+    target_place = (0.0, 0.0) if place is None else tuple(number(x, "place") for x in place)
     job = ffi.new(
         "carom_ways_job *",
         {
@@ -156,7 +156,7 @@ def ways(
             "count": len(layout),
             "cues": pointer("carom_cue[]", strokes),
             "strokes": strokes.size,
-            "player": one,
+            "player": striker,
             "shot": shot,
             "scan": tried if scan is None else whole(scan, "scan", least=strokes.size),
             "goal": code_of_goal,
@@ -164,7 +164,7 @@ def ways(
             "pocket": -1 if pocket is None else _pocket(table, pocket),
             "rails": whole(rails, "rails", most=lib.CAROM_WAY_PARTS),
             "each": int(bool(each)),
-            "place": at,
+            "place": target_place,
             "radius": 0.0 if place is None else number(radius, "radius"),
             "memory": pointer("double[]", memory),
             "memory_size": memory.nbytes,
@@ -232,7 +232,9 @@ class Why(NamedTuple):
     loses: float  # The share of strokes with errors that lose the game
     opponent: float  # The opponent's chance to win after those that pass; NaN without an opponent
     flawless_value: float  # Of the choice without errors of the player
-    cost: dict[str, float]  # What the errors of aim, speed, tip and eye cost; they add up to the rest
+    cost: dict[
+        str, float
+    ]  # What the errors of aim, speed, tip and eye cost; they add up to the rest
 
 
 def why(
@@ -273,12 +275,12 @@ def why(
         raise ValueError(f"choice: one is needed, such as plan(...)[0], not {chosen_stroke.size}")
     if chosen_stroke.reshape(())["kind"] == lib.CAROM_PLAN_PASS:
         raise ValueError("choice: it is to pass, which has no stroke to explain")
-    made = Made(rules, state, group, opening)
+    game = Made(rules, state, group, opening)
     job = Job(
         table,
         balls,
         chosen_stroke.reshape(())["cue"],
-        made,
+        game,
         player,
         opponent,
         shots,
@@ -377,7 +379,7 @@ def breaks(
     layout = _layout(balls)
     struck = copied(one_cue(usual_cue(speed=9.0) if cue is None else cue))
     memory: Array = np.empty(lib.carom_break_memory() // 8 + 1, np.float64)
-    one = one_player(usual_player() if player is None else player)
+    striker = one_player(usual_player() if player is None else player)
     rival = ffi.NULL if opponent is None else one_player(opponent, "opponent")
     shot, record = shot_options(chosen(options, changes)), table.record
     job = ffi.new(
@@ -387,7 +389,7 @@ def breaks(
             "balls": pointer("carom_shot_ball[]", layout),
             "count": len(layout),
             "cue": pointer("carom_cue[]", struck),
-            "player": one,
+            "player": striker,
             "opponent": rival,
             "shot": shot,
             "rack": kind,
@@ -494,7 +496,7 @@ def practice(
     for stroke in _strokes_of(recording, seat, player, opponent, seed):
         groups.setdefault(stroke.review.group, []).append(stroke)
     found = [_practice(group, strokes) for group, strokes in groups.items()]
-    return sorted(found, key=lambda one: -(one.miss_cost + one.place_cost))
+    return sorted(found, key=lambda group: -(group.miss_cost + group.place_cost))
 
 
 def _strokes_of(
@@ -512,33 +514,35 @@ def _strokes_of(
             if '"game"' not in line:
                 continue
             match = Match.load(begins)
-            names |= {one.name for one in match.seats if one.name}
+            names |= {sitter.name for sitter in match.seats if sitter.name}
             continue
-        before, strokes = match.copy(), int(match._c.record.shots)
+        earlier, strokes = match.copy(), int(match._c.record.shots)
         match.read(line)
-        if int(match._c.record.shots) == strokes or before.phase == "moving":
+        if int(match._c.record.shots) == strokes or earlier.phase == "moving":
             continue
-        mover = before.seat
-        if seat is not None and seat not in (mover, before.seats[mover].name):
+        mover = earlier.seat
+        if seat is not None and seat not in (mover, earlier.seats[mover].name):
             continue
-        rules = before.rules
+        rules = earlier.rules
         if isinstance(rules, Rules) or rules not in GAMES:
-            raise ValueError(f"recording: line {count}: strokes by rules of your own have no review")
-        struck, called = match.shot, before._c.call
+            raise ValueError(
+                f"recording: line {count}: strokes by rules of your own have no review"
+            )
+        struck, called = match.shot, earlier._c.call
         assert struck is not None and struck.cue is not None
-        one = review(
-            before.table,
-            before.balls,
+        review_of_stroke = review(
+            earlier.table,
+            earlier.balls,
             struck.cue,
             rules=rules,
-            state=before.state,
+            state=earlier.state,
             call=(called.ball, called.pocket),
             player=player,
             opponent=opponent,
             seed=key,
-            options=before.options.changed({"t_final": None, "stop_at": ()}),
+            options=earlier.options.changed({"t_final": None, "stop_at": ()}),
         )
-        found.append(Reviewed(count, mover, before.balls, struck.cue, one))
+        found.append(Reviewed(count, mover, earlier.balls, struck.cue, review_of_stroke))
     if isinstance(seat, str) and seat not in names:
         known = ", ".join(sorted(names)) or "none"
         raise ValueError(f"seat: unknown name {seat!r}; the names of the recording are: {known}")
@@ -552,15 +556,15 @@ def _practice(group: str, strokes: list[Reviewed]) -> Practice:
     def cost(stroke: Reviewed) -> float:
         return stroke.review.miss_cost + stroke.review.place_cost
 
-    off: Doubles = np.array([one.off for one in reviews])
+    off: Doubles = np.array([reviewed.off for reviewed in reviews])
     aimed = off[np.isfinite(off)]
     return Practice(
         group,
         len(strokes),
-        sum(one.kept for one in reviews),
-        float(np.nansum([one.told for one in reviews])),
-        sum(one.miss_cost for one in reviews),
-        sum(one.place_cost for one in reviews),
+        sum(reviewed.kept for reviewed in reviews),
+        float(np.nansum([reviewed.told for reviewed in reviews])),
+        sum(reviewed.miss_cost for reviewed in reviews),
+        sum(reviewed.place_cost for reviewed in reviews),
         float(aimed.mean()) if aimed.size else np.nan,
         float(aimed.std()) if aimed.size else np.nan,
         sorted(strokes, key=lambda stroke: -cost(stroke)),

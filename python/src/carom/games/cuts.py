@@ -39,7 +39,7 @@ class Hit(Arrays):
 
 _WHY_NOT = {
     lib.CAROM_POT_NO_WAY: "no direction of the cue makes the cue ball meet it first at this cut",
-    lib.CAROM_POT_BARRED: "{met} is in the way",
+    lib.CAROM_POT_BARRED: "{obstacle} is in the way",
     lib.CAROM_POT_SHORT: "the cue ball comes to rest before it; raise the cue's speed",
     lib.CAROM_POT_STICK: (
         "the stick would have to be raised by {elevation:.1f} degrees to clear what is behind the "
@@ -50,10 +50,10 @@ _WHY_NOT = {
 
 def _reason(pot: Any, cue_ball: int) -> str:
     """Why there is no such aim, in words."""
-    met = "a cushion, a jaw or a pocket"
+    obstacle = "a cushion, a jaw or a pocket"
     if pot.met.type == lib.CAROM_EVENT_BALL_BALL:
-        met = f"ball {pot.met.b if pot.met.a == cue_ball else pot.met.a}"
-    return _WHY_NOT[pot.outcome].format(met=met, elevation=pot.elevation)
+        obstacle = f"ball {pot.met.b if pot.met.a == cue_ball else pot.met.a}"
+    return _WHY_NOT[pot.outcome].format(obstacle=obstacle, elevation=pot.elevation)
 
 
 def aim_by_cut(
@@ -66,10 +66,10 @@ def aim_by_cut(
         raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}")
     index = whole(ball, "ball", least=0, most=len(layout) - 1)
     cues = of_record(cue, dtypes.cue, "cue", "cue()")
-    wanted = as_array(cut, "cut", np.float64)
-    shape = broadcast({"cue": cues.shape, "cut": wanted.shape})
+    angles = as_array(cut, "cut", np.float64)
+    shape = broadcast({"cue": cues.shape, "cut": angles.shape})
     aimed = copied(np.broadcast_to(cues, shape))
-    cuts: Doubles = np.array(np.broadcast_to(wanted, shape), np.float64)
+    cuts: Doubles = np.array(np.broadcast_to(angles, shape), np.float64)
     wrong = cuts[~(np.abs(cuts) < 90.0)]
     if wrong.size:
         raise ValueError(f"cut: it must be above -90 and below 90 degrees, not {wrong.flat[0]:g}")
@@ -88,15 +88,15 @@ def aim_by_cut(
     def aim_one(row: int) -> None:
         pot.ball, pot.pocket, pot.cut = index, lib.CAROM_POT_NO_POCKET, flat_cuts[row]
         code = lib.carom_aim(of_table, of_balls, len(layout), shot, pot, of_cues + row)
-        one: Array = flat_cues[row].reshape(())
+        stroke: Array = flat_cues[row].reshape(())
         if code < 0:
-            arguments = shot_arguments(table, layout, one, shot)
-            raise argument_error(arguments, layout, one) or CaromError(code, "balls")
+            arguments = shot_arguments(table, layout, stroke, shot)
+            raise argument_error(arguments, layout, stroke) or CaromError(code, "balls")
         if pot.outcome != lib.CAROM_POT_FALLS:
             place = f"[{', '.join(map(str, np.unravel_index(row, shape)))}]" if shape else ""
             raise ValueError(
                 f"cut{place}: no aim at ball {index} with a cut of {flat_cuts[row]:g} degrees: "
-                f"{_reason(pot, int(one['ball']))}"
+                f"{_reason(pot, int(stroke['ball']))}"
             )
         elevations[row] = pot.elevation
 

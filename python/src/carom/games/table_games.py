@@ -110,11 +110,9 @@ class TableGame:
         choice({"win": 0, "points": 1}, reward, "reward")
         self.game: Game = rules
         self.table = _TABLES.get(rules, tables.pool_9ft)() if table is None else table
-        made = Potting if len(self.table.pockets) else ThreeCushion
+        kind = Potting if len(self.table.pockets) else ThreeCushion
         balls = _BALLS.get(rules, "pool")
-        self.base = made(
-            strokes=strokes, table=self.table, ball_set=balls, speeds=speeds, **base
-        )
+        self.base = kind(strokes=strokes, table=self.table, ball_set=balls, speeds=speeds, **base)
         self.strokes, self.noise, self.reward = self.base.strokes, self.base.noise, reward
         self.target = None if target is None else whole(target, "target", least=1)
         self.opponent = player(fargo=500) if opponent is None else opponent
@@ -134,10 +132,10 @@ class TableGame:
 
     def _words(self, match: matches.Match) -> list[int]:
         """What an observation has besides places, as words of 64 bits, which environments keep."""
-        own, other = match.standing.points
-        extras = [float(match.bounds is not None), match.cue_ball, own, other]
-        on = [float(ball in match.on) for ball in range(len(match.balls))]
-        words: list[int] = np.array([*extras, *on], np.float64).view(np.uint64).tolist()
+        own_points, rival_points = match.standing.points
+        extras = [float(match.bounds is not None), match.cue_ball, own_points, rival_points]
+        targets = [float(ball in match.on) for ball in range(len(match.balls))]
+        words: list[int] = np.array([*extras, *targets], np.float64).view(np.uint64).tolist()
         return words
 
     # ---- What environments ask for
@@ -203,7 +201,7 @@ class TableGame:
         scratch, ended = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
         for k, game in enumerate(games.tolist()):
             match, drawn = self._matches[game], draws.single(game)
-            before = match.standing.points
+            points_before = match.standing.points
             self._stroke(match, values[k], drawn)
             ruling, last = match.ruling, match.shot
             assert ruling is not None and last is not None
@@ -217,7 +215,7 @@ class TableGame:
             outcome[k], words[k] = match.balls, self._words(match)
             draws.keep(game, drawn)
             ended[k] = match.phase == "over"
-            rewards[k] = self._reward(match, before)
+            rewards[k] = self._reward(match, points_before)
         strokes = Strokes(
             outcome,
             rewards,
@@ -230,10 +228,10 @@ class TableGame:
         )
         return Turned(struck, cues, strokes, ended)
 
-    def _reward(self, match: matches.Match, before: tuple[int, ...]) -> float:
+    def _reward(self, match: matches.Match, points_before: tuple[int, ...]) -> float:
         if self.reward == "points":
-            own, other = match.standing.points
-            return float((own - before[0]) - (other - before[1]))
+            own_points, rival_points = match.standing.points
+            return float((own_points - points_before[0]) - (rival_points - points_before[1]))
         if match.winner is None:
             return 0.0
         return 1.0 if match.winner == 0 else -1.0
@@ -281,7 +279,7 @@ class TableGame:
 
     def _call(self, match: matches.Match, meant: Records) -> None:
         """Calls what the stroke would pot without noise, or the ball that it would meet first."""
-        on = match.on
+        targets = match.on
         try:
             shot = simulate(self.table, match.balls, meant, options=self._options)
         except CaromError as failed:
@@ -291,7 +289,7 @@ class TableGame:
         cue_ball = match.cue_ball
         pots = shot.events[shot.events["type"] == int(EventType.POCKET)]
         hits = shot.first("ball_ball", ball=cue_ball)
-        calls = [(int(pot["a"]), int(pot["b"])) for pot in pots if int(pot["a"]) in on]
+        calls = [(int(pot["a"]), int(pot["b"])) for pot in pots if int(pot["a"]) in targets]
         if hits.index >= 0:
             calls.append((int(hits.other), -1))
         for ball, pocket in calls:
