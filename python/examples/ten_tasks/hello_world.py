@@ -1,4 +1,4 @@
-"""A break of nine-ball, in a browser. pooltool: docs/getting_started/hello_world.md."""
+"""A break of nine-ball, in a browser. pooltool: hello_world.md of its guide."""
 
 import carom
 

@@ -1,5 +1,5 @@
 """How often a straight shot goes in, by the distance to the object ball, for three players.
-pooltool: docs/examples/straight_shot.ipynb."""
+pooltool: straight_shot.ipynb."""
 
 import matplotlib.pyplot as plt
 import numpy as np

@@ -1,4 +1,4 @@
-"""By how much the cue ball is deflected, by the cut. pooltool: docs/examples/30_degree_rule.ipynb."""
+"""By how much the cue ball is deflected, by the cut. pooltool: 30_degree_rule.ipynb."""
 
 import matplotlib.pyplot as plt
 import numpy as np

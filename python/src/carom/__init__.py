@@ -85,13 +85,10 @@ from carom.status import (
 )
 
 if _TYPE_CHECKING:
-    from carom import film as film
     from carom import games as games
     from carom import jax as jax
-    from carom import pooltool as pooltool
     from carom import record as record
     from carom import torch as torch
-    from carom import tracks as tracks
     from carom import drills as drills
     from carom import fit as fit
     from carom import gymnasium as gymnasium

@@ -17,43 +17,11 @@ Simultaneous = Literal["cluster", "pairs"]
 CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler", "smooth"]
 CushionConvention = Literal["paper", "pooltool"]
 CushionLaw = Literal["constant", "han"]
-Game = Literal[
-    "pool",
-    "snooker",
-    "billiard",
-    "pooltool_pool",
-    "pooltool_snooker",
-    "pooltool_billiard",
-    "blackball",
-    "pyramid",
-    "fourball",
-]
+Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard", "blackball", "pyramid", "fourball"]
 Solver = Literal["exact", "euler", "fast"]
 Slip = Literal["paper", "pooltool"]
-Rules = Literal[
-    "eightball",
-    "nineball",
-    "potting",
-    "threecushion",
-    "straight",
-    "snooker",
-    "onepocket",
-    "bank",
-    "tenball",
-    "straightrail",
-    "blackball",
-    "heyball",
-    "rotation",
-    "pyramid",
-    "fourball",
-    "cowboy",
-    "killer",
-    "cutthroat",
-    "billiards",
-]
-Condition = Literal[
-    "slow_cloth", "medium_cloth", "fast_cloth", "old_cushion", "new_cushion", "humid_cushion"
-]
+Rules = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket", "bank", "tenball", "straightrail", "blackball", "heyball", "rotation", "pyramid", "fourball", "cowboy", "killer", "cutthroat", "billiards"]
+Condition = Literal["slow_cloth", "medium_cloth", "fast_cloth", "old_cushion", "new_cushion", "humid_cushion"]
 Turn = Literal["keep", "pass", "win", "lose", "draw"]
 Leave = Literal["after", "before", "anywhere", "kitchen", "d", "baulk"]
 Choice = Literal["pass", "push", "free_ball", "place", "rack", "other_rack", "stay", "spot"]

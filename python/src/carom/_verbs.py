@@ -4,9 +4,10 @@ potted balls, and tables of states.
 
 from __future__ import annotations
 
+import importlib
 import os
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,16 +19,13 @@ from carom._events import potted as potted_balls
 from carom._rows import needed, number
 from carom.dtypes import Doubles
 
-if TYPE_CHECKING:
-    from carom.results import Shot, Shots
-
 _ROWS_MOST = 100_000_000
 
 
 class ShotVerbs:
     """The part of `Shot`."""
 
-    def save(self: Shot, path: str | os.PathLike[str]) -> None:  # type: ignore[misc]
+    def save(self: Any, path: str | os.PathLike[str]) -> None:
         """Write the shot to a file, which `carom.load` reads.
 
         The file is a recording (docs/reference/files.md): the table, the balls, the cue, the options
@@ -39,11 +37,9 @@ class ShotVerbs:
         ValueError
             Playing the shot again results in other bits, because an array was changed.
         """
-        from carom.saved import save_shot
+        importlib.import_module("carom.saved").save_shot(self, path)
 
-        save_shot(self, path)
-
-    def show(self: Shot, speed: float = 1.0) -> None:  # type: ignore[misc]
+    def show(self: Any, speed: float = 1.0) -> None:
         """Show the moving picture in the notebook's cell, or in a browser.
 
         Parameters
@@ -53,14 +49,12 @@ class ShotVerbs:
         """
         animations.show([(animations.animated(self, speed).svg, repr(self))], "A shot")
 
-    def first(  # type: ignore[misc]
-        self: Shot, kind: str, *, ball: int | None = None, after: float = -1.0
-    ) -> FirstEvents:
+    def first(self: Any, kind: str, *, ball: int | None = None, after: float = -1.0) -> FirstEvents:
         """The first event of a kind, as `Shots.first` describes it; arrays of shape ()."""
         count = np.array(self.count)
         return first_events(self.events, count, kind, ball, after, len(self.balls))
 
-    def potted(self: Shot, ball: ArrayLike | None = None) -> NDArray[np.bool_]:  # type: ignore[misc]
+    def potted(self: Any, ball: ArrayLike | None = None) -> NDArray[np.bool_]:
         """Whether balls were potted, as `Shots.potted` describes it; shape () for one ball."""
         return potted_balls(self.balls, self.final, ball)
 
@@ -68,7 +62,7 @@ class ShotVerbs:
 class ShotsVerbs:
     """The part of `Shots`."""
 
-    def save(self: Shots, path: str | os.PathLike[str]) -> None:  # type: ignore[misc]
+    def save(self: Any, path: str | os.PathLike[str]) -> None:
         """Write the shots to a file, which `carom.load` reads.
 
         The file is a recording, as for `Shot.save`. It does not contain the shape of the batch:
@@ -80,11 +74,9 @@ class ShotsVerbs:
             A shot has an invalid argument and was not played: save `shots[~shots.refused]`. Or an
             array was changed since.
         """
-        from carom.saved import save_shots
+        importlib.import_module("carom.saved").save_shots(self, path)
 
-        save_shots(self, path)
-
-    def show(self: Shots, speed: float = 1.0) -> None:  # type: ignore[misc]
+    def show(self: Any, speed: float = 1.0) -> None:
         """Show the moving pictures of up to 100 shots in the notebook's cell, or in a browser, where
         the arrow keys leaf through them.
 
@@ -95,8 +87,8 @@ class ShotsVerbs:
         """
         animations.show_shots(self, speed)
 
-    def first(  # type: ignore[misc]
-        self: Shots, kind: str, *, ball: int | None = None, after: ArrayLike = -1.0
+    def first(
+        self: Any, kind: str, *, ball: int | None = None, after: ArrayLike = -1.0
     ) -> FirstEvents:
         """The first event of a kind in each shot.
 
@@ -130,7 +122,7 @@ class ShotsVerbs:
         balls = self.final.shape[-1]
         return first_events(self.events, self.count, kind, ball, after, balls)
 
-    def potted(self: Shots, ball: ArrayLike | None = None) -> NDArray[np.bool_]:  # type: ignore[misc]
+    def potted(self: Any, ball: ArrayLike | None = None) -> NDArray[np.bool_]:
         """Whether balls were potted in each shot: on the table at the start, in a pocket at the end.
 
         Parameters
@@ -161,7 +153,7 @@ def sampled_times(duration: float, dt: float, rows_per_time: int) -> Doubles:
     return np.append(times, duration)
 
 
-def states_frame(shots: Shot | Shots, dt: float, index: Iterable[str] = ()) -> Any:
+def states_frame(shots: Any, dt: float, index: Iterable[str] = ()) -> Any:
     """A pandas DataFrame with a row for each time and ball, and for each shot of a batch."""
     pandas = needed("pandas", "to_dataframe()")
     shape = getattr(shots, "shape", ())

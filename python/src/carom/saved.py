@@ -13,7 +13,7 @@ import math
 import os
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -28,10 +28,6 @@ from carom.record import _refuse, lines_of
 from carom.results import Shot, Shots
 from carom.shots import resume, simulate, simulate_batch
 from carom.status import CaromError, Status
-
-if TYPE_CHECKING:
-    from carom.games.match import Match
-    from carom.games.rules import Rules
 
 __all__ = ["load"]
 __dir__ = listing(__name__)
@@ -218,8 +214,8 @@ def load(
     shape: int | tuple[int, ...] | None = None,
     room: int = 0,
     features: bool = False,
-    rules: Rules | None = None,
-) -> Shot | Shots | Match:
+    rules: Any = None,
+) -> Any:
     """Read what `shot.save`, `shots.save` or `match.save` wrote, or another recording.
 
     Every shot is played again, and its bits are compared with the recorded hash.
@@ -259,8 +255,7 @@ def load(
         if shape is not None:
             raise ValueError(f"shape: {os.fspath(path)} contains a match, which has no shape")
         of_games = importlib.import_module("carom.games.match")
-        match: Match = of_games.Match.load(lines, rules=rules)
-        return match
+        return of_games.Match.load(lines, rules=rules)
     found = list(_shots_of(lines))
     if not found:
         raise ValueError(f"path: {os.fspath(path)} contains no shot")

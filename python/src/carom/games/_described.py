@@ -167,9 +167,7 @@ class MatchActs:
         elsewhere. The choice to leave it where it lies is then gone.
         """
         self._act(
-            lambda: lib.carom_match_place(
-                self._c, self._seat(seat), number(x, "x"), number(y, "y")
-            ),
+            lambda: lib.carom_match_place(self._c, self._seat(seat), number(x, "x"), number(y, "y")),
             "place",
         )
 
