@@ -126,9 +126,8 @@ class TableGame:
         self.words = tuple(self._words(first))
 
     def _begun(self, seed: int) -> matches.Match:
-        state = {} if self.target is None else {"state": {"target": self.target}}
-        begun = matches.Match(self.game, self.table, seed=seed, options=self._options, **state)
-        return begun
+        state = None if self.target is None else {"target": self.target}
+        return matches.Match(self.game, self.table, seed=seed, state=state, options=self._options)
 
     def _words(self, match: matches.Match) -> list[int]:
         """What an observation has besides places, as words of 64 bits, which environments keep."""
@@ -228,6 +227,10 @@ class TableGame:
         )
         return Turned(struck, cues, strokes, ended)
 
+    @staticmethod
+    def _is_over(match: matches.Match) -> bool:
+        return match.phase == "over"
+
     def _reward(self, match: matches.Match, points_before: tuple[int, ...]) -> float:
         if self.reward == "points":
             own_points, rival_points = match.standing.points
@@ -260,9 +263,9 @@ class TableGame:
         """The agent's stroke: the place of the cue ball, the call, and the strike."""
         if match.phase == "place":
             self._place(match, action[4:], draws)
-        if match.phase == "place":  # nothing may be placed: a choice is due
+        if match.bounds is None and match.phase == "place":  # a choice is due
             match.choose(match.may[0])
-            if match.player != 0 or match.phase == "over":
+            if match.player != 0 or self._is_over(match):
                 return
             self._place(match, action[4:], draws)
         meant = self._cue(match, self.base.cues(action[:4]))
