@@ -6,7 +6,7 @@ api.py functions INCLUDE    the names of the functions
 api.py abi INCLUDE          sizes, offsets and values, a line each; abi-wasm32: on WebAssembly
 api.py c INCLUDE            a C program that prints the same as its compiler sees it
 
-The declarations are parsed by pycparser. A comment beside or above a declaration is its
+The declarations are parsed by pycparser. A comment next to or above a declaration is its
 description. Sizes and offsets are those of 64-bit systems; "wasm32" has those with pointers of 32
 bits. The tests packaging/abi and bindings/api compare them with compilers.
 """
@@ -75,10 +75,10 @@ carom_break_play counts""".splitlines()
 )
 # Objects that functions change, as carom_match_place() changes a match.
 OBJECTS = ("match", "record")
-# Macros without a value of their own: guards, marks, and expressions of other constants.
+# Macros without their own value: guards, marks, and expressions of other constants.
 NO_VALUE = {"CAROM_API", "CAROM_VERSION_NUMBER", "CAROM_STOP_AT", "CAROM_KIND_NUMBERS"}
 A_UNIT = r"m/s\^2|m/s|rad/s|1/m|s/m|N s|kg|m|s|J|Pa|degrees"
-# A unit stands first, after the lengths of an array, or after a comma; but "u, m/s" is about
+# A unit is first, after the lengths of an array, or after a comma; but "u, m/s" is about
 # another number.
 UNIT = re.compile(rf"(?:^(?:\[\w+\])*|(?<! u), |\()({A_UNIT})(?=[,.;:)]|$| from)")
 UNITS = re.compile(rf"(?:(?:{A_UNIT}|-)(?:, |$))+")
@@ -147,7 +147,7 @@ def type_of(node):
 
 
 def header_of(include, name):
-    """The planner's header is in a folder of its own."""
+    """The planner's header is in its own folder."""
     return next(
         path
         for path in (include / name, include.parents[1] / "games" / "include" / name)
@@ -166,7 +166,7 @@ class Api:
         parser, earlier = c_parser.CParser(), BUILT_IN
         for name in HEADERS:
             header, self.header = Header(header_of(Path(include), name)), name
-            # Earlier headers stand on one line before it, so that lines keep their numbers.
+            # Earlier headers are on one line before it, so that lines keep their numbers.
             tree = parser.parse(
                 earlier + '\n# 1 "' + name + '"\n' + "\n".join(header.code), "before"
             )
@@ -321,7 +321,7 @@ class Api:
                 }
 
     def layout(self, fields, pointer):
-        """Size and alignment of a struct, and offset and size of each field: each stands at the
+        """Size and alignment of a struct, and offset and size of each field: each is at the
         next multiple of its alignment.
         """
         end, widest, places = 0, 1, []

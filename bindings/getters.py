@@ -6,6 +6,7 @@ from typing import NamedTuple
 # description where the comment of the member says something else. A language makes the forms for
 # which it has a template:
 #   index   a ball, a seat or a side
+#   seat    a seat, or none: the member is -1
 #   count   how many there are of something
 #   word    a value of the enumeration that the comment of the member names
 #   words   several of its values, of which the member is the sum
@@ -17,6 +18,7 @@ ROWS = [
     ("phase", "phase", "word", ""),
     ("player", "record.player", "index", ""),
     ("seat", "seat", "index", ""),
+    ("actor", "record.actor", "seat", "The seat that acted last."),
     ("winner", "winner", "side", "The side that has won."),
     ("drawn", "winner", "drawn", "Whether the match is over without a winner."),
     ("shots", "record.shots", "count", ""),

@@ -131,6 +131,7 @@ export abstract class MatchActs<L extends { memory: Memory }> extends Owner<L> {
     SEAT, BEFORE_SEAT = ("seat?: number", "this.seatOf(seat)"), []
     GETTERS = {
         "index": ("number", "{at}"),
+        "seat": ("number | undefined", "{at} < 0 ? undefined : {at}"),
         "count": ("number", "{at}"),
         "word": ("C.{type}", "names.{enum}[{at}] as C.{type}"),
         "words": ("C.{type}[]", "names.{enum}.filter((_, k) => ({at} >> k) & 1) as C.{type}[]"),
@@ -175,7 +176,7 @@ class Python(MatchLayer):
     """python/src/carom/games/_described.py: what the class Match of the package extends."""
 
     HAND, CALL = "python/src/carom/**/*.py", r"\blib\.(carom_\w+)\("
-    HEAD = '''"""Enumerations of games, acts of a match, and how it stands. Written by bindings/match.py:
+    HEAD = '''"""Enumerations of games, acts of a match, and its state. Written by bindings/match.py:
 UPDATE=1 ctest -R bindings/rows.
 """
 
@@ -208,8 +209,9 @@ _BITS: dict[str, int] = {word: 1 << k for k, word in enumerate(_CHOICES)}
 
 
 class MatchActs:
-    """The acts of a match, and how it stands, as carom_match.h has them. The seat that acts is by
-    default the one at the table.
+    """The acts and the state of a match, as in carom_match.h.
+
+    The seat that acts defaults to the one at the table.
     """
 
     _c: Any
@@ -229,6 +231,7 @@ class MatchActs:
     SEAT, BEFORE_SEAT = ("seat: int | None = None", "self._seat(seat)"), ["*"]
     GETTERS = {
         "index": ("int", "int({at})"),
+        "seat": ("int | None", "int({at}) if {at} >= 0 else None"),
         "count": ("int", "int({at})"),
         "word": ("{type}", "{words}[int({at})]"),
         "words": (

@@ -79,7 +79,7 @@ def digits(x):
 
 
 def range_of(unit, low, high, alternative):
-    """A range in the words of carom_number_range()."""
+    """A range as carom_number_range() writes it."""
     (low, from_), (high, is_end_open), (alternative, _) = (
         end_of(low),
         end_of(high),
@@ -296,22 +296,22 @@ OWN = [
         "t_final",
         "float | None",
         "None",
-        "The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that "
+        "The shot stops at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that "
         "lasts longer than 1000 s is an error.",
     ),
     (
         "stop_at",
         "StopAt | Iterable[StopAt]",
         "()",
-        'The shot is stopped after the first event of these, with the status STOPPED_AT_EVENT: "contact", of the '
-        'cue ball with another, or a type of `carom.EventType` in lower case, such as "pocket". `carom.resume` goes on with a shot that was stopped.',
+        'The shot stops after the first event of these kinds, with the status STOPPED_AT_EVENT: "contact", of the '
+        'cue ball with another, or a `carom.EventType` in lower case, such as "pocket". `carom.resume` continues a stopped shot.',
     ),
     (
         "first_of",
         "int | Iterable[int]",
         "()",
-        "Indices of balls. The shot is stopped right after the first contact of the cue ball with another ball, with the "
-        "status STOPPED_AT_EVENT, unless that ball is one of these. (): it is not stopped.",
+        "Indices of balls. The shot stops right after the first contact of the cue ball with another ball, with the "
+        "status STOPPED_AT_EVENT, unless that ball is one of these. (): it does not stop.",
     ),
 ]
 
@@ -366,7 +366,7 @@ def wrapped(text, indent, width=140):
     return textwrap.wrap(text, width, initial_indent=indent, subsequent_indent=indent)
 
 
-HEAD = '''"""Words and numbers of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""
+HEAD = '''"""Names and parameters of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""
 
 from __future__ import annotations
 
@@ -384,29 +384,28 @@ class {}(enum.IntEnum):
 OPTIONS = '''
 
 class ShotOptions(NamedTuple):
-    """By what a shot is played. `carom.simulate` takes these names as keywords, or an object of this
-    class, or both.
+    """Options of a shot. `carom.simulate` accepts them as keywords, as an object of this class, or both.
 
     Attributes
     ----------'''
 CHANGES = '''
 
 class Changes(TypedDict, total=False):
-    """Some of the options, as keywords."""
+    """Options as keywords."""
 '''
 KINDS = """
 
-# What each of them is: words, or a whole number up to this.
+# The options that are names, with their enumerations, and the largest values of the integers.
 WORDS = {"""
 CUSHIONS = '''
 
 class CushionNumbers(TypedDict, total=False):
-    """Numbers of an impact on a cushion, by the models that read them."""
+    """Parameters of an impact on a cushion, with the models that use them."""
 '''
 BALLS = '''
 
 class BallNumbers(TypedDict, total=False):
-    """Numbers of a ball and its cushions, the fields of `carom.dtypes.ball_kind`."""
+    """Properties of a ball and its cushions, the fields of `carom.dtypes.ball_kind`."""
 '''
 
 
@@ -419,8 +418,8 @@ def python_event_types():
     every_word = [row for _, row in rows("schema/words.h", "CAROM_WORD_ROWS")]
     lines = []
     for name, word_set, text in (
-        ("Label", "LABEL", "How a ball moves."),
-        ("EventType", "EVENT", "What happened: to ball a, and to ball, rail, jaw or pocket b."),
+        ("Label", "LABEL", "The motion of a ball."),
+        ("EventType", "EVENT", "The type of an event, of ball a with ball, rail, jaw or pocket b."),
     ):
         values = [row[1].partition("_")[2] for row in every_word if row[0] == word_set]
         lines.append(EVENTS.format(name, text))

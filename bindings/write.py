@@ -244,6 +244,7 @@ class CSharp(Layer):
     # said, by its form.
     GETTERS = {
         "index": ("int", "(int)Open->{at}"),
+        "seat": ("int", "(int)Open->{at}", "-1: none has yet."),
         "count": ("long", "Open->{at}"),
         "word": ("{type}", "({type})Open->{at}"),
         "side": ("int", "Drawn ? -1 : Open->{at} - 1", "-1: none has."),
@@ -255,7 +256,7 @@ class CSharp(Layer):
 
     BASE = {c: csharp for c, _, csharp, _ in TYPES}
     SAFE_MOST = 32  # numbers of an array that code without pointers reads and sets
-    # System and UnityEngine, which games import beside Carom, have types of these names.
+    # System and UnityEngine, which games import next to Carom, have types of these names.
     RENAMED = {
         "Bounds": "HandBounds",
         "Event": "ShotEvent",
@@ -386,7 +387,7 @@ namespace Carom {"""
         return self.type({**about, "pointer": 0})
 
     def is_large(self, about):
-        """Whether Mono refuses to pass it by value."""
+        """Whether Mono cannot pass it by value."""
         return self.structs[about["type"]]["size"] > self.PASSED_MOST
 
     def function(self, function, roles, of_match):
@@ -520,6 +521,7 @@ class Rust(Layer):
     # The type of a getter of a match and its value, by its form; {at} is the member.
     GETTERS = {
         "index": ("usize", "self.of.{at} as usize"),
+        "seat": ("Option<usize>", "usize::try_from(self.of.{at}).ok()"),
         "count": ("u64", "self.of.{at} as u64"),
         "word": ("{type}", '{type}::try_from(self.of.{at}).expect("a value of carom_match.h")'),
         "side": (

@@ -30,6 +30,7 @@ typedef struct break_job {
 
 static const option_row option_rules = {.name = "rules",
                                         .help = "the rack, on the table of its game",
+                                        .noun = "rack",
                                         .else_usual = "eightball",
                                         .set = set_named,
                                         .field = offsetof(break_job, flags.balls.rack),
@@ -39,26 +40,22 @@ static const option_row option_rules = {.name = "rules",
 static OPTION_SET(set_racks) {
   const char *word;
   for (int k = 0; (word = carom_word(CAROM_WORDS_RACK, k)) != NULL; k++)
-    if (strcmp(word, text) == 0) {
-      complain("--racks is how many breaks are played; --rules %s names the rack", word);
-      return false;
-    }
+    if (same_word(text, strlen(text), word, strlen(word)))
+      return refuse_value(row, text, "the number of breaks is needed; try --rules %s", word);
   return set_count(row, text, field);
 }
 
 OPTION(break_job, option_racks, "racks", racks, "N", set_racks, 1,
        "breaks of each speed, tip and gap", .usual = "500");
-FLAG(break_job, option_break_csv, "csv", csv,
-     "write a row for each stroke and gap instead of words");
+FLAG(break_job, option_break_csv, "csv", csv, "write a row of CSV for each stroke and gap");
 FLAG(break_job, option_break_json, "json", json,
-     "write each break as the line of its shot with its final states, for --from final of `carom "
-     "plan` and others");
+     "write each break as the line of a shot with its final states, as `carom plan --from final` "
+     "and others read it");
 FLAG(break_job, option_falls, "falls", falls,
-     "report also which balls fall into which pockets, and how often. With --csv, each ball and "
-     "pocket has a row, instead of the other rows");
+     "also report how often each ball falls into each pocket; with --csv, write only these rows");
 FLAG(break_job, option_best, "best", best,
-     "find the breaks that win most often for this player: where the cue ball lies, the speed, the "
-     "height of the tip and the cut; and what the player's errors cost");
+     "find the breaks that win most often for this player: position of the cue ball, speed, height "
+     "of the tip and cut; and the cost of the player's errors");
 FLAG(break_job, option_nine_on_spot, "nine-on-spot", nine_on_spot,
      "nine-ball's rack, with the 9 on the foot spot");
 OPTION(break_job, option_break_plot, "plot", plot, "OUT", set_picture, 0,
@@ -304,16 +301,25 @@ static bool plot(const breaker *b, const shot_line *line, double gap, const char
 
 static const command_form form = {
     .name = "break",
-    .usual = (const option_usual[]){{"speed", "9", "unless --ball-speed is given"},
-                                    {"aim", NULL, "at the middle of the ball in front"},
-                                    {"cut", NULL, "none"},
-                                    {"table", NULL, "that of the game"},
-                                    {0}},
+    .usual =
+        (const option_usual[]){
+            {.name = "speed", .usual = "9", .else_usual = "unless --ball-speed is given"},
+            {.name = "aim", .else_usual = "at the centre of the ball in front"},
+            {.name = "cut",
+             .else_usual = "none",
+             .help = "cut angle on the ball in front; above 0 it goes to the left"},
+            {.name = "table", .else_usual = "the game's table"},
+            {.name = "cue",
+             .else_usual = "its position in the rack",
+             .help =
+                 "position of the cue ball: X,Y in m or with a unit, 2,3ft; in diamonds from the "
+                 "left and head rails, 2,2d; at a rail, head,2d; or a name such as head-spot"},
+            {0}},
     .usage = "[OPTIONS]",
-    .about = "Plays many breaks of a rack, each with a rack of its own and a player's errors, and "
-             "reports how often a ball falls, the player plays on, the cue ball falls and a wing "
-             "ball falls, where the cue ball ends, and which ball falls where. Each stroke and gap "
-             "has a row. The cue aims at the middle of the ball in front, or cuts it by --cut.\n",
+    .about = "Plays many breaks, each with a new rack and a player's errors, and reports how often "
+             "a ball, the cue ball and a wing ball fall and how often the player continues, where "
+             "the cue ball comes to rest, and which ball falls into which pocket. Each stroke and "
+             "gap is reported separately.\n",
     .options = (const option_row *const[]){&option_rules,
                                            &option_nine_on_spot,
                                            &option_racks,
@@ -340,17 +346,17 @@ static const command_form form = {
                                            &option_output,
                                            NULL},
     .details =
-        "speed if none is given: 9 m/s\n"
         "columns of --csv: "
         "rules,speed,aim,elevation,right,above,gap_mm,racks,makes,makes_error,balls,plays_"
         "on,foul,scratch,off,wing,x,y,spread,wins,wins_error\n"
         "  aim                  degrees, by --aim or --cut; else empty\n"
-        "  makes, plays_on, foul, scratch, off, wing  shares of the breaks; by the rules of "
-        "eight-ball and nine-ball, empty for other racks\n"
+        "  makes plays_on foul scratch off wing  fractions of the breaks; by the rules of "
+        "eight-ball "
+        "and nine-ball, empty for other racks\n"
         "  balls                balls made in a break\n"
-        "  x y spread           mean place of the cue balls that stay, and their standard "
+        "  x y spread           mean position of the cue balls that stay, and their standard "
         "deviation, m\n"
-        "  wins wins_error      chance to win by the value of what the break leaves, and its "
+        "  wins wins_error      chance to win by the value of the layout after the break, and its "
         "error\n"
         "  with --falls, from makes on: ball,pocket,share\n"
         "\n"
@@ -367,9 +373,10 @@ static bool tell_best(FILE *out, const breaker *b, const shot_line *line, double
   const carom_status status = carom_break_best(&job, b->job->racks, choice, TOLD);
   free(job.memory);
   if (status < 0) {
-    complain("--best: %s", status == CAROM_ERROR_OPTIONS
-                               ? "it needs 16 --racks or more, and a game with a break"
-                               : carom_status_string(status));
+    complain("--best: %s",
+             status == CAROM_ERROR_OPTIONS
+                 ? "too few breaks or no break; give 16 --racks or more and eightball or nineball"
+                 : carom_status_string(status));
     return false;
   }
   for (int k = 0; k < TOLD; k++) {
@@ -442,7 +449,7 @@ static bool take_gaps(shoot_flags *f, values *gaps) {
   f->gap.count = 0;
   for (int g = 0; g < gaps->count; g++)
     if (!(gaps->item[g].x >= 0.0 && gaps->item[g].x <= GAP_MOST)) {
-      complain("--gap is 0 to %g m, not %g", GAP_MOST, gaps->item[g].x);
+      complain("--gap '%s': out of range; give 0 to %g m", gaps->item[g].name, GAP_MOST);
       return false;
     }
   return true;
@@ -471,11 +478,11 @@ static int run(breaker *b, const shot_line *line, const carom_cue *stroke, int s
 static bool has_one_form(const break_job *job) {
   const bool has_other = job->csv || job->falls || job->plot != NULL;
   if (job->json && (job->best || has_other)) {
-    complain("--json stands alone: give it without --csv, --falls, --plot and --best");
+    complain("--json excludes --csv, --falls, --plot and --best; give one of them");
     return false;
   }
   if (job->best && has_other) {
-    complain("--best stands alone: give it without --csv, --falls, --plot and --json");
+    complain("--best excludes --csv, --falls, --plot and --json; give one of them");
     return false;
   }
   return true;

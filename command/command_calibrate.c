@@ -1,5 +1,7 @@
 /* `carom calibrate`: the cushion of a player's table, by three banks: how to play them, what the
  * readings tell, a picture, and a file for --with. */
+#include "pictures/colours.h"
+#include "pictures/palette.h"
 #include "pictures/picture.h"
 #include "program/program.h"
 #include "shots/shot_table.h"
@@ -24,36 +26,32 @@ static OPTION_SET(set_readings) {
   calibrate_job *job = (calibrate_job *)(void *)((char *)field - row->field);
   char rest;
   job->read = sscanf(text, "%lf,%lf,%lf%c", &reading[0], &reading[1], &reading[2], &rest) == 3;
-  if (!job->read)
-    complain("--%s is the three sights with commas between them, such as 4.8,5.8,5.6; not '%s'",
-             row->name, text);
-  return job->read;
+  return job->read || refuse_value(row, text, "not three sights with commas; try 4.8,5.8,5.6");
 }
 
 OPTION(calibrate_job, calibrate_table, "table", table, "9ft|8ft|7ft", set_choice, 0, "the table",
-       .usual = "9ft");
+       .usual = "9ft", .noun = "table of pool");
 OPTION(calibrate_job, calibrate_read, "read", reading, "A,B,C", set_readings, 0,
-       "where the three banks came back, in sights from the corner where they began; tenths are "
-       "wanted: 4.8 lies before the fifth sight");
+       "where the three banks returned, in sights from their corner, to a tenth: 4.8 is just "
+       "before the fifth sight");
 OPTION(calibrate_job, calibrate_plot, "plot", picture, "OUT", set_picture, 0,
        "draw the three banks. OUT.svg, OUT.png or OUT.pdf");
 
 static const command_form form = {
     .name = "calibrate",
-    .usual = (const option_usual[]){{"output", NULL, "none"}, {0}},
+    .usual = (const option_usual[]){{.name = "output", .else_usual = "none"}, {0}},
     .usage = "[OPTIONS]",
     .about =
         "Finds the restitution and the friction of a pool table's cushions from three banks that "
-        "you play. Without --read it tells how to play them, and where they come back on the "
-        "usual table. With --read it tells the two numbers with their standard deviations, and "
-        "-o writes them to a file, which --with of `carom shoot`, `plan`, `ways` and `break` "
-        "takes.\n"
-        "The cue ball lies near the corner, on the line from the corner through a sight of the "
-        "long rail on the other side. It is played along that line without english. You read "
-        "where it touches the first long rail again.\n",
+        "you play. Without --read, carom describes these banks, and where they return on a usual "
+        "table. With --read it reports both constants with their standard deviations, and -o "
+        "writes them to a file for --with of `carom shoot`, `plan`, `ways` and `break`.\n"
+        "Put the cue ball near the corner, on the line from the corner through a sight of the "
+        "opposite long rail. Play it along that line without english, and read the sight at which "
+        "it touches the first long rail again.\n",
     .options = (const option_row *const[]){&calibrate_table, &calibrate_read, &calibrate_plot,
                                            &option_output, NULL},
-    .details = "exit code: 0; 1 where the readings do not fit each other; 2 for bad usage\n",
+    .details = "exit code: 0; 1 if the readings contradict each other; 2 for bad usage\n",
     .example = "carom calibrate --read 4.8,5.8,5.6 -o my.json",
     .files = NO_FILES,
 };
@@ -109,25 +107,31 @@ typedef struct banks_picture {
 /* The table lies: sights run along the picture, and the corner is on the left below. */
 static void draw(FILE *out, const void *data) {
   static const double scale = 300.0, edge = 70.0, sight = 0.094; /* pixels a meter, pixels, m */
-  static const char *const colour[CAROM_BANKS] = {"#1f6fb2", "#b2361f", "#2a7d3a"};
   const banks_picture *p = data;
   const double length = p->table->length * scale, width = p->table->width * scale,
                diamond = length / 8.0;
-  svg_begin(out, length + 2.0 * edge, width + 2.0 * edge + 60.0, "fill=\"#fff\"");
+  const table_colours colours = colours_of(p->table);
+  const double letters = svg_letters(length + 2.0 * edge);
+  char frame[64];
+  snprintf(frame, sizeof frame, "rx=\"%.0f\" fill=\"%s\"", scale * PALETTE_SIZE_CORNER,
+           colours.wood);
+  svg_begin(out, length + 2.0 * edge, width + 2.0 * edge + 60.0, frame);
   fprintf(out,
-          "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#e6f0ea\" "
-          "stroke=\"#0b2a22\" stroke-width=\"3\"/>\n",
-          edge, edge, length, width);
+          "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" "
+          "stroke=\"" PALETTE_NOSE "\" stroke-width=\"%.1f\"/>\n",
+          edge, edge, length, width, colours.cloth, scale * PALETTE_SIZE_NOSE);
 
   /* sights, and their numbers */
   const double below = edge + width + sight * scale, above = edge - sight * scale;
   for (int k = 1; k < 8; k++) {
     char name[12];
     snprintf(name, sizeof name, "%d", k);
-    svg_circle(out, edge + k * diamond, below, 3.0, "fill=\"#0b2a22\"");
-    svg_circle(out, edge + k * diamond, above, 3.0, "fill=\"#0b2a22\"");
-    svg_text(out, edge + k * diamond + 8.0, below + 5.0, name, 4, "font-size=\"14\"");
-    svg_text(out, edge + k * diamond + 8.0, above + 5.0, name, 4, "font-size=\"14\"");
+    svg_circle(out, edge + k * diamond, below, 3.0, "fill=\"" PALETTE_MARK "\"");
+    svg_circle(out, edge + k * diamond, above, 3.0, "fill=\"" PALETTE_MARK "\"");
+    svg_text(out, edge + k * diamond + 8.0, below + 5.0, name, 4,
+             "font-size=\"%.1f\" fill=\"" PALETTE_MARK "\"", letters);
+    svg_text(out, edge + k * diamond + 8.0, above + 5.0, name, 4,
+             "font-size=\"%.1f\" fill=\"" PALETTE_MARK "\"", letters);
   }
 
   /* the line of aim to its sight, and the way back from where it meets the rail */
@@ -140,12 +144,12 @@ static void draw(FILE *out, const void *data) {
     fprintf(out,
             "<path d=\"M%.1f %.1fL%.1f %.1fL%.1f %.1f\" fill=\"none\" stroke=\"%s\" "
             "stroke-width=\"2.2\"/>\n",
-            edge, edge + width, rail_point, edge, back, edge + width, colour[k]);
+            edge, edge + width, rail_point, edge, back, edge + width, line_colour(k + 1));
     char words[100];
     snprintf(words, sizeof words, "%d: through %.1f, %s: back at %.1f", k + 1, bank.aim,
              stroke_of(&bank), p->usual->comes_back[k]);
-    svg_text(out, edge, below + 35.0 + 20.0 * k, words, 60, "font-size=\"15\" fill=\"%s\"",
-             colour[k]);
+    svg_text(out, edge, below + 35.0 + 20.0 * k, words, 60, "font-size=\"%.1f\" fill=\"%s\"",
+             letters, line_colour(k + 1));
   }
   fputs("</svg>\n", out);
 }
@@ -166,13 +170,13 @@ int command_calibrate(int argc, char **argv) {
   if (job.read) {
     const carom_status status = carom_calibrate(&table, &kind, job.reading, &found);
     if (status != CAROM_OK) {
-      complain("--read: no bank comes back there; sights are above 0 and below 8, and usually "
-               "about %.1f,%.1f,%.1f",
+      complain("--read: no bank returns there, between the sights 0 and 8; try about "
+               "%.1f,%.1f,%.1f",
                usual.comes_back[0], usual.comes_back[1], usual.comes_back[2]);
       return EXIT_USAGE;
     }
   } else if (job.shared.output != NULL) {
-    complain("--output has the numbers that --read tells: give the three readings");
+    complain("--output: there is nothing to write; give --read with the three readings");
     return EXIT_USAGE;
   }
   tell(stdout, &job, &usual, &found);
@@ -182,7 +186,7 @@ int command_calibrate(int argc, char **argv) {
     return EXIT_USAGE;
   if (found.misfit <= 2.0)
     return EXIT_GOOD;
-  complain("the readings differ from any cushion by %.1f cm: read again, and mind the speeds",
+  complain("the readings fit no cushion, by %.1f cm; read again, and mind the speeds",
            2.5 * found.misfit);
   return EXIT_SOME;
 }

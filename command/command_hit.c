@@ -52,7 +52,7 @@ static const char *const quantity[] = {"throw of the object ball (degrees)",
                                        "distance at which the object ball rests (m)"};
 
 INPUT(option_speed, "speed", SPEED, SPEED_WORDS "|V", MEASURE_SPEED,
-      "speed of the cue ball at contact, m/s, or with a unit: mph, km/h; or a word: " SPEEDS,
+      "speed of the cue ball at contact, m/s or with a unit: mph, km/h; or " SPEEDS,
       .usual = "1.5");
 INPUT(option_cut, "cut", CUT, "full|three-quarter|half|quarter|thin|DEGREES", MEASURE_CUT,
       "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object "
@@ -101,8 +101,8 @@ INPUT(option_roll, "roll", ROLL, "MU", MEASURE_NUMBER,
 INPUT(option_restitution, "restitution", RESTITUTION, "E", MEASURE_NUMBER,
       "restitution of the balls", .usual = "0.95");
 OPTION(series, option_quantity, "quantity", asked_for, QUANTITIES, set_quantities, 0,
-       "the quantity that curves show, or those of tables, with commas",
-       .else_usual = "throw; of tables all");
+       "the quantity of curves, or the quantities of tables, with commas",
+       .else_usual = "throw; all in tables");
 FLAG(series, option_csv, "csv", csv,
      "write the collisions as rows for `carom resolve`. An id is the spin and the values of "
      "other lists, such as draw-1.5m/s. With --quantity: write a table of it");
@@ -276,11 +276,13 @@ static const char *law(const series *s, char text[80]) {
 
 static const command_form form = {
     .name = "hit",
-    .usual = (const option_usual[]){{"output", NULL, "- unless --plot draws curves"}, {0}},
+    .usual =
+        (const option_usual[]){{.name = "output", .else_usual = "- unless --plot draws curves"},
+                               {0}},
     .usage = "[OPTIONS]",
-    .about = "Computes the collision of the cue ball with a ball at rest, and describes it in "
-             "words: throw, deflection, spin, and the speeds just after the collision and once the "
-             "balls roll. Angles are measured from the cue ball's path before, seen from above.\n",
+    .about = "Computes and describes the collision of the cue ball with a ball at rest: throw, "
+             "deflection, spin, and the speeds just after the collision and once the balls roll. "
+             "Angles are measured from the cue ball's path before, seen from above.\n",
     .options =
         (const option_row *const[]){
             &option_speed,       &option_cut,    &option_spin,   &option_side,   &option_frictions,
@@ -293,16 +295,15 @@ static const command_form form = {
         "a list is a collision. A range gives a table, with --plot curves.\n\n"
         "quantities:\n"
         "  throw                angle of the object ball's velocity from the line of centres, "
-        "degrees; above 0 in the direction in which a cut throws; for a full hit, in that of right "
-        "english\n"
+        "degrees; above 0 in the direction in which a cut throws, or right english a full hit\n"
         "  deflection           angle between the cue ball's paths before and just after, degrees; "
         "above 0 away from the object ball\n"
         "  rolling-deflection   the same once it rolls\n"
         "  angle-between        angle between the directions of both balls once they roll, "
         "degrees\n"
         "  object-speed         speed of the object ball just after, m/s\n"
-        "  spin-transfer        side spin of the object ball over that of the cue ball before, %\n"
-        "  energy               share of the kinetic energy that is lost, %\n"
+        "  spin-transfer        side spin of the object ball over the cue ball's before, %\n"
+        "  energy               lost kinetic energy, %\n"
         "  cue-distance         how far from the contact the cue ball rests on an endless cloth, "
         "m\n"
         "  object-distance      the same of the object ball\n\n"
@@ -317,6 +318,7 @@ int command_hit(int argc, char **argv) {
   static series s;
   s = (series){.shared = {.options = COMMAND_OPTIONS, .friction = {.law = carom_alciatore()}},
                .scene = &hit};
-  return series_command(&s, &form, argc, argv, CUT,
-                        "--cut is between -90 and 90 degrees; at 90 the balls do not meet");
+  return series_command(
+      &s, &form, argc, argv, CUT,
+      "--cut: out of range; give less than 90 degrees, at which the balls do not meet");
 }

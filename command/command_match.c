@@ -23,49 +23,49 @@ typedef struct match_job {
 } match_job;
 
 OPTION(match_job, option_rules, "rules", rules, NULL, set_named, CAROM_WORDS_RULES, "the game",
-       .else_usual = "eightball, or the game of the file");
+       .else_usual = "eightball, or the game of the file", .noun = "game");
 OPTION(match_job, option_table, "table", table, NULL, set_named, CAROM_WORDS_TABLE, "the table",
-       .else_usual = "that of the game");
-OPTION(
-    match_job, option_players, "players", rating, "A,B,...", set_ratings, 0,
-    "the Fargo ratings of 2 to 8 players, 200 to 850; in games of two sides every other one is a "
-    "partner",
-    .else_usual = "600 each");
+       .else_usual = "the game's table", .noun = "table");
+OPTION(match_job, option_players, "players", rating, "A,B,...", set_ratings, 0,
+       "the Fargo ratings of 2 to 8 players, 200 to 850; in games of two sides, players 1, 3, ... "
+       "are partners",
+       .else_usual = "600 each");
 OPTION(match_job, option_race, "race", race, "N", set_count, 1,
-       "play a set, until a side has won so many matches; the sides break in turn",
+       "play a set, until a side has won this many matches; the sides break alternately",
        .else_usual = "one match");
 FLAG(match_job, option_winner_breaks, "winner-breaks", winner_breaks,
-     "in a set, who has won a match breaks the next one");
+     "in a set, the winner of a match breaks the next one");
 OPTION(match_job, option_breaks, "breaks", breaks, "1|2", set_choice, 0, "the player who breaks",
        .usual = "1");
 OPTION(match_job, option_seed, "seed", seed, "N", set_count, 0,
-       "from which the gaps of the rack and the errors are drawn", .usual = "1");
+       "seed of the gaps of the rack and of the errors", .usual = "1");
 OPTION(match_job, option_shots, "shots", shots, "N", set_count, 100,
-       "shots by which a player plans each stroke", .usual = "300");
+       "how many shots a player tries in planning a stroke", .usual = "300");
 OPTION(match_job, option_strokes, "strokes", strokes, "N", set_count, 1,
-       "stop after so many strokes: the recording has no end, and can be gone on with");
+       "stop after this many strokes; the recording has no end, and can be continued");
 OPTION(match_job, option_target, "target", target, "N", set_count, 1,
-       "the points that win, in games of points", .else_usual = "those of the game");
+       "the points that win, in games of points", .else_usual = "the game's");
 FLAG(match_job, option_equal, "equal-innings", equal,
      "in three-cushion and straight rail: if the player who broke reaches the target first, the "
      "other has one more inning, and the match may be drawn");
 FLAG(match_job, option_show, "show", shows,
-     "instead of playing: judge GAME, and tell each stroke in words");
+     "instead of playing: judge GAME, and describe each stroke");
 
 static const command_form match_form = {
     .name = "match",
     .usage = "[OPTIONS] [GAME]",
-    .about = "Plays a match between players who err as their ratings say, by the rules of a "
-             "game, and writes its recording, which `carom verify` judges. With GAME it goes on "
-             "with a match that was saved: give the seed and the shots again, and the match ends "
-             "as if it had not been interrupted. GAME may be -.\n",
+    .about =
+        "Plays a match between players whose errors follow from their ratings, by the rules of "
+        "a game, and writes its recording, which `carom verify` judges. With GAME it continues "
+        "a saved match: with the same --seed and --shots, the match ends as if it had not "
+        "been interrupted. GAME may be -.\n",
     .options =
         (const option_row *const[]){&option_rules, &option_table, &option_players, &option_breaks,
                                     &option_race, &option_winner_breaks, &option_target,
                                     &option_equal, &option_seed, &option_shots, &option_strokes,
                                     &option_show, &option_output, NULL},
-    .details = "exit code: 0 for success; 1 if a line of GAME is not by the rules, which carom "
-               "names; 2 for bad usage or unreadable input\n",
+    .details = "exit code: 0 for success; 1 if a line of GAME breaks the rules, which carom names; "
+               " 2 for bad usage or unreadable input\n",
     .example = "carom match --players 650,500 -o game.jsonl",
     .files = FILE_OR_NONE,
 };
@@ -352,7 +352,7 @@ int command_match(int argc, char **argv) {
   if (code >= 0)
     return code;
   if (job.shows && path == NULL) {
-    complain("--show: it needs GAME, the file of a match");
+    complain("--show: there is no match to show; give GAME, its file");
     return usage_hint(&match_form);
   }
 

@@ -112,16 +112,15 @@ static void hint_at_name(const char *name) {
   for (int list = 0; list < LISTS; list++)
     for (int k = 0; (n = carom_number_of(lists[list].part, k)) != NULL; k++)
       append(known, sizeof known, "|", "%s|%s", n->name, n->key);
-  complain("there is no model or number '%.40s'%s", name, did_you_mean(name, known, hint));
+  complain("'%.40s': no such model or parameter%s", name, did_you_mean(name, known, hint));
 }
 
 static const command_form form = {
     .name = "models",
     .usage = "[OPTIONS] [NAME]",
-    .about = "Lists the models and their words, the options of shots, and the numbers of balls, "
-             "cushions, cues and tables with ranges and units. With NAME, describes the model of "
-             "this name with its own numbers, or the number of this name with its range and the "
-             "model that reads it.\n",
+    .about = "Lists the models, the options of shots, and the parameters of balls, cushions, cues "
+             "and tables with ranges and units. With NAME, describes this model with its own "
+             "parameters, or this parameter with its range and the model that reads it.\n",
     .options = (const option_row *const[]){&option_output, NULL},
     .details = "exit code: 0; 2 for bad usage or an unknown name\n",
     .example = "carom models smooth",

@@ -22,26 +22,25 @@ OPTION(odds_job, option_race, "race", games, "N[,M]", set_lengths, 0,
 OPTION(odds_job, option_sets, "sets", sets, "N[,M]", set_lengths, 0,
        "how many sets a player needs to win the match", .usual = "1");
 FLAG(odds_job, option_winner_breaks, "winner-breaks", winner_breaks,
-     "who has won a game breaks the next one; else the players break in turn");
+     "the winner of a game breaks the next one; otherwise the players break alternately");
 OPTION(odds_job, option_breaks, "breaks", breaks, "lot|1|2", set_choice, 0,
        "the player who breaks first", .usual = "lot");
 OPTION(odds_job, option_break_points, "break-points", break_points, "X", set_number, 0,
-       "how many points of rating the break is worth in a game; below 0 it is a burden",
+       "the value of the break in a game, in points of rating; below 0 it is a disadvantage",
        .usual = "0");
-FLAG(odds_job, option_csv, "csv", csv, "write each final score and its chance instead of words");
+FLAG(odds_job, option_csv, "csv", csv, "write each final score and its chance as CSV");
 
 static const command_form form = {
     .name = "odds",
     .usage = "[OPTIONS] --players A,B",
-    .about = "Reports how likely each of two rated players wins a game, a set and a match, how the "
-             "match may end, and the handicap that makes it fair. A player who is rated 100 points "
-             "higher wins two games for each one of the other.\n",
+    .about = "Reports how likely each of two rated players wins a game, a set and a match, the "
+             "final scores, and the handicap that makes it fair. A player rated 100 points higher "
+             "wins two games for each one of the opponent.\n",
     .options = (const option_row *const[]){&option_players, &option_race, &option_sets,
                                            &option_winner_breaks, &option_breaks,
                                            &option_break_points, &option_csv, &option_output, NULL},
     .details = "columns of --csv: player1,player2,chance\n"
-               "  player1 player2      sets that each has won at the end; games, where one set "
-               "decides\n"
+               "  player1 player2      sets won by each player, or games if one set decides\n"
                "\n"
                "exit code: 0; 2 for bad usage\n",
     .example = "carom odds --players 600,500 --race 9,7",
@@ -107,7 +106,7 @@ int command_odds(int argc, char **argv) {
   if (parsed >= 0)
     return parsed;
   if (job.rating[1] == 0.0 || job.rating[2] > 0.0) {
-    complain("--players: two ratings are needed, such as 600,500");
+    complain("--players: two ratings are needed; give 600,500");
     return usage_hint(&form);
   }
   carom_series match = {
@@ -118,7 +117,7 @@ int command_odds(int argc, char **argv) {
     match.sets[k] = (int32_t)job.sets[k];
   }
   if (carom_odds_of(&match, &odds) != CAROM_OK) {
-    complain("--break-points is -1000 to 1000, not %g", job.break_points);
+    complain("--break-points '%g': out of range; give -1000 to 1000", job.break_points);
     return EXIT_USAGE;
   }
   FILE *out = output_open(job.shared.output);

@@ -40,64 +40,59 @@ typedef struct plan_job {
 } plan_job;
 
 OPTION(plan_job, option_rules, "rules", game.rules, NULL, set_named, CAROM_WORDS_RULES,
-       "the game; potting has no rules: all balls count. The cue ball is named cue, and the others "
-       "by their numbers, or in snooker as in "
-       "its rack: red1, yellow; potting, cowboy and games without pockets take any names, in the "
-       "order of the rack",
-       .else_usual = "eightball, or potting where no ball is named 8");
+       "the game; potting has no rules: all balls count. The balls are named cue, 1, 2, ..., or in "
+       "snooker red1, yellow, ...; potting, cowboy and games without pockets accept any names, in "
+       "the order of the rack",
+       .else_usual = "eightball, or potting if no ball is named 8", .noun = "game");
 OPTION(plan_job, option_group, "group", game.group, "open|solids|stripes", set_choice, 0,
-       "the balls of the player, where each has a group; open: any but the eight", .usual = "open");
+       "the player's balls, in games with groups; open: any but the eight", .usual = "open");
 OPTION(plan_job, option_permission, "may", game.permission, "shoot|push-out|pass|free-ball",
        set_choice, 0,
-       "what the player may do; shoot: nothing but a shot; free-ball: pass, or play any ball",
+       "what the player may do. shoot: only shoot; free-ball: pass, or play any ball",
        .usual = "shoot");
 OPTION(plan_job, option_score, "score", game.score, "OWN,OTHER", set_score, 0,
-       "points, or balls, of the player and of the opponent; below 0 if the player lost or owes "
-       "them",
+       "points or balls of the player and the opponent; below 0 if they were lost or are owed",
        .usual = "0,0");
 OPTION(plan_job, option_own_pocket, "own-pocket", game.pocket, "foot-right|foot-left", set_choice,
        0, "the player's pocket, in games where each player has one", .else_usual = "foot-right");
 OPTION(plan_job, option_target, "target", game.target, "N", set_count, 1,
-       "points that win, where the rules leave it open");
+       "points that win, if the rules leave it open");
 FLAG(plan_job, option_colour, "colour", game.colour, "in snooker: a colour is on, after a red");
 FLAG(plan_job, option_last_inning, "last-inning", game.last_inning,
      "in three-cushion and straight rail: this is the equalizing inning, in which a miss loses");
 FLAG(plan_job, option_opening, "opening", game.opening,
-     "the stroke is the break. With --in-hand the cue ball is put on the head string, or behind "
-     "it");
+     "the stroke is the break; with --in-hand the cue ball starts on or behind the head string");
 FLAG(plan_job, option_hand, "in-hand", hand,
-     "the cue ball is in hand: the plan also says where to put it, within the rules");
+     "the cue ball is in hand: the plan also finds its position, within the rules");
 FLAG(plan_job, option_run_out, "run-out", run_out,
-     "plan to run out: a turn that ends before the game is won is worth nothing");
+     "plan to run out: a turn that ends before the game is won has no value");
 OPTION(plan_job, option_only, "only", only, "any|safeties", set_choice, 0,
-       "safeties: strokes that pass the turn without a foul, which carom lists by their directions",
+       "safeties: strokes that pass the turn without a foul; carom lists their directions",
        .usual = "any");
 OPTION(
     plan_job, option_goal, "leave", goal, GOAL_ARGUMENT, set_goal, 0,
-    "what the stroke is to leave; carom reports the chance of that. hidden: a safety after which "
-    "the other can hit no ball that is on in a straight line; snooker: one after which balls are "
-    "in the way to an edge of BALL; near: the cue ball within R, else 0.15 m, of a place as in "
-    "`carom ways --leave`; apart: the balls at least a ball's width from all others. For the "
-    "last two the player plays on, or with --only safeties passes the turn");
+    "what the stroke should leave; carom reports its chance. hidden: a safety after which the "
+    "opponent cannot hit any ball that is on in a straight line; snooker: one after which balls "
+    "block the path to an edge of BALL; near: the cue ball within R (0.15 m) of a position, as in "
+    "`carom ways --leave`; apart: these balls at least a ball's width from all others. With near "
+    "and apart the player continues, or with --only safeties passes the turn");
 FLAG(plan_job, option_sequence, "sequence", sequence,
-     "plan the run-out as a whole: stroke by stroke, how much speed and direction may err, where "
-     "the cue ball may land, and which ball comes next if it lands elsewhere. In the landing zone "
-     "the chance of the rest falls by at most 3 %, as --value estimates it");
+     "plan the complete run-out: for each stroke the margins of speed and direction, the landing "
+     "zone of the cue ball, and the next ball if it lands elsewhere. In the zone, the chance of "
+     "the remaining run-out falls by at most 3 %, as estimated by --value");
 OPTION(plan_job, option_plays, "plays", plays, "N", set_count, 0,
-       "with --sequence: how many run-outs with errors to play for the chance of the whole, each "
-       "stroke planned anew by at most 300 shots",
+       "with --sequence: how many run-outs with errors to play for its chance, with a new plan of "
+       "at most 300 shots for each stroke",
        .usual = "100");
 static const option_row options_of_plan = {
     .set = set_option, .field = offsetof(plan_job, plan), .part = CAROM_PART_PLAN_OPTIONS};
 FLAG(plan_job, option_try, "try", tries,
-     "instead of a plan: the chances of the strokes in the file, that of the first shot and "
-     "those of up to 999 more shots from the same layout, in their order");
+     "instead of a plan: the chances of the strokes in the file, up to 1000 shots from the same "
+     "layout, in order");
 FLAG(plan_job, option_value, "value", value,
-     "instead of a plan: the chance to win from the layout, an estimate for which carom plays no "
-     "shot");
-FLAG(plan_job, option_csv, "csv", csv, "write rows of CSV instead of words");
-FLAG(plan_job, option_plan_json, "json", json,
-     "write each shot as the line of its stroke, for `carom shoot`");
+     "instead of a plan: the chance to win from the layout, estimated without playing a shot");
+FLAG(plan_job, option_csv, "csv", csv, "write rows of CSV");
+FLAG(plan_job, option_plan_json, "json", json, "write each stroke as a line for `carom shoot`");
 FLAG(plan_job, option_why, "why", why,
      "explain each shot: how to aim it, what it leaves, how often it misses and what a miss "
      "leaves, and what errors cost");
@@ -393,10 +388,10 @@ static const command_form form = {
     .name = "plan",
     .usage = "[OPTIONS] LAYOUT.jsonl | --balls X,Y:... [OPTIONS]",
     .about =
-        "Finds the shots that win most often from a layout, for a player who makes errors. LAYOUT "
-        "is a file as for `carom shoot`. carom reads the table, the balls and the cue of its first "
-        "shot, and the stroke only with --try. Balls that are missing count as potted. carom "
-        "describes the five best shots in words: what they do, how to strike, and their chances.\n",
+        "Finds the shots that win most often from a layout, for a player who makes errors, and "
+        "describes the five best: what they do, how to strike, and their chances. LAYOUT is a file "
+        "as for `carom shoot`: carom reads the table, the balls and the cue of its first shot, and "
+        "with --try the strokes. Missing balls count as potted.\n",
     .options =
         (const option_row *const[]){
             &option_rules,         &option_table,      &option_cue,           &option_balls,
@@ -410,10 +405,10 @@ static const command_form form = {
             &option_plan_plot,     &option_threads,    &option_output,        NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
-               "  x y                  place of the cue ball, m\n"
-               "  value error          chance to win and its standard error; for potting the share "
-               "of the balls that are potted\n"
-               "  keep foul lose       chances that the player plays on or wins, fouls, loses\n"
+               "  x y                  position of the cue ball, m\n"
+               "  value error          chance to win and its standard error; in potting the "
+               "fraction of the balls that fall\n"
+               "  keep foul lose       chances that the player continues or wins, fouls, loses\n"
                "  seen                 how often the shot was played with errors\n"
                "The choice depends only on the input, --shots and --seed, not on --threads.\n"
                "\n"

@@ -15,27 +15,29 @@ typedef struct practice_job {
   bool csv;
 } practice_job;
 
-OPTION(practice_job, option_seat, "seat", seat, "1|2", set_choice, 0, "whose strokes",
-       .usual = "1");
-OPTION(practice_job, option_drills, "drills", drills, "N", set_count, 1, "how many drills are made",
+OPTION(practice_job, option_seat, "seat", seat, "1|2", set_choice, 0,
+       "the player whose strokes are reviewed", .usual = "1");
+OPTION(practice_job, option_drills, "drills", drills, "N", set_count, 1, "number of drills",
        .usual = "3");
 FLAG(practice_job, option_csv, "csv", csv,
-     "write the drills as rows of the page's drills, of a 9-ft pool table");
+     "write the drills as rows for the web page, on a 9-ft pool table");
 
 static const command_form form = {
     .name = "practice",
-    .usual = (const option_usual[]){{"player", NULL, "the rating of the seat, if it has one"}, {0}},
+    .usual =
+        (const option_usual[]){
+            {.name = "player", .else_usual = "the rating of the seat, if it has one"}, {0}},
     .usage = "[OPTIONS] GAMES",
-    .about = "Reviews each stroke of a player in recordings of `carom match`, one behind the "
-             "other: which pot was meant, how often a player of this rating makes it, and what "
-             "the stroke cost. Makes drills of the strokes that cost most, in the kind of strokes "
-             "that costs most. GAMES may be -.\n",
+    .about = "Reviews each stroke of a player in concatenated recordings of `carom match`: the "
+             "intended pot, how often a player of this rating makes it, and the cost of the "
+             "stroke. Makes drills of the costliest strokes, from the costliest kind of stroke. "
+             "GAMES may be -.\n",
     .options = (const option_row *const[]){&option_seat, &option_player, &option_player_errors,
                                            &option_drills, &option_csv, &option_output, NULL},
     .details = "columns of --csv: name,text,balls,goal,rating\n"
                "  balls                number:x,y of each ball, m; 0 is the cue ball\n"
-               "  goal                 what has to happen: pot=N@POCKET cue=X,Y,R\n"
-               "  rating               of a player who makes it in half of the tries\n"
+               "  goal                 the required result: pot=N@POCKET cue=X,Y,R\n"
+               "  rating               of a player who succeeds in half of the attempts\n"
                "\n"
                "exit code: 0; 2 for bad usage or unreadable input\n",
     .example = "carom practice --seat 2 game.jsonl",

@@ -34,7 +34,7 @@ static const char *const quantity[] = {
     "speed at once (m/s)", "side spin after (rad/s)", "kinetic energy that is lost (%)"};
 
 INPUT(option_speed, "speed", SPEED, SPEED_WORDS "|V", MEASURE_SPEED,
-      "speed of the ball, m/s, or with a unit: mph, km/h; or a word: " SPEEDS, .usual = "1.5");
+      "speed of the ball, m/s or with a unit: mph, km/h; or " SPEEDS, .usual = "1.5");
 INPUT(option_angle, "angle", ANGLE, "DEGREES", MEASURE_ANGLE,
       "angle of incidence, from the normal of the cushion, -90 to 90; above 0 the ball moves to "
       "the right",
@@ -51,21 +51,20 @@ INPUT(option_side, "side", SIDE, "right|left|running|reverse|gearing|none|SPIN",
       "gearing: the ball rolls along the cushion; none",
       .usual = "none");
 OPTION(series, option_game, "game", game, NULL, set_named, CAROM_WORDS_GAME,
-       "the game whose ball, cloth and cushion give the numbers that you leave out",
+       "the game whose ball, cloth and cushion provide the parameters that you leave out",
        .usual = "pool");
 INPUT(option_height, "height", HEIGHT, "H", MEASURE_LENGTH,
-      "height of the nose above the cloth, m, or with a unit: mm, in",
-      .else_usual = "that of the game");
+      "height of the nose above the cloth, m, or with a unit: mm, in", .else_usual = "the game's");
 INPUT(option_restitution, "restitution", RESTITUTION, "E", MEASURE_NUMBER,
-      "restitution of the cushion", .else_usual = "that of the game for the model");
+      "restitution of the cushion", .else_usual = "the game's, for the model");
 INPUT(option_friction_rail, "friction", FRICTION, "MU", MEASURE_NUMBER, "friction of the cushion",
-      .else_usual = "that of the game for the model");
+      .else_usual = "the game's, for the model");
 INPUT(option_cloth, "mu-slide", CLOTH, "MU", MEASURE_NUMBER, "friction with the cloth",
-      .else_usual = "that of the game");
+      .else_usual = "the game's");
 INPUT(option_radius, "radius", RADIUS, "R", MEASURE_LENGTH,
-      "radius of the ball, m, or with a unit: mm, cm, in", .else_usual = "that of the game");
+      "radius of the ball, m, or with a unit: mm, cm, in", .else_usual = "the game's");
 INPUT(option_mass, "mass", MASS, "M", MEASURE_MASS, "mass of the ball, kg, or with a unit: g, oz",
-      .else_usual = "that of the game");
+      .else_usual = "the game's");
 
 static OPTION_SET(set_models) {
   series *s = (series *)(void *)((char *)field - row->field);
@@ -80,15 +79,15 @@ static OPTION_SET(set_models) {
 #define MODEL_OF_SHOTS "smooth"
 static const option_row option_models = {
     .name = "model",
-    .help = "model of the impact; `carom models NAME` describes it; smooth is that of shots",
+    .help = "model of the impact (`carom models NAME` describes it); shots use smooth",
     .else_usual = MODEL_OF_SHOTS,
     .set = set_models,
     .field = offsetof(series, in[MODEL]),
     .least = MEASURE_MODEL,
     .words = CAROM_WORDS_CUSHION_MODEL};
 OPTION(series, option_quantity, "quantity", asked_for, QUANTITIES, set_quantities, 0,
-       "the quantity that curves show, or those of tables, with commas",
-       .else_usual = "rolling-rebound; of tables all");
+       "the quantity of curves, or the quantities of tables, with commas",
+       .else_usual = "rolling-rebound; all in tables");
 FLAG(series, option_csv, "csv", csv,
      "write the impacts as rows for `carom resolve --cushion`. With --quantity: write a table of "
      "it");
@@ -175,7 +174,7 @@ static bool check(const series *s) {
   for (int k = 0; k < models->count; k++)
     if (!ball_of_game(s, (int)models->item[k].x, &kind) &&
         (isnan(s->in[FRICTION].item[0].x) || isnan(s->in[RESTITUTION].item[0].x))) {
-      complain("%s has no constants for the cushion %s: give --friction and --restitution",
+      complain("%s has no constants for the cushion %s; give --friction and --restitution",
                carom_word(CAROM_WORDS_GAME, s->game), models->item[k].name);
       return false;
     }
@@ -385,12 +384,20 @@ static const char *law(const series *s, char text[80]) {
 
 static const command_form form = {
     .name = "rail",
-    .usual = (const option_usual[]){{"output", NULL, "- unless --plot draws curves"}, {0}},
+    .usual =
+        (const option_usual[]){
+            {.name = "output", .else_usual = "- unless --plot draws curves"},
+            {.name = "with",
+             .help = "parameters of the model, such as smooth_q=0.2,smooth_x=1,smooth_t=1 (`carom "
+                     "models NAME` lists them); a condition of a pool table's cushions, such as "
+                     "old_cushion; or the file of a fit, FIT.json"},
+            {0}},
     .usage = "[OPTIONS]",
-    .about = "Computes the impact of a ball on a cushion, and describes it in words: the rebound "
-             "angle just after and once the ball rolls, speeds, spin, and which contacts stuck or "
-             "slipped. The ball moves to the right along the cushion, so right english is running "
-             "english. The ball, the cloth and the cushion are those of a game, as in shots.\n",
+    .about =
+        "Computes and describes the impact of a ball on a cushion: the rebound angle just after "
+        "and once the ball rolls, speeds, spin, and which contacts stuck or slipped. The ball "
+        "moves to the right along the cushion, so right english is running english. A game "
+        "provides the ball, the cloth and the cushion, as in shots.\n",
     .options = (const option_row *const[]){&option_speed,       &option_angle,
                                            &option_spin,        &option_side,
                                            &option_game,        &option_height,
@@ -412,7 +419,7 @@ static const command_form form = {
         "  rebound              the same just after the impact\n"
         "  speed                just after, m/s\n"
         "  side                 side spin after, rad/s; above 0 for right\n"
-        "  energy               share of the kinetic energy that is lost, %\n\n"
+        "  energy               lost kinetic energy, %\n\n"
         "exit code: 0; 1 if some values are left out; 2 for bad usage or an impossible impact\n",
     .example = "carom rail --angle 0:75 --side -50,0,50% --plot rail.svg",
     .files = NO_FILES,
@@ -428,7 +435,7 @@ int command_rail(int argc, char **argv) {
                           .options = COMMAND_OPTIONS},
                .scene = &rail};
   values_default(&s.in[MODEL], MEASURE_MODEL, MODEL_OF_SHOTS);
-  return series_command(
-      &s, &form, argc, argv, ANGLE,
-      "--angle is between -90 and 90 degrees; at 90 the ball moves along the cushion");
+  return series_command(&s, &form, argc, argv, ANGLE,
+                        "--angle: out of range; give less than 90 degrees, at which the ball moves "
+                        "along the cushion");
 }

@@ -10,21 +10,23 @@ typedef struct rating_job {
 } rating_job;
 
 OPTION(rating_job, option_seat, "seat", player, "1|2", set_choice, 0,
-       "whose rating is asked for, in recorded matches", .usual = "1");
+       "the player to rate, in recorded matches", .usual = "1");
 
 static const command_form form = {
     .name = "rating",
     .usage = "[OPTIONS] RESULTS",
-    .about = "Estimates the Fargo rating of a player by games against players whose ratings are "
-             "known, with the interval in which it is with a probability of 95 %. RESULTS is a "
-             "table with a row for each match or opponent, or the recordings of `carom match`, one "
-             "behind the other, whose seats have ratings. RESULTS may be -.\n",
+    .about =
+        "Estimates the Fargo rating of a player from games against players with known ratings, "
+        "with its 95 % interval. RESULTS is a table with a row for each match or opponent, or "
+        "concatenated recordings of `carom match` whose seats have ratings. RESULTS may be "
+        "-.\n",
     .options = (const option_row *const[]){&option_seat, &option_output, NULL},
     .details =
         "columns of RESULTS: against,won,lost\n"
         "  against              the rating of the opponent, 0 to 1000\n"
-        "  won lost             how many games the player has won and lost; of a match 9 : 7, 9,7\n"
-        "Before the first game, ratings are normal around 400 with a spread of 150.\n"
+        "  won lost             games that the player won and lost: 9,7 for a match that ended 9 : "
+        "7\n"
+        "Before the first game, ratings have a normal distribution: mean 400, deviation 150.\n"
         "\n"
         "exit code: 0; 2 for bad usage or unreadable input\n",
     .example = "carom rating results.csv",

@@ -21,8 +21,8 @@ typedef struct record_job {
 } record_job;
 
 OPTION(record_job, option_events, "events", events, "none|brief|full", set_choice, 0,
-       "what to record about events: nothing; time, type and balls; or the states "
-       "too. `carom verify` then reports the first event whose bits differ",
+       "what to record of events: nothing; time, type and balls; or the states too. `carom "
+       "verify` then reports the first event whose bits differ",
        .usual = "none");
 
 /* ---- Playing, with room for all events ------------------------------------------------------- */
@@ -114,14 +114,15 @@ static bool record_shot(FILE *out, player *p, const shot_line *line, const char 
 
 static const command_form record_form = {
     .name = "record",
+    .usual = (const option_usual[]){{.name = "from", .usual = "start"}, {0}},
     .usage = "[OPTIONS] IN.jsonl",
-    .about = "Plays the shots of a file as `carom shoot` does and writes a recording: the table, "
-             "the balls, each stroke, and a hash of the bits in which its shot ended. IN may "
-             "be -.\n",
+    .about = "Plays the shots of a file as `carom shoot` does, and writes a recording: the table, "
+             "the balls, each stroke, and a hash of the bits of its final states. IN may be -.\n",
     .options = (const option_row *const[]){&options_of_motion, &option_layout, &option_events,
                                            &option_output, NULL},
-    .details = "exit code: 0 if all shots were recorded and came to rest; 1 if some have errors, "
-               "which carom names; 2 for bad usage or unreadable input\n",
+    .details =
+        "exit code: 0 if all shots were recorded to rest; 1 if some have errors, which carom "
+        "names; 2 for bad usage or unreadable input\n",
     .example = "carom record -o game.jsonl shots.jsonl",
     .files = ONE_FILE,
 };
@@ -248,8 +249,8 @@ static const command_form replay_form = {
     .usage = "[OPTIONS] GAME",
     .about = "Plays a recording again, and writes a row of CSV for each shot. GAME may be -.\n",
     .options = (const option_row *const[]){&option_output, NULL},
-    .details = "columns written: shot,line,status,events,time,hash,same\n  same is 1 where the end "
-               "of the shot has the bits that were recorded, else 0\n"
+    .details = "columns written: shot,line,status,events,time,hash,same\n  same is 1 if the final "
+               "states have the recorded bits, else 0\n"
                "exit code: 0 if all are the same; 1 if some are not; 2 for bad usage, a recording "
                "of another revision of the physics, and one that is damaged or cut off\n",
     .example = "carom replay game.jsonl",
@@ -398,13 +399,14 @@ static void tell_end(const recording *r, const player *p, int64_t line, int64_t 
 static const command_form verify_form = {
     .name = "verify",
     .usage = "GAME",
-    .about = "Plays a recording again and compares every bit. Judges a match by its rules. Tells "
-             "the first shot, and where events were recorded the first event and the first number, "
-             "that differs, and by how much; of a match the first line that is not by the rules. "
+    .about = "Plays a recording again and compares every bit, and judges a match by its rules. "
+             "Reports the first shot that differs, and if events were recorded the first event and "
+             "number, with the difference; or the first line of a match that breaks the rules. "
              "GAME may be -.\n",
     .options = (const option_row *const[]){NULL},
-    .details = "exit code: 0 if all agrees; 1 if a bit or a ruling does not; 2 for bad usage, a "
-               "recording of another revision of the physics, and one that is damaged or cut off\n",
+    .details =
+        "exit code: 0 if everything agrees; 1 if a bit or a ruling differs; 2 for bad usage, a "
+        "recording of another revision of the physics, and one that is damaged or cut off\n",
     .example = "carom verify game.jsonl",
     .files = ONE_FILE,
 };

@@ -22,7 +22,7 @@ static const command_form form = {
     "deflection_rolling_deg once it rolls\n"
     "  roll1x roll1y        velocity of ball 1 once it rolls, m/s, and roll2x roll2y of ball 2\n"
     "  spin_transfer        ball 2's change of w2z over ball 1's w1z before; nan where that is 0\n"
-    "  energy_lost          share of the kinetic energy that is lost, that of spins included\n"
+    "  energy_lost          fraction of the kinetic energy that is lost, including spins\n"
     "\n" IMPACT_COLUMNS_HELP "\n"
     "columns written with --cushion: id,vx,vy,vz,wx,wy,wz,status\n"
     "\n"
@@ -33,7 +33,10 @@ static const command_form form = {
     "keeps it\n"
     "  angle_rolling_deg    the same once the ball rolls\n"
     "  rollx rolly          velocity once the ball rolls, m/s\n"
-    "  energy_lost          share of the kinetic energy that is lost, that of spin included\n"
+    "  energy_lost          fraction of the kinetic energy that is lost, including spin\n"
+    "\n"
+    "--strict refuses centres whose distance is not R1 + R2 to 1 %, more than 50 m/s or 2,000 "
+    "rad/s, a radius above 0.5 m, a mass above 10 kg and a tip more than 0.5 R from the centre.\n"
     "\n" RESOLVE_EXIT_HELP,
     .example = "carom resolve --solver euler --slip pooltool -o after.csv before.csv",
     .files = ONE_FILE,

@@ -10,6 +10,7 @@
 #include "shots/shot_fault.h"
 #include "shots/shot_file.h"
 #include "shots/shot_story.h"
+#include "shots/stop.h"
 #include "shots/strokes.h"
 #include "subcommands.h"
 
@@ -22,11 +23,14 @@ typedef struct shoot_job {
   const char *id;
   drawings drawn; /* --plot, --animate */
   leave leave;
-  char left[LEFT_TEXT]; /* what is told of it */
+  char left[LEFT_TEXT]; /* what to report of it */
+  stop_target stop;
+  char stopped[STOP_TEXT]; /* likewise */
   player_error error;
   bool together; /* the shots came from options: they are drawn over each other, */
   bool words;    /* and told in words, unless --events asks for lines */
   bool csv;      /* as rows of moments instead of words */
+  bool plot_log; /* the words stand under the picture too */
   bool cite;     /* the sources of the models are told instead */
 } shoot_job;
 
@@ -49,32 +53,31 @@ typedef struct block {
 } block;
 
 OPTION(shoot_job, option_events, "events", events, "none|brief|full", set_choice, 0,
-       "what to write about events: nothing; time, type and ids; or the states before and after "
-       "too. With a shot by options: write it as a line like those of a file, instead of words",
-       .else_usual = "full; of a shot by options words");
+       "events to write, as JSON for a shot by options: none; time, type and ids; or states too",
+       .else_usual = "full");
 FLAG(shoot_job, option_story, "csv", csv,
-     "with a shot by options: write what the balls do as rows, instead of words: where each ball "
-     "leaves, begins to roll, meets a rail, passes another ball and rests");
+     "with a shot by options: write rows: where each ball leaves, rolls, meets a rail, passes a "
+     "ball and rests");
 OPTION(shoot_job, option_plot, "plot", drawn.path[PICTURE], "OUT", set_picture, 0,
-       "draw the table and the paths of the balls in the first shot without an error, or in all "
-       "shots that options describe; if a ball flies, also from the side");
-OPTION(shoot_job, option_spread, "spread", error, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
-       "standard deviations of a player's error: speed in %, aim in degrees, tip in radii, such as "
-       "1%,0.05,0.01,0.01. carom reports the standard deviations of the places where the balls "
-       "end, to first order. With --plot it draws them as bands around the paths, up to 0.3 m, and "
-       "shows how far they hold");
+       "draw the paths of the shots by options, or of the first good shot of a file; flights also "
+       "from the side");
+FLAG(shoot_job, option_plot_log, "plot-log", plot_log, "draw the output under the picture");
 OPTION(
-    shoot_job, option_leave, "leave", leave, LEAVE_ARGUMENT, set_leave, 0,
-    "with a shot by options: the cue ball is to end within R, else 0.15 m, of this place, as in "
-    "`carom ways`. carom tries the speeds and tips that are given, or 0.5 to 4 m/s and five tips "
-    "from draw to follow. It plays the stroke with which most strokes of a player do this, and pot "
-    "the ball of --pocket. It reports how many do, and with which speeds the cue ball ends there");
-OPTION(
-    shoot_job, option_animate, "animate", drawn.path[FILM], "OUT.html|OUT.svg", set_animation, 0,
-    "write a page that plays the shots which --plot draws; it is one file and needs nothing else. "
-    "OUT.svg: a picture in which the balls of the first shot move, for pages without scripts");
-FLAG(shoot_job, option_cite, "cite", cite,
-     "write the sources of these models as BibTeX, and play nothing; needs no IN");
+    shoot_job, option_spread, "spread", error, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
+    "standard deviations of a player's errors: speed in %, aim in degrees, tip in radii, such as "
+    "1%,0.05,0.01,0.01. carom reports those of the final positions, to first order; --plot "
+    "shows bands, and how far they hold");
+OPTION(shoot_job, option_leave, "leave", leave, LEAVE_ARGUMENT, set_leave, 0,
+       "choose the stroke that most often leaves the cue ball within R (0.15 m) of this position, "
+       "and pots the ball of --pocket: from the speeds and tips given, or 0.5 to 4 m/s and five "
+       "tips");
+OPTION(shoot_job, option_stop, "stop", stop, STOP_ARGUMENT, set_stop, 0,
+       "instead of --speed: find the speeds that stop the cue ball within R (0.1 m) of this "
+       "position, or after this distance. 1=2d,4d is for ball 1",
+       .noun = "position or distance", .example = "2d,4d");
+OPTION(shoot_job, option_animate, "animate", drawn.path[FILM], "OUT.html|OUT.svg", set_animation, 0,
+       "write a page that plays the shots of --plot; OUT.svg: a moving image");
+FLAG(shoot_job, option_cite, "cite", cite, "print the sources of these models as BibTeX");
 OPTION(shoot_job, option_shot_id, "id", id, "ID", set_text, 0, "draw the shot with this id");
 
 static carom_shot_options options_of(const shoot_job *job) {
@@ -152,6 +155,19 @@ static void tell_bands(FILE *out, const given_numbers *with, const carom_shot *s
             with->band[row][1], with->band[row][2]);
 }
 
+/* Draws shots over each other; a spread says below them what its bands show. */
+static void draw_bands(shoot_job *job, const played *shots, int count) {
+  char *words;
+  size_t size;
+  FILE *stream = open_text(&words, &size);
+  for (int k = 0; k < count; k++)
+    if (shots[k].spread != NULL)
+      spread_tell(stream, shots[k].spread, shots[k].line);
+  close_text(stream, &words);
+  drawings_draw(&job->drawn, shots, count, words);
+  free(words);
+}
+
 /* Tells the shots of a block in words, and draws them over each other. */
 static void tell_block(shoot_job *job, FILE *out, const played *shots, int count) {
   char *words;
@@ -170,6 +186,7 @@ static void tell_block(shoot_job *job, FILE *out, const played *shots, int count
     if (number <= MOST_SHOTS)
       fputs(job->flags.aimed[number - 1], stream);
     fputs(job->left, stream);
+    fputs(job->stopped, stream);
   }
   for (int k = 0; k < count && job->csv; k++) {
     const int number = (int)shots[k].line->number;
@@ -180,20 +197,10 @@ static void tell_block(shoot_job *job, FILE *out, const played *shots, int count
   close_text(stream, &words);
   if (job->words && !job->csv)
     fputs(words, out);
-  if (count > 0)
+  if (count > 0 && job->plot_log)
     drawings_draw(&job->drawn, shots, count, words);
-  free(words);
-}
-
-/* Draws one shot of a file; a spread tells below it what it shows. */
-static void draw_alone(shoot_job *job, const played *shot) {
-  char *words;
-  size_t size;
-  FILE *stream = open_text(&words, &size);
-  if (shot->spread != NULL)
-    spread_tell(stream, shot->spread, shot->line);
-  close_text(stream, &words);
-  drawings_draw(&job->drawn, shot, 1, words);
+  else if (count > 0)
+    draw_bands(job, shots, count);
   free(words);
 }
 
@@ -239,7 +246,7 @@ static void write_played(block *b, int k, shoot_job *job, FILE *out, const playe
     shot_write(out, shot->line, shot->shot, b->status[k], job->events,
                shot->spread != NULL ? spread_json(shot->spread, shot->line) : NULL);
   if (!job->together && shot_has_id(shot->line, job->id))
-    draw_alone(job, shot);
+    draw_bands(job, shot, 1);
 }
 
 /* Plays what has been read and writes it; returns whether all was good. */
@@ -367,16 +374,28 @@ static int shoot_all(shoot_job *job, shot_file *file, FILE *out) {
 
 static const command_form form = {
     .name = "shoot",
+    .usual =
+        (const option_usual[]){
+            {.name = "elevation",
+             .help =
+                 "elevation of the butt; least, with --pocket: just enough to clear cushions and "
+                 "balls"},
+            {.name = "from",
+             .usual = "start",
+             .help = "with a file: start from the balls before each shot, or from its recorded "
+                     "final states"},
+            {.name = "with",
+             .help = "parameters of all balls, their cushions and the cue (`carom models` lists "
+                     "them), such as mu_slide=0.15,mass=6oz,end_mass=0.01; conditions of a pool "
+                     "table, such as fast_cloth,old_cushion; or the file of a fit, FIT.json. "
+                     "Several values give several shots"},
+            {0}},
     .usage = "[OPTIONS] IN.jsonl | --cue X,Y --aim DEGREES [OPTIONS]",
     .about =
-        "Plays whole shots, from the strike of the cue until nothing moves. With a file, carom "
-        "reads tables and shots as JSON Lines (docs/reference/files.md has the format; carom "
-        "ignores recorded results) and writes each table and each shot with its events and final "
-        "states. "
-        "IN may be -. With options that describe a shot, carom plays this shot and describes it in "
-        "words; several values with commas give several shots, drawn over each other.\n",
+        "Plays a shot that options specify, and describes it; several values, with commas, give "
+        "several shots, drawn over each other. Or plays the shots of IN, JSON Lines "
+        "(docs/reference/files.md) or -, and writes events and final states.\n",
     .options = (const option_row *const[]){&option_table,
-                                           &option_player_eye,
                                            &option_cue,
                                            &option_balls,
                                            &option_aim,
@@ -386,8 +405,10 @@ static const command_form form = {
                                            &option_via,
                                            &option_shot_cut,
                                            &option_leave,
+                                           &option_stop,
                                            &option_player,
                                            &option_player_errors,
+                                           &option_player_eye,
                                            &option_shot_speed,
                                            &option_ball_speed,
                                            &option_tip,
@@ -405,6 +426,7 @@ static const command_form form = {
                                            &option_events,
                                            &option_threads,
                                            &option_plot,
+                                           &option_plot_log,
                                            &option_spread,
                                            &option_animate,
                                            &option_shot_id,
@@ -413,10 +435,12 @@ static const command_form form = {
                                            &option_output,
                                            NULL},
     .details =
-        "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and "
-        "the error; carom plays the others); 2 for bad usage or unreadable input\n",
-    .example = "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3 "
-               "--plot shot.svg",
+        "exit code: 0 if all shots are played to rest; 1 if some have errors, which OUT names; 2 "
+        "for bad usage or unreadable input\n",
+    .example =
+        "carom shoot --cue 0.6,0.8 --balls 0.8,1.9 --pocket 1:foot-right --plot shot.svg\n"
+        "  carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3\n"
+        "  carom shoot --cue 0.6,0.8 --to 0.6,2.2 --stop 0.6,1.5",
     .files = FILE_OR_NONE,
 };
 
@@ -442,30 +466,37 @@ static bool go_together(const shoot_job *job, bool words, const char *path) {
   else if (drawn)
     playing = "plot and --animate";
   if (job->cite && (job->together || path != NULL))
-    complain("--cite prints the sources of models and plays nothing: give it without a shot");
+    complain("--cite prints the sources of models and plays nothing; give it without a shot");
   else if (job->flags.json && playing != NULL)
-    complain("--json prints the shot and plays nothing: give it without --%s", playing);
+    complain("--json prints the shot and plays nothing; give it without --%s", playing);
   else if (job->csv && job->error.is_set)
-    complain("--csv has no columns for --spread: give only one of them");
+    complain("--csv has no columns for --spread; give one of them");
   else if (job->id != NULL && (job->together || !drawn))
-    complain("--id is which shot of a file --plot or --animate draws");
+    complain("--id '%.40s': it chooses a shot of a file to draw; give a file and --plot", job->id);
   else
     return true;
   return false;
 }
 
-/* Chooses the stroke of --leave; false after a complaint. */
+/* Chooses the stroke of --leave, or the speed of --stop; false after a complaint. */
 static bool chooses(shoot_job *job, const carom_shot_options *options) {
   const given_player *player = &job->flags.shared.player;
   if (!job->leave.is_set && (player->rated || player->errs))
-    complain("--player and --errors belong to --leave; `carom ways` reports how often a player "
-             "pots a ball, and --spread what errors make of a shot");
+    complain(
+        "--player and --errors need --leave; try `carom ways` for the chance to pot a ball, or "
+        "--spread for the effect of errors");
   else if (job->leave.is_set && !job->together)
-    complain("--leave is of a shot by options: --cue, --balls and the like");
-  else if (!job->leave.is_set)
-    return true;
-  else
+    complain("--leave needs a shot by options; give --cue and --balls");
+  else if (job->leave.is_set && job->stop.is_set)
+    complain("--leave and --stop both choose the speed; give one of them");
+  else if (job->stop.is_set && !job->together)
+    complain("--stop needs a shot by options; give --cue and --to");
+  else if (job->leave.is_set)
     return leave_choose(&job->leave, &job->flags, options, job->left);
+  else if (job->stop.is_set)
+    return stop_choose(&job->stop, &job->flags, options, job->stopped);
+  else
+    return true;
   return false;
 }
 
@@ -473,15 +504,11 @@ static bool chooses(shoot_job *job, const carom_shot_options *options) {
 static bool can_play(const shoot_job *job) {
   const carom_shot_options *shot = &job->flags.shared.shot;
   if (job->csv && !job->words)
-    complain("--csv writes a shot by options, without --events; a file's shots are written as "
-             "lines of JSON");
+    complain("--csv describes a shot by options; give it without --events and without a file");
   else if (job->error.is_set && shot->world == CAROM_WORLD_POOLTOOL)
-    complain("--spread needs derivatives, which shots by --world pooltool do not have; --world "
-             "carom has them");
+    complain("--spread needs derivatives, which --world pooltool does not have; try --world carom");
   else if (job->error.is_set && shot->ball_model == CAROM_BALL_MODEL_EULER)
-    complain(
-        "--spread needs derivatives, which --ball-model euler does not have; exact, its limit, "
-        "has them");
+    complain("--spread needs derivatives, which --ball-model euler does not have; try exact");
   else
     return drawings_possible(&job->drawn);
   return false;
@@ -526,10 +553,10 @@ int command_shoot(int argc, char **argv) {
     return write_sources(&options);
   if (job.together == (path != NULL)) {
     if (job.together)
-      complain("a file has its own shots: give it, or the shot by --cue, --aim and the like");
+      complain("'%.80s': a file has its own shots; give either it or --cue, --aim and the like",
+               name_of_file(path));
     else
-      complain("shoot needs the name of a file, or a shot by options: --cue 0.6,0.8 --aim 35 "
-               "--speed 2");
+      complain("there is no shot; give a file of shots, or --cue 0.6,0.8 --aim 35 --speed 2");
     return usage_hint(&form);
   }
   if (!job.together && !with_fits_file(&job.flags.shared.with))

@@ -41,21 +41,20 @@ OPTION(ways_job, option_to_pocket, "pocket", pocket, "NAME|any", set_text, 0,
 OPTION(ways_job, option_rails, "rails", rails, "0|1|2", set_choice, 0,
        "largest number of rails in banks, kicks and caroms", .usual = "2");
 OPTION(ways_job, option_leave, "leave", leave, LEAVE_ARGUMENT, set_leave, 0,
-       "the cue ball is to end within R, else 0.15 m, of this place, m, or with units, "
-       "2d,4d,20cm, or named as in --cue, foot-spot,20cm. This counts for the chance, so carom "
-       "reports which of several speeds and tips brings the cue ball there. Without other balls, "
-       "the cue ball is sent there alone");
+       "the cue ball must come to rest within R (0.15 m) of this position, 2d,4d,20cm or "
+       "foot-spot,20cm. The chance includes this, so carom reports the best of several speeds and "
+       "tips. Without other balls, carom finds the ways to send the cue ball there");
 OPTION(ways_job, option_scan, "scan", scanned, "N", set_count, 1,
        "how many strokes in all directions to try",
        .else_usual =
-           "20000, or 1800 for each speed and tip if that is more; for points and the cue "
-           "ball alone 100000");
+           "20000, or 1800 for each speed and tip if that is more; 100000 for points or only "
+           "a cue ball");
 FLAG(ways_job, option_each, "each", each,
-     "report each stroke with which a way succeeds, in the order of the strokes, instead of the "
-     "best one. This shows how wide the way is over speeds and tips");
-FLAG(ways_job, option_ways_csv, "csv", csv, "write rows instead of words");
+     "report every stroke with which a way succeeds, in order, instead of the best one; this "
+     "shows the range of speeds and tips");
+FLAG(ways_job, option_ways_csv, "csv", csv, "write rows of CSV");
 FLAG(ways_job, option_ways_json, "json", json,
-     "write each way as the line of its stroke, for `carom shoot`, with an object `way`");
+     "write the stroke of each way as a line for `carom shoot`, with an object `way`");
 OPTION(ways_job, option_ways_plot, "plot", plot, "OUT", set_picture, 0,
        "draw the eight best ways over each other");
 
@@ -233,9 +232,8 @@ static bool read_ball(const ways_search *s, const char *name, int *ball) {
     }
     snprintf(known + strlen(known), sizeof known - strlen(known), "|%s", s->line->name[k]);
   }
-  did_you_mean(name, known, hint);
-  complain("--ball is a ball of the layout, not '%.40s'; there are %s%s", name, names_there(known),
-           hint);
+  complain("--ball '%.40s': no such ball in the layout; try %s", name,
+           words_to_try(name, known, hint));
   return false;
 }
 
@@ -248,7 +246,8 @@ static bool read_pocket(const ways_search *s, const char *name, int *pocket) {
   *pocket = pocket_named(&s->line->table->table, s->line->table->pocket, name, known);
   if (*pocket >= 0)
     return true;
-  complain("--pocket is %s, not '%.40s'%s", known, name, did_you_mean(name, known, hint));
+  complain("--pocket '%.40s': no such pocket; try %s (--help lists them)", name,
+           words_to_try(name, known, hint));
   return false;
 }
 
@@ -265,11 +264,11 @@ static bool find(const ways_job *job, ways_search *s) {
     s->job.goal = CAROM_WAY_SCORE;
   leave_into(&job->leave, s);
   if (s->job.goal == CAROM_WAY_SCORE && s->line->count < 3) {
-    complain("to score, three balls are needed");
+    complain("three balls are needed to score; give two with --balls");
     return false;
   }
   if (s->job.goal == CAROM_WAY_POT && s->line->count < 2) {
-    complain("the cue ball and one more are needed, or --leave");
+    complain("there is no ball to pot; give --balls, or --leave for the cue ball");
     return false;
   }
   if (shot_fault(s->line, &s->options, fault)) {
@@ -287,22 +286,24 @@ static bool find(const ways_job *job, ways_search *s) {
 
 static const command_form form = {
     .name = "ways",
-    .usual =
-        (const option_usual[]){
-            {"speed", SPEEDS_TO_POT,
-             SPEEDS_TO_LEAVE " with --leave, " SPEEDS_ALONE
-                             " of the cue ball alone, " SPEEDS_TO_SCORE " to score"},
-            {"tip", "0,0.25",
-             TIPS_TO_LEAVE " with --leave and other balls, " TIPS_TO_SCORE " to score"},
-            {0}},
+    .usual = (const option_usual[]){{.name = "speed",
+                                     .usual = SPEEDS_TO_POT,
+                                     .else_usual = SPEEDS_TO_LEAVE
+                                     " with --leave, " SPEEDS_ALONE
+                                     " for only a cue ball, " SPEEDS_TO_SCORE " to score"},
+                                    {.name = "tip",
+                                     .usual = "0,0.25",
+                                     .else_usual = TIPS_TO_LEAVE
+                                     " with --leave and other balls, " TIPS_TO_SCORE " to score"},
+                                    {0}},
     .usage = "[OPTIONS] LAYOUT.jsonl | --balls X,Y:... [OPTIONS]",
     .about =
         "Finds the ways to pot a ball: directly, rail first, or by a bank, kick, kiss, carom or "
         "combination. On a table without pockets it finds the ways to score in three-cushion: "
-        "the rails and balls that the cue ball meets. For each way carom reports which of the "
-        "given strokes has the best chance for a player: how often it succeeds with errors, "
-        "and between which directions it succeeds without. LAYOUT has shots of one layout; "
-        "carom tries the stroke of each of them in all directions.\n",
+        "the rails and balls that the cue ball meets. For each way carom reports the stroke with "
+        "the best chance for a player: how often it succeeds with errors, and the directions in "
+        "which it succeeds without. LAYOUT has shots of one layout; carom tries the stroke of each "
+        "in all directions.\n",
     .options =
         (const option_row *const[]){
             &option_ball,          &option_to_pocket,  &option_rails,      &option_leave,
@@ -314,15 +315,17 @@ static const command_form form = {
             &option_ways_plot,     &option_threads,    &option_output,     NULL},
     .details =
         "columns:\n"
-        "  chance               share of 400 strokes with errors that succeed: the ball falls and "
-        "the cue ball does not, or the stroke scores; and the cue ball ends where --leave says\n"
+        "  chance               how many of 400 strokes with errors succeed: the ball falls and "
+        "the "
+        "cue ball does not, or the stroke scores; and the cue ball meets --leave\n"
         "  window               range of the cue's direction, degrees\n"
-        "  cut                  of the cue ball on its first ball, degrees; in three-cushion the "
-        "share of all strokes instead\n"
+        "  cut                  of the cue ball on its first ball, degrees; in three-cushion "
+        "instead "
+        "the fraction of all strokes\n"
         "  speed                of the cue, m/s\n"
         "  tip                  right and above, R\n"
         "  aim                  degrees from +x\n"
-        "  way                  the rails and balls that are met, in their order\n"
+        "  way                  the rails and balls that are met, in order\n"
         "\n"
         "columns of --csv: "
         "rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,phi_low,phi_high,speed_low,speed_high,"
@@ -438,7 +441,7 @@ int command_ways(int argc, char **argv) {
     return EXIT_USAGE;
   without_bounds(&s.player);
   if (job.csv && job.json) {
-    complain("--csv and --json: give only one of them");
+    complain("--csv and --json exclude each other; give one of them");
     return EXIT_USAGE;
   }
 

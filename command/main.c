@@ -9,7 +9,7 @@ int main(int argc, char **argv) {
   };
   static const program carom = {
       .name = "carom",
-      .about = "Computes billiards: collisions of balls, impacts on cushions, and whole shots.",
+      .about = "Computes billiards: collisions of balls, impacts on cushions, and complete shots.",
       .cites = "shoot",
       .example = "carom shoot --cue 0.6,0.8 --balls 0.8,1.9 --pocket 1:foot-right --plot shot.svg",
       .commands = commands,

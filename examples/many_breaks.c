@@ -7,7 +7,7 @@
  *     sliding   r = r0 + v0 t - mu g/2 u/|u| t^2      until t = 2 |u| / (7 mu g), u the slip
  *     rolling   r = r0 + v0 t - mu_r g/2 v0/|v0| t^2  until t = |v0| / (mu_r g)
  *
- * Only the final states are asked for, so a shot needs no memory but those. One shot more is
+ * Only the final states are requested, so a shot needs no memory but those. One shot more is
  * played with its events, and looked at while the balls run. */
 #include "carom_shot.h"
 

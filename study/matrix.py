@@ -290,7 +290,7 @@ def columns(folder):
 
 
 def write_ordered(folder, column, compiler):
-    """The counts and times of the set without regrouping, beside those of the column: it is no
+    """The counts and times of the set without regrouping, compared with those of the column: it is no
     configuration of the paper's, so the sheets that are judged do not have it.
     """
     first = family(compiler)

@@ -22,12 +22,12 @@ PAPER_CONFIGS = ("default", "archnative", "novec", "o3")
 COUNTED = "zen2"  # the configuration whose operations are counted
 # Of time ratios in one run, and of times, between runs (docs/study/measuring.md).
 REPEATS_OF_RATIOS, REPEATS_OF_TIMES = 0.005, 0.028
-# Twice the 1 % by which measured latencies, such as 1.99 cycles of an addition, miss whole numbers.
+# Twice the 1 % by which measured latencies, such as 1.99 cycles of an addition, miss integers.
 OF_LATENCIES = 0.02
 # The standard error of a median, in median absolute deviations over sqrt(n).
 OF_MEDIAN = 1.4826 * 1.2533
-# Cycles without a place for an instruction of floating-point arithmetic (AMD, as in the paper) or
-# for any instruction (Intel), and cycles that wait to retire (AMD).
+# Cycles without a free entry for an instruction of floating-point arithmetic (AMD, as in the paper)
+# or for any instruction (Intel), and cycles that wait to retire (AMD).
 STALLS = {"dispatch": ("stalls_fp_scheduler", "stalls_resources"), "retire": ("stalls_retire",)}
 PEAK = 6.0  # operations per cycle of Zen 2, by the paper
 PAPER_STEPS = 1000.0
@@ -242,7 +242,7 @@ def lead_of(run, kernel):
 
 
 def share_slower_with(run, compiler):
-    """The share of kernels and configurations that are slower with the other compiler.
+    """The fraction of kernels and configurations that are slower with the other compiler.
 
     Pairs within the uncertainty count half, and the uncertainty of the share is that half.
     """

@@ -6,8 +6,8 @@ a faster one gives. `python3 -m study.motive`, by a Python that has pooltool and
     build/motive/bin/python3 -m study.motive -o build/results/report/motive.csv
 
 Four of pooltool's own systems are simulated in turns: by pooltool with its own collision (Mathavan,
-N = 1000, compiled by Numba), by pooltool with carom's exact collision in its place, and by carom's
-drop-in for the whole engine. Times are processor time, medians over the turns.
+N = 1000, compiled by Numba), by pooltool with carom's exact collision instead, and by
+carom's drop-in for the whole engine. Times are processor time, medians over the turns.
 
     events, exact_events     of the shot, by pooltool and with carom's collision
     collisions               of two balls, by pooltool

@@ -2,7 +2,7 @@
 
 tools/build_seconds.py BUILD compiles every file again, by the commands that BUILD has for it, and
 compares the processor time with the table tools/build_seconds.csv. It reports each file that takes
-20 % longer than the table says, and the sum of all files if this does. UPDATE=1 writes the table.
+20 % longer than in the table, and the sum of all files if it does. UPDATE=1 writes the table.
 
 Machines differ, so the table has units: the time for a reference text that this program writes and
 that never changes. The reference is compiled between the files, so that a busy machine slows down
@@ -108,7 +108,7 @@ def seconds_of(job, folder):
 
 
 def measured(jobs, reference, folder):
-    """The seconds of every file, and those of the reference, which is compiled between them."""
+    """The seconds of every file, and of the reference, which is compiled between them."""
     order = []
     for number, job in enumerate(jobs):
         if number % FILES_TO_A_REFERENCE == 0:

@@ -8,7 +8,7 @@ CAROM_ERROR_NO_TANGENTS. -DCAROM_WITHOUT_AVX512 (AVX2, SSE2, NEON) leaves sets o
 -DCAROM_WITHOUT_THREADS the threads.
 
 In one translation unit the names that two sources have for themselves would meet. So a source's own
-macros are undefined behind it, and names that another source has too stand for longer ones
+macros are undefined behind it, and names that another source has too are replaced by longer ones
 meanwhile.
 """
 
@@ -140,7 +140,7 @@ def declared(item):
             }
     # declarators: the names before ( = , ; [ at the top; what is not static begins with carom_
     static = tokens[0] in ("static", "typedef", "always")
-    in_value = False  # behind =, where names are those of others, such as UINT32_C(1)
+    in_value = False  # behind =, where names belong to others, such as UINT32_C(1)
     for k in range(1, len(tokens)):
         was_in_value = in_value
         if depths[k] == 0 and tokens[k] in ("=", ",", ";"):
@@ -169,12 +169,12 @@ def declared(item):
 
 
 def bare(text):
-    """Without includes; those of the system are at the top."""
+    """Without includes; the system's are at the top."""
     return SYSTEM.sub("", LOCAL.sub("", text))
 
 
 def expanded(name, remaining):
-    """A source with the headers that are wanted in their places, each once."""
+    """A source with the headers that are wanted in place, each once."""
 
     def header(found):
         if found[1] not in remaining:
@@ -217,7 +217,7 @@ def main():
     sources += ["platform/processors.c", "platform/processors_windows.c"]
     kernels = {name: f"{room}/{name}" for name, room in KERNELS.items()}
 
-    # Headers of the kernels alone are read in every pass; the others once.
+    # Only headers of the kernels are read in every pass; the others once.
     common, inner = {}, {}
     for name in sources:
         included(name, common)
@@ -348,7 +348,7 @@ def main():
 
 
 # The headers of systems and processors, by the condition under which carom.c includes them. Those
-# of `elsewhere` stand in carom.c beside what is made of them.
+# of `elsewhere` are in carom.c next to what is made of them.
 SYSTEM_HEADERS = {
     "everywhere": "math stdbool stddef stdint string float limits stdlib stdio stdatomic",
     "posix": "pthread sched signal unistd fcntl time",
@@ -416,7 +416,8 @@ def condition_of(isa, name, definitions):
 
 
 def names_of_pass(name):
-    """The part of a common header that names what a source gives, which depends on the pass."""
+    """The section of a common header that names the functions of a source, which depends on the
+    pass."""
     if name == "advance.c":
         part = r"#ifdef CAROM_LANES_AVX2\n#define CAROM_IMPACT_ADVANCE .*?\n#endif\n"
         return "#undef CAROM_IMPACT_ADVANCE\n" + re.search(

@@ -20,7 +20,7 @@ MARK = re.compile(
 
 
 def processor() -> str:
-    """The name of the processor, as the kernel tells it."""
+    """The name of the processor, as the kernel reports it."""
     names = re.findall(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(), flags=re.M)
     return names[0] if names else platform.machine()
 

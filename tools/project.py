@@ -4,7 +4,7 @@ name it.
 
 A field that is empty is left out. With --check nothing is written: it fails where a file is not as
 it would be written, with --missing where a field is empty. With --get NAME it prints a field;
-`version` is that of the public header.
+`version` is the public header's.
 """
 
 import json
@@ -133,7 +133,7 @@ def with_lines(text, anchor, new_lines):
 
 
 def places(p):
-    """What stands once or more in the text of a file: (file, pattern of what is before and after,
+    """What is once or more in the text of a file: (file, pattern of what is before and after,
     what is between).
     """
     minor = p["version"].rpartition(".")[0]

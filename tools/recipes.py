@@ -1,6 +1,6 @@
 """recipes.py DIST OUT: the recipes of Conan, vcpkg, Homebrew and NuGet for the source archive in
 DIST, into OUT, and DIST/carom-VERSION.cdx.json, what carom is made of (CycloneDX). The text @NAME@
-of packaging/ stands for what is known of the release; a line with a field that is empty is left
+of packaging/ is replaced by what is known of the release; a line with a field that is empty is left
 out, but where the recipe must have an address: that is https://carom.invalid then.
 """
 
@@ -35,7 +35,7 @@ known = {
 }
 for kind in ("vcpkg", "homebrew", "nuget"):
     shutil.copytree(ROOT / "packaging" / kind, OUT / kind)
-# As conan-center has it, with the program of its test beside it.
+# As conan-center has it, with the program of its test next to it.
 conan = OUT / "conan/carom"
 shutil.copytree(ROOT / "packaging/conan", conan / "all")
 shutil.copytree(

@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def plain(words):
-    """A comment as Markdown: only what stands between backquotes is code."""
+    """A comment as Markdown: only what is between backquotes is code."""
     parts = re.split(r"(`[^`]*`)", " ".join(words.split()))
     return "".join(
         part if part.startswith("`") else re.sub(r"([\[\]<>*_|`#])", r"\\\1", part)
@@ -122,7 +122,7 @@ def of_c(source):
     return text + "## Constants\n\n" + rows(["name", "value", ""], constants)
 
 
-# Modules of the package whose names stand in `carom` itself.
+# Modules of the package whose names are in `carom` itself.
 WITHIN_CAROM = {
     "collisions",
     "cushions",
@@ -147,7 +147,7 @@ def of_python(source):
     )
 
     def holder(module):
-        """The module that has the names: some are a line that takes those of another one."""
+        """The module that has the names: some only import the names of another one."""
         path = folder / f"{module}.py"
         found = path.is_file() and re.search(r"from ([\w.]+) import \*", path.read_text("utf-8"))
         return found[1] if found else f"carom.{module}"
@@ -214,7 +214,7 @@ def documented(source, files, comment, kind, title, named):
                 holder = name
             if name and (holder or inside):
                 words = re.sub(r"</?summary>|^\s*(?:\*|///) ?", " ", words, flags=re.M)
-                # The fields of a struct, some of which have no words of their own.
+                # The fields of a struct, some of which have no description of their own.
                 body = whole[found.start(2) :]
                 body = (
                     body[

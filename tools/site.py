@@ -1,7 +1,7 @@
 """site.py SOURCE WORK: makes the static site of the pages in WORK/site, and fails where a link or
 an anchor leads nowhere.
 
-Pages keep their places in the tree, so their links lead where they lead in the repository. Files
+Pages keep their paths in the tree, so their links lead where they lead in the repository. Files
 that they link to are copied. Each example becomes a page: its head comment, its picture, its text.
 Those in JavaScript run in their pages, and the explorer is a part of the site, where
 `web/npm/build` and `npm run page` have built them.

@@ -1,9 +1,9 @@
-/* carom.hpp: the library from C++17, header only. Structs and functions are those of the C headers.
- * C++ adds spans for arrays with their lengths, vectors for owned memory, and exceptions if they
- * are enabled.
+/* carom.hpp: the library from C++17, header only. It uses the structs and functions of the C
+ * headers, and adds spans for arrays with their lengths, vectors for owned memory, and exceptions
+ * if they are enabled.
  *
- * A function that can fail returns its carom_status. With exceptions, a negative one is thrown as
- * carom::error instead; without them (-fno-exceptions) the caller looks at it. Positive ones, such
+ * A function that can fail returns its carom_status. With exceptions, a negative status is thrown
+ * as carom::error instead; without them (-fno-exceptions) the caller checks it. Positive ones, such
  * as CAROM_STOPPED_AT_TIME, are always returned.
  *
  *     const carom_table table = carom::table(CAROM_TABLE_POOL_9FT);
@@ -16,7 +16,7 @@
 #ifndef CAROM_HPP
 #define CAROM_HPP
 
-#if __has_include("carom_plan.h") /* a build without the planner has none */
+#if __has_include("carom_plan.h") /* a build without the planner has no such header */
 #include "carom_match.h"
 #include "carom_plan.h"
 #endif
@@ -44,7 +44,7 @@ namespace carom {
 #ifdef __cpp_lib_span
 using std::span;
 #else
-/* An array and its length, as C++20 has it: for C++17. */
+/* An array and its length, like std::span of C++20, for C++17. */
 template <class T> class span {
 public:
   constexpr span() = default;
@@ -82,7 +82,7 @@ private:
 #endif
 
 #ifdef __cpp_exceptions
-/* A call that could not be served. */
+/* The error of a call. */
 class error : public std::runtime_error {
 public:
   explicit error(carom_status code, const std::string &fault = {})
@@ -111,7 +111,8 @@ inline carom_status checked(carom_status code, [[maybe_unused]] const char *faul
 /* ---- Impacts */
 
 /* Resolves in[k] to out[k]. The spans have the same length; `status` may be empty. A row in error
- * is no error of the call: status[k] has its status, and the call returns the first one. */
+ * is not an error of the call: status[k] is its status, and the call returns the first such
+ * status. */
 inline carom_status collide(span<const carom_impact> in, span<carom_result> out,
                             span<std::int8_t> status = {}, const carom_options &options = {}) {
   if (out.size() != in.size() || (!status.empty() && status.size() != in.size()))
@@ -161,8 +162,8 @@ inline std::vector<carom_shot_ball> rack(carom_rack_kind kind, const carom_table
   return balls;
 }
 
-/* Ball in hand: puts balls[ball] at rest at (x, y). If that place is not free, the ball stays, and
- * `in_the_way` is what takes the place; this is no error here. */
+/* Ball in hand: puts balls[ball] at rest at (x, y). If that position is not free, the ball stays,
+ * and `in_the_way` is the ball or part in the way; this is not an error here. */
 struct placed {
   carom_status status;
   carom_part in_the_way;
@@ -183,7 +184,7 @@ inline placed place(const carom_table &on, span<carom_shot_ball> balls, int ball
  * began, so that it can compute the states at any time. */
 class shot {
 public:
-  /* Plays the shot; with options.time_most or stop_at only up to there. */
+  /* Plays the shot; with options.time_most or stop_at only up to that time or event. */
   carom_status play(const carom_table &on, span<const carom_shot_ball> balls, const carom_cue &cue,
                     const carom_shot_options &options = {}) {
     table_ = on;
@@ -195,7 +196,7 @@ public:
         [&] { return carom_shoot(&on, balls_.data(), count(), &cue, &options, &shot_); });
   }
 
-  /* Goes on with a shot that was stopped. */
+  /* Continues a stopped shot. */
   carom_status resume(const carom_table &on, const carom_shot_options &options = {}) {
     return with_room(
         [&] { return carom_shot_continue(&on, balls_.data(), count(), &options, &shot_); });
@@ -251,8 +252,8 @@ public:
     return carom_event_slip(&table_, balls_.data(), count(), &event);
   }
 
-  /* shot_ points to the vectors, so a shot can be moved but not copied. A shot that was moved from
-   * is like one that was not played. */
+  /* shot_ points to the vectors, so a shot can be moved but not copied. A moved-from shot is like a
+   * shot that was not played. */
   shot() = default;
   shot(shot &&other) noexcept {
     swap(other);
@@ -325,8 +326,8 @@ struct frames {
   span<const std::array<double, 4>> turned;
 };
 
-/* A film of shots, for drawing, in which pocketed balls fall: each frame goes on from the frame
- * before if that one was earlier in the same shot. */
+/* The frames of shots, for drawing, in which pocketed balls fall: each frame continues from the
+ * previous frame if that was earlier in the same shot. */
 class film {
 public:
   /* Valid until the next call; empty after an error. */
@@ -405,10 +406,10 @@ inline carom_plan_job job(const carom_table &on, span<const carom_shot_ball> bal
 
 /* A plan that is made in slices, for an opponent who thinks between the frames of a game.
  * Everything that the job points to must stay unchanged until the end. The memory of the job is
- * allocated here. `in_hand` says whether the cue ball is in hand: 0: no; 1 or true: within the
+ * allocated here. `in_hand`: 0: the cue ball is not in hand; 1 or true: it is in hand within the
  * bounds that the game sets after a foul; or a carom_leave from CAROM_LEAVE_ANYWHERE on. The rules
- * do not know of the stroke before, so after a scratch on the break of eight-ball, where the cue
- * ball stays behind the head string, give the `leave` of its ruling. */
+ * do not know the previous stroke, so after a scratch on the break of eight-ball, where the cue
+ * ball stays behind the head string, pass the `leave` of its ruling. */
 class thinking {
 public:
   /* A slice has about `slice` events; 0: all at once. `most` is the largest number of strokes to
@@ -439,7 +440,7 @@ public:
     ended_ = code < 0 || found_ > 0;
     return checked(code, match_ != nullptr ? match_->fault : "");
   }
-  /* Whether the plan has ended, also with an error. */
+  /* Whether the plan has ended, with or without an error. */
   bool ended() const {
     return ended_;
   }
@@ -461,7 +462,7 @@ private:
       job_.leave = leave_in_hand();
     return carom_plan_hand(&job_, nullptr, nullptr, choices_.data(), room(), &found_);
   }
-  /* That of the caller; else of the game by its rules. */
+  /* The leave of the caller; otherwise the leave that the rules of the game set. */
   int leave_in_hand() const {
     if (in_hand_ >= CAROM_LEAVE_ANYWHERE)
       return in_hand_;
@@ -536,7 +537,7 @@ public:
     const carom_status code = carom_record_read(game_.get(), line.data(), line.size());
     return with_fault(code);
   }
-  /* Plays a stroke, or goes on. last() is then the shot, with all its events. */
+  /* Plays a stroke, or continues the shot. last() is then the shot, with all its events. */
   carom_status play(carom_record_kind kind = CAROM_RECORD_SHOT) {
     const auto before = std::make_unique<carom_record>(*game_);
     if (kind != CAROM_RECORD_CONTINUE)
@@ -603,8 +604,8 @@ inline bool recording::load(std::string_view lines) {
 }
 
 #ifdef CAROM_PLAN_H
-/* A match, as carom_match.h has it. An act that the rules forbid is thrown as carom::error, whose
- * text says what would be right. */
+/* A match of carom_match.h. An act that the rules forbid is thrown as carom::error, whose text
+ * describes what would be right. */
 class match {
 public:
   match() : match_(std::make_unique<carom_match>()), scratch_(std::make_unique<carom_record>()) {
@@ -634,6 +635,10 @@ public:
     carom_match_string(match_.get(), text.data(), text.size() + 1);
     return text;
   }
+  /* The seat that acted last; -1: none has yet. */
+  int actor() const {
+    return static_cast<int>(match_->record.actor);
+  }
   /* The side at the table; in games that each plays for itself, the seat. */
   int player() const {
     return static_cast<int>(match_->record.player);
@@ -655,8 +660,8 @@ public:
     return last_;
   }
 
-  /* With the rack of a game, to `target` points, 0: those of the game, and with equal innings or
-   * without. */
+  /* With the rack of a game, to `target` points (0: the usual target of the game), and with equal
+   * innings or without. */
   carom_status begin(carom_rules_kind rules, const carom_table &on, std::uint64_t seed,
                      int player = 0, int target = 0, bool equal_innings = false) {
     lines_.clear();
@@ -723,7 +728,7 @@ public:
     all.go_on();
     return {all.choices().begin(), all.choices().end()};
   }
-  /* The acts that a choice of a plan asks for before its stroke. */
+  /* Performs the acts that a choice of a plan requires before its stroke. */
   carom_status prepare(const carom_plan_stroke &best) {
     return told(carom_match_prepare(match_.get(), seat(), &best));
   }
@@ -735,24 +740,44 @@ public:
     return code < 0 || best.kind == CAROM_PLAN_PASS ? code : stroke(cue, stop);
   }
 
-  /* Reads and judges the lines of a match, of a caller's own rules by `of`. Its last shot has all
-   * its events, also where it still moves and goes on. */
+  /* Reads and judges the lines of a match, for custom rules with `of`. The last shot has all its
+   * events, also if balls are still moving. */
   carom_status load(std::string_view text, const carom_plan_rules &of = {}) {
     if (text.empty())
       return checked(CAROM_ERROR_RECORD, "the text is empty: a match begins with a recording line");
     undone_.clear();
     return read_all(text, of);
   }
-  /* Reads a line that a seat has sent, as carom_match_read_from() does; -1: anyone. */
-  carom_status read(std::string_view line, int sender = -1) {
+  /* Reads the next line of a file. Nothing is read behind a line that is not by the rules. */
+  carom_status read(std::string_view line) {
     const std::int64_t shots = match_->record.shots;
     const carom_status code =
-        carom_match_read_from(match_.get(), scratch_.get(), line.data(), line.size(), sender);
+        carom_match_read(match_.get(), scratch_.get(), line.data(), line.size());
     if (code < 0)
       return checked(code, match_->fault);
     lines_ += line;
     if (!line.empty() && line.back() != '\n')
       lines_ += '\n';
+    return match_->record.shots != shots ? replay() : code;
+  }
+  /* Reads a line that a peer of this seat has sent, as carom_match_receive() does; -1: of whoever
+   * may send every line. What is refused changes nothing. */
+  carom_status receive(std::string_view line, int seat) {
+    const std::int64_t shots = match_->record.shots;
+    const std::int64_t line_count = match_->record.line;
+    if (room_ == nullptr)
+      room_ = std::make_unique<carom_match>();
+    const carom_status code =
+        carom_match_receive(match_.get(), room_.get(), line.data(), line.size(), seat);
+    if (code < 0)
+      return checked(code, match_->fault);
+    if (match_->record.line == line_count)
+      return code;
+    undone_.clear();
+    if (match_->size > 0)
+      lines_.append(match_->text, static_cast<std::size_t>(match_->size));
+    else /* of the beginning, which makes no lines */
+      lines_.append(line.substr(0, line.find_last_not_of(" \r\n") + 1)) += '\n';
     return match_->record.shots != shots ? replay() : code;
   }
   /* Undoes the last act, by the lines before it; does it again. False: there is none. */
@@ -772,7 +797,7 @@ public:
     read_all(text, match_->rules);
     return true;
   }
-  /* The same match, which goes on alone. */
+  /* A copy of the match, independent of this one. */
   match copy() const {
     match made;
     *made.match_ = *match_;
@@ -806,7 +831,7 @@ private:
     last_.balls_.assign(match_->before, match_->before + match_->record.count);
     return last_.with_room([&] { return carom_match_replay(match_.get(), &last_.shot_); });
   }
-  /* Keeps the lines of an act; throws what was refused. */
+  /* Keeps the lines of an act; throws an error for a rejected act. */
   carom_status told(carom_status code) {
     lines_.append(match_->text, static_cast<std::size_t>(match_->size));
     if (match_->size > 0)
@@ -837,6 +862,7 @@ private:
   std::string lines_;
   std::unique_ptr<carom_match> match_;
   std::unique_ptr<carom_record> scratch_;
+  std::unique_ptr<carom_match> room_; /* of receive(), once it was called */
   shot last_;
 };
 #endif

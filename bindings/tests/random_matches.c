@@ -252,22 +252,23 @@ static void keep(void) {
 }
 
 /* The reader refuses the line of an act from another seat, with nothing changed, and takes it from
- * the seat that acted. */
+ * the seat that acted. It knows the lines of the ruling then, whoever sends them. */
 static int is_sent_by(int seat, size_t from) {
-  static carom_match kept;
+  static carom_match kept, room;
   const char *line = recording + from;
   while (line < recording + written) {
     const char *end = strchr(line, '\n') + 1;
     const size_t size = (size_t)(end - line);
-    const int acts_here = reader.due == 0 && reader.phase != CAROM_MATCH_NONE &&
+    const int acts_here = line == recording + from && reader.phase != CAROM_MATCH_NONE &&
+                          strncmp(line, "{\"continue\"", 11) != 0 &&
                           strncmp(line, "{\"end\"", 6) != 0 &&
                           strncmp(line, "{\"recording\"", 12) != 0;
     kept = reader;
     if (acts_here &&
-        (carom_match_read_from(&reader, &scratch, line, size, (seat + 1) % 8) != CAROM_ERROR_ACT ||
+        (carom_match_receive(&reader, &room, line, size, (seat + 1) % 8) != CAROM_ERROR_ACT ||
          reader.refusal != CAROM_REFUSED_TURN || reader.record.hash != kept.record.hash))
       return 0;
-    if (carom_match_read_from(&reader, &scratch, line, size, acts_here ? seat : -1) < 0)
+    if (carom_match_receive(&reader, &room, line, size, acts_here ? seat : -1) < 0)
       return 0;
     line = end;
   }

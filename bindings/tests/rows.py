@@ -1,10 +1,10 @@
 """rows.py SOURCE SHARED: the rows of numbers and words say what the headers and the library say.
 
-Each member of a struct or an enumeration has a comment that stands alone, as editors of other
-languages show it by itself: it does not continue that of the member before, and is not continued.
-The comment of each member names the unit of its row, every number of its range, and its default.
-bindings/rows.py has the texts and the ranges that the library tells. Each value of an enumeration
-with words has one.
+Each member of a struct or an enumeration has a comment that is complete by itself, as editors of
+other languages show it by itself: it does not continue that of the member before, and is not
+continued. The comment of each member names the unit of its row, every number of its range, and its
+default. bindings/rows.py has the texts and the ranges that the library tells. Each value of an
+enumeration with words has one.
 """
 
 import ctypes
@@ -133,7 +133,8 @@ for of in enums["carom_words"]:
     if seen != [word for word, _ in expected]:
         faults.append(f"{of['name']}: the library tells {seen}, bindings/rows.py {expected}")
 
-# The same of games: all values have words, which are the ends of their names, in the order of the rows.
+# The same of games: all values have words, which are the ends of their names, in the order of the
+# rows.
 library.carom_game_word.restype = ctypes.c_char_p
 for of in enums["carom_game_words"]:
     values = enums[re.search(r"carom_\w+", of["comment"])[0]]

@@ -1,8 +1,7 @@
 /* Aims at a ball by its cut, for `carom shoot --at-ball`. */
+#include "carom_plan.h"
 #include "program/program.h"
 #include "shots/shoot_aim.h"
-
-#include "carom_plan.h"
 
 /* Says why there is no such aim. */
 static void complain_of(const char *name, const layout *l, const carom_pot *pot) {
@@ -31,12 +30,14 @@ bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *op
   char names[NAMES_TEXT], hint[HINT_TEXT];
   carom_pot pot = {
       .ball = ball_named(l, name, strlen(name), names), .pocket = CAROM_POT_NO_POCKET, .cut = cut};
-  did_you_mean(name, names, hint);
-  if (pot.ball < 0)
-    complain("--at-ball '%s': there is no such ball; the balls of --balls are %s%s", name,
-             names_there(names), hint);
+  if (pot.ball < 0 && names[0] == '\0')
+    complain("--at-ball '%s': there is no ball to aim at; try --balls 0.6,1.5 with --at-ball 1",
+             name);
+  else if (pot.ball < 0)
+    complain("--at-ball '%s': no such ball; try %s, of --balls", name,
+             words_to_try(name, names, hint));
   else if (!(fabs(cut) < 90.0))
-    complain("--cut is between -90 and 90 degrees");
+    complain("--cut '%g': no contact; try an angle between -90 and 90 degrees", cut);
   else if (carom_aim(&l->table, l->ball, l->count, options, &pot, cue) != CAROM_OK)
     return true; /* which is told when it is played */
   else if (pot.outcome == CAROM_POT_FALLS)

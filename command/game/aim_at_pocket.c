@@ -31,9 +31,23 @@ static void say_way(const layout *l, const carom_pot *pot, char words[AIMED_TEXT
   }
 }
 
+/* Complains of one part of --via, which has `count` good parts before it. */
+static void complain_of_via(const char *via, const char *wrong, const char *names, int count) {
+  char list[HINT_TEXT];
+  if (count == CAROM_VIA_MOST)
+    complain("--via '%.40s': too many; try at most %d rails and balls", via, CAROM_VIA_MOST);
+  else if (place_among(names, wrong, strlen(wrong)) >= 0)
+    complain("--via '%.40s': %s cannot come there; try each ball once, that of --pocket last", via,
+             wrong);
+  else
+    complain("--via '%.40s': no ball or rail '%s'; try %s", via, wrong,
+             words_to_try(wrong, names, list));
+}
+
 /* The way of --via; false after a complaint. */
 static bool read_via(const layout *l, const char *via, carom_pot *pot) {
-  char names[NAMES_TEXT], wrong[PLACE_NAME] = "", hint[HINT_TEXT];
+  char names[NAMES_TEXT], wrong[PLACE_NAME] = "";
+  const char *way = via;
   bool named = false, good = true;
   for (size_t size; via != NULL && good; via = via[size] != '\0' ? via + size + 1 : NULL) {
     size = strcspn(via, ",");
@@ -41,8 +55,7 @@ static bool read_via(const layout *l, const char *via, carom_pot *pot) {
     part.kind = part.index >= 0 ? CAROM_PART_BALL : CAROM_PART_NONE;
     for (int rail = 0; rail < l->table.rails; rail++) {
       const char *name = carom_rail_name(&l->table, rail);
-      if (part.kind == CAROM_PART_NONE && name != NULL && strlen(name) == size &&
-          strncmp(name, via, size) == 0)
+      if (part.kind == CAROM_PART_NONE && name != NULL && same_word(via, size, name, strlen(name)))
         part = (carom_part){CAROM_PART_RAIL, rail};
     }
     snprintf(wrong, sizeof wrong, "%.*s", (int)(size < sizeof wrong ? size : sizeof wrong - 1),
@@ -60,10 +73,7 @@ static bool read_via(const layout *l, const char *via, carom_pot *pot) {
   if (good)
     return true;
   snprintf(names + strlen(names), NAMES_TEXT - strlen(names), RAILS);
-  did_you_mean(wrong, names, hint);
-  complain("--via is up to %d of balls, the one of --pocket last, and rails, such as 2,left, or "
-           "head,%s for a kick; '%s' is none that can be there; there are %s%s",
-           CAROM_VIA_MOST, l->name[pot->ball], wrong, names_there(names), hint);
+  complain_of_via(way, wrong, names, pot->vias);
   return false;
 }
 
@@ -114,15 +124,18 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
   snprintf(ball, sizeof ball, "%.*s", (int)strcspn(pocket, ":"), pocket);
   bool good = false;
   if (l->table.pockets == 0)
-    complain("--pocket: the table has no pockets");
-  else if (pot.ball < 0 || pot.pocket < 0) {
-    const char *meant =
-        pot.ball < 0 ? did_you_mean(ball, balls, hint) : did_you_mean(name, known, hint);
-    complain(
-        "--pocket is BALL:POCKET, such as 1:foot-left, with a ball of --balls, %s, and one of %s "
-        "or its id; not '%.60s'%s",
-        names_there(balls), known, pocket, meant);
-  } else if (!read_via(l, via, &pot))
+    complain("--pocket '%.40s': the table has no pockets; try another --table", pocket);
+  else if (colon == NULL)
+    complain("--pocket '%.40s': not BALL:POCKET; try 1:foot-left (see --help)", pocket);
+  else if (pot.ball < 0 && balls[0] == '\0')
+    complain("--pocket '%.40s': there is no ball to pot; try --balls 0.6,1.5 with it", pocket);
+  else if (pot.ball < 0)
+    complain("--pocket '%.40s': no such ball; try %s, of --balls", pocket,
+             words_to_try(ball, balls, hint));
+  else if (pot.pocket < 0)
+    complain("--pocket '%.40s': no such pocket; try %s (--help lists them)", pocket,
+             words_to_try(name, known, hint));
+  else if (!read_via(l, via, &pot))
     return false;
   else if (carom_aim(&l->table, l->ball, l->count, options, &pot, cue) != CAROM_OK) {
     cue->theta = isnan(cue->theta) ? 0.0 : cue->theta;

@@ -11,9 +11,7 @@
 OPTION_SET(set_score) {
   int *score = field, end = 0;
   const bool good = sscanf(text, "%9d,%9d%n", &score[0], &score[1], &end) == 2 && text[end] == 0;
-  if (!good)
-    complain("--%s is OWN,OTHER, whole numbers, not '%.60s'", row->name, text);
-  return good;
+  return good || refuse_value(row, text, "not two whole numbers, OWN,OTHER; try 40,25");
 }
 
 enum { YELLOW = 16 }; /* of the balls of snooker: the first colour */

@@ -19,8 +19,8 @@ OPTION_SET(set_goal) {
     *goal = (given_goal){.kind = kind, .target = target};
     return kind != CAROM_GOAL_NEAR || set_leave(row, target, &goal->place);
   }
-  complain("--%s is " GOAL_ARGUMENT ", not '%.60s'", row->name, text);
-  return false;
+  return refuse_value(row, text,
+                      "no such goal; try hidden, snooker:8, near:foot-spot,20cm or apart:1,2");
 }
 
 /* The ball on the table with this name; -1 after a complaint. */

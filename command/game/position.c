@@ -14,22 +14,10 @@
 
 OPTION_SET(set_leave) {
   leave *target = field;
-  char copy[128], *rest = NULL;
-  value *part[] = {&target->x, &target->y, &target->radius};
-  bool good = strlen(text) < sizeof copy;
-  const char *radius = place_named(text, &target->x, &target->y);
-  int parts = radius == text ? 0 : 2;
-  snprintf(copy, sizeof copy, "%s", radius);
-  value_of(MEASURE_LENGTH, "0.15", &target->radius);
-  for (char *token = strtok_r(copy, ",", &rest); token != NULL && good;
-       token = strtok_r(NULL, ",", &rest), parts++)
-    good = parts < 3 && value_of(MEASURE_PLACE, token, part[parts]);
-  target->is_set = good && parts >= 2 && target->radius.x > 0.0;
-  if (!target->is_set)
-    complain("--%s is X,Y or X,Y,R in m, or with units: 2d,4d,20cm, or PLACE or PLACE,R: " PLACES
-             "; not '%.60s'",
-             row->name, text);
-  return target->is_set;
+  target->is_set = read_disc(text, "0.15", &target->x, &target->y, &target->radius);
+  if (target->is_set)
+    return true;
+  return refuse_value(row, text, "not a position, X,Y or X,Y,R; try 2d,4d,20cm or foot-spot,20cm");
 }
 
 void leave_into(const leave *target, ways_search *s) {

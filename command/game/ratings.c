@@ -28,9 +28,8 @@ static int read_numbers(const char *text, double least, double most, int room, d
 OPTION_SET(set_ratings) {
   if (read_numbers(text, 200.0, 850.0, CAROM_SEATS_MOST, field) >= 2)
     return true;
-  complain("--%s: 2 to 8 Fargo ratings from 200 to 850 are needed, such as 600,500, not %s",
-           row->name, text);
-  return false;
+  return refuse_value(row, text, "not 2 to %d Fargo ratings, 200 to 850; try 600,500",
+                      CAROM_SEATS_MOST);
 }
 
 OPTION_SET(set_lengths) {
@@ -40,7 +39,6 @@ OPTION_SET(set_lengths) {
     length[1] = length[0];
   if (count > 0 && strchr(text, '.') == NULL)
     return true;
-  complain("--%s: one or two whole numbers from 1 to %d are needed, such as 9,7, not %s", row->name,
-           CAROM_SERIES_MOST, text);
-  return false;
+  return refuse_value(row, text, "not one or two whole numbers, 1 to %d; try 9 or 9,7",
+                      CAROM_SERIES_MOST);
 }

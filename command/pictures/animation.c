@@ -23,9 +23,7 @@ OPTION_SET(set_animation) {
     return true;
   if (is_moving_picture(text))
     return true;
-  complain("--%s writes a page whose name ends in .html, or a picture in .svg, not '%s'", row->name,
-           text);
-  return false;
+  return refuse_value(row, text, "its name does not end in .html or .svg; try shot.html");
 }
 
 /* The times of a shot's frames in order, to be freed. */

@@ -2,7 +2,9 @@
  * cloth whose cushions are out of sight. */
 #include "pictures/contact_picture.h"
 
+#include "pictures/colours.h"
 #include "pictures/labels.h"
+#include "pictures/palette.h"
 #include "pictures/picture.h"
 #include "rows/quantities.h"
 #include "shots/endless_cloth.h"
@@ -15,7 +17,6 @@ static const double reach = 14.0;          /* of the faster ball at least, in ra
 static const double least_friction = 1e-6; /* the library's motion needs some; balls slide
                                               straight on by so little */
 static const double margin = 26.0, most_height = 620.0; /* pixels */
-static const char *const colours[2] = {"#ffffff", "#f2c230"};
 
 /* A part of the cloth, and its labels. */
 typedef struct sketch {
@@ -42,7 +43,8 @@ static void include(sketch *s, const double r[2], double around) {
 static void dash(sketch *s, const double start[2], const double end[2]) {
   const double a[2] = {across(s, start), down(s, start)}, b[2] = {across(s, end), down(s, end)};
   fprintf(s->out,
-          "<path d=\"M%.1f %.1fL%.1f %.1f\" fill=\"none\" stroke=\"#0b2a22\" stroke-dasharray=\"5 "
+          "<path d=\"M%.1f %.1fL%.1f %.1f\" fill=\"none\" stroke=\"" PALETTE_MARK
+          "\" stroke-dasharray=\"5 "
           "4\"/>\n",
           a[0], a[1], b[0], b[1]);
   keep_line(&s->labels, a[0], a[1], b[0], b[1]);
@@ -70,7 +72,8 @@ static void draw_arc(sketch *s, const contact_arc *a, double radius) {
   if (angle < 0.05)
     return;
   fprintf(s->out,
-          "<path d=\"M%.1f %.1fA%.1f %.1f 0 %d %d %.1f %.1f\" fill=\"none\" stroke=\"#0b2a22\"/>\n",
+          "<path d=\"M%.1f %.1fA%.1f %.1f 0 %d %d %.1f %.1f\" fill=\"none\" stroke=\"" PALETTE_MARK
+          "\"/>\n",
           x + radius * cos(a->start * degree), y - radius * sin(a->start * degree), radius, radius,
           angle > 180.0, a->end < a->start, x + radius * cos(a->end * degree),
           y - radius * sin(a->end * degree));
@@ -121,7 +124,7 @@ static void move(const contact_picture *p, motion *m) {
 static void draw_path(sketch *s, const contact_picture *p, const motion *m, int ball) {
   carom_ball_state states[2];
   double last[2] = {0}, point[2] = {0}, sum = 0.0;
-  fprintf(s->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" d=\"", colours[ball]);
+  fprintf(s->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" d=\"", line_colour(ball));
   for (int k = 0; k <= SAMPLES; k++) {
     carom_shot_at(m->ball, p->balls, &m->shot, m->end * k / SAMPLES, states);
     memcpy(last, point, sizeof last);
@@ -137,7 +140,7 @@ static void draw_path(sketch *s, const contact_picture *p, const motion *m, int 
   /* An arrow's head, and from where on the ball rolls. */
   const double angle = atan2(point[1] - last[1], point[0] - last[0]), x = across(s, point),
                y = down(s, point);
-  fprintf(s->out, "<path fill=\"%s\" d=\"M%.1f %.1f", colours[ball], x + 13.0 * cos(angle),
+  fprintf(s->out, "<path fill=\"%s\" d=\"M%.1f %.1f", line_colour(ball), x + 13.0 * cos(angle),
           y - 13.0 * sin(angle));
   for (int side = -1; side < 2; side += 2)
     fprintf(s->out, "L%.1f %.1f", x + 5.0 * cos(angle + 90.0 * side * degree),
@@ -148,7 +151,7 @@ static void draw_path(sketch *s, const contact_picture *p, const motion *m, int 
             x + 13.0 * cos(angle) + 4.0, y - 13.0 * sin(angle) + 4.0);
   if (m->rolls[ball] > 0.0 && m->rolls[ball] < m->end) {
     carom_shot_at(m->ball, p->balls, &m->shot, m->rolls[ball], states);
-    fprintf(s->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#0b2a22\"/>\n",
+    fprintf(s->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"" PALETTE_MARK "\"/>\n",
             across(s, states[ball].r), down(s, states[ball].r));
   }
   put_label(&s->labels, x + 14.0 * cos(angle), y - 14.0 * sin(angle), p->way[ball]);
@@ -168,12 +171,12 @@ static void draw_scale(sketch *s) {
   char text[40];
   snprintf(text, sizeof text, length < 1.0 ? "%.3g cm" : "%.3g m",
            length < 1.0 ? 100.0 * length : length);
-  fprintf(
-      s->out,
-      "<path d=\"M%.1f %.1fv6h%.1fv-6\" fill=\"none\" stroke=\"#0b2a22\" stroke-width=\"1.5\"/>\n",
-      x - s->scale * length, s->bottom - 16.0, s->scale * length);
+  fprintf(s->out,
+          "<path d=\"M%.1f %.1fv6h%.1fv-6\" fill=\"none\" stroke=\"" PALETTE_MARK
+          "\" stroke-width=\"1.5\"/>\n",
+          x - s->scale * length, s->bottom - 16.0, s->scale * length);
   svg_text(s->out, x - 0.5 * s->scale * length, s->bottom - 16.0, text, MOST_CHARACTERS,
-           "class=\"bar\" font-size=\"%.1f\" fill=\"#0b2a22\" text-anchor=\"middle\"",
+           "class=\"bar\" font-size=\"%.1f\" fill=\"" PALETTE_MARK "\" text-anchor=\"middle\"",
            s->labels.size);
   keep_free(&s->labels, x - s->scale * length, s->bottom - 36.0, x, s->bottom);
 }
@@ -214,19 +217,20 @@ double contact_draw(FILE *out, double top, const contact_picture *p) {
   const double height = svg_lines(NULL, 0.0, first, size, columns, "", p->words);
   fprintf(out,
           "<svg y=\"%.1f\" width=\"%d\" height=\"%.1f\">\n<rect width=\"100%%\" height=\"%.1f\" "
-          "fill=\"#3f9d80\"/>\n",
-          top, CONTACT_WIDTH, height, s.bottom);
+          "fill=\"%s\"/>\n",
+          top, CONTACT_WIDTH, height, s.bottom, pool_colours.cloth);
   draw_scale(&s);
   if (p->rail) {
-    fprintf(out, "<rect width=\"100%%\" height=\"%.1f\" fill=\"#1d4a3c\"/>\n",
-            down(&s, (double[]){0.0, R}));
+    fprintf(out, "<rect width=\"100%%\" height=\"%.1f\" fill=\"%s\"/>\n",
+            down(&s, (double[]){0.0, R}), pool_colours.cushion);
     keep_free(&s.labels, 0.0, 0.0, CONTACT_WIDTH, down(&s, (double[]){0.0, R}));
   }
   /* Balls as they meet, lines, angles, paths; labels last find what is free. */
   for (int k = 0; k < p->balls; k++) {
     const double x = across(&s, p->ball[k]->r), y = down(&s, p->ball[k]->r),
                  r = fmax(s.scale * R, 3.0);
-    svg_circle(out, x, y, r, "fill=\"%s\" fill-opacity=\"0.85\" stroke=\"#111\"", colours[k]);
+    svg_circle(out, x, y, r, "fill=\"%s\" fill-opacity=\"0.85\" stroke=\"" PALETTE_NOSE "\"",
+               line_colour(k));
     keep_free(&s.labels, x - r, y - r, x + r, y + r);
   }
   for (int k = 0; k < p->lines; k++)

@@ -2,6 +2,7 @@
  * ever farther away, until its box is free; a line ties it to its place from afar. */
 #include "pictures/labels.h"
 
+#include "pictures/palette.h"
 #include "pictures/picture.h"
 #include "rows/quantities.h"
 
@@ -58,11 +59,12 @@ void put_label(labels *l, double x, double y, const char *text) {
   const double nearest[2] = {fmin(fmax(x, box[0]), box[2]), fmin(fmax(y, box[1]), box[3])};
   if (hypot(nearest[0] - x, nearest[1] - y) > 1.5 * l->size)
     fprintf(l->out,
-            "<path class=\"tie\" d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#0b2a22\" "
+            "<path class=\"tie\" d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"" PALETTE_MARK "\" "
             "stroke-width=\"1\"/>\n",
             x, y, nearest[0], nearest[1]);
   svg_text(l->out, box[0], box[3] - 0.25 * height, text, MOST_CHARACTERS,
-           "font-size=\"%.1f\" fill=\"#fff\" stroke=\"#0b2a22\" stroke-width=\"3\" "
+           "font-size=\"%.1f\" fill=\"" PALETTE_TEXT "\" stroke=\"" PALETTE_NOSE
+           "\" stroke-width=\"3\" "
            "paint-order=\"stroke\"",
            l->size);
 }

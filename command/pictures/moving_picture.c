@@ -58,7 +58,7 @@ void shot_move(FILE *out, const played *p) {
     const double *r = line->ball[ball].state.r;
     fprintf(out, "<g class=\"ball\" transform=\"translate(%.1f %.1f)\">\n", across(&v, r),
             down(&v, r));
-    draw_disc(&v, line, ball, 0.0, 0.0, line->name[ball]);
+    draw_disc(&v, line, ball, 0.0, 0.0, line->name[ball], NULL);
     if (ball_moved(p->shot, ball))
       write_way(&v, states + ball, steps, balls, whole);
     fputs("</g>\n", out);

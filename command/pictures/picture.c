@@ -2,6 +2,7 @@
  * temporary file can stay behind; a picture that is whole then goes to its place. */
 #include "pictures/picture.h"
 
+#include "pictures/palette.h"
 #include "program/program.h"
 
 #include <errno.h>
@@ -26,8 +27,7 @@ OPTION_SET(set_picture) {
   *(const char **)field = text;
   if (same_text(ending, ".svg") || same_text(ending, ".png") || same_text(ending, ".pdf"))
     return true;
-  complain("--%s draws a picture whose name ends in .svg, .png or .pdf, not '%s'", row->name, text);
-  return false;
+  return refuse_value(row, text, "its name does not end in .svg, .png or .pdf; try picture.svg");
 }
 
 static void complain_missing(const char *path, const char *executable, const char *package) {
@@ -184,7 +184,7 @@ void svg_text(FILE *out, double x, double y, const char *text, int most, const c
 }
 
 double svg_letters(double width) {
-  return 9.2 / 500.0 * width;
+  return PALETTE_SIZE_LETTERS * width;
 }
 
 double svg_lines(FILE *out, double x, double y, double size, int columns, const char *style,

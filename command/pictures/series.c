@@ -272,6 +272,14 @@ static void write_words(FILE *out, const series *s, int count) {
 
 /* ---- Pictures */
 
+/* The name of the axis of a range: of a cut that is given as a part of the ball, that part. */
+static void name_axis(FILE *out, const char *input, const char *unit) {
+  if (same_text(unit, part_of_ball))
+    fprintf(out, "# x: %s\n", unit);
+  else
+    fprintf(out, "# x: %s (%s)\n", input, unit);
+}
+
 /* The data of figures/curves.gp: a curve for each combination of the lists, over the range. */
 static void write_curves(FILE *out, const void *data) {
   const series *s = data;
@@ -279,8 +287,8 @@ static void write_curves(FILE *out, const void *data) {
   const int quantity = quantity_of_curves(s);
   char law[80];
   one_case c;
-  fprintf(out, "# x: %s (%s)\n# y: %s\n# footer: ", s->scene->inputs[range], s->in[range].unit,
-          s->scene->quantity[quantity]);
+  name_axis(out, s->scene->inputs[range], s->in[range].unit);
+  fprintf(out, "# y: %s\n# footer: ", s->scene->quantity[quantity]);
   /* What is the same for all, on lines of a few, and the law. */
   const char *separator = "";
   for (int k = 0, written = 0; k < inputs_of(s); k++)

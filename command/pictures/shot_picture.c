@@ -2,7 +2,8 @@
  * curve. */
 #include "pictures/shot_picture.h"
 
-#include "pictures/ball_colours.h"
+#include "pictures/colours.h"
+#include "pictures/palette.h"
 #include "pictures/picture.h"
 #include "pictures/table_picture.h"
 #include "program/program.h"
@@ -26,6 +27,9 @@ bool shot_has_id(const shot_line *line, const char *id) {
 static const double side_margin = 30.0, least_arrow = 40.0; /* pixels */
 /* a usual one, over the size of letters */
 static const double letter_width = 0.53;
+static const double thin_path = 0.8, outline = 1.4; /* pixels */
+/* Half the width of the band around a striped ball, in radii. */
+static const double half_band = 0.66;
 
 /* Goes on with a path from a place to another and a time: straight, or in short pieces where the
  * ball slides. */
@@ -58,7 +62,8 @@ static void draw_arrow(const view *v, FILE *out, const char *colour, const carom
   const double x = ux / hypot(ux, uy), y = uy / hypot(ux, uy);
   if (hypot(across(v, tip) - across(v, start->r), down(v, tip) - down(v, start->r)) > least_arrow)
     fprintf(out,
-            "<path fill=\"%s\" stroke=\"#0b2a22\" stroke-width=\"0.5\" d=\"M%.1f %.1fl%.1f "
+            "<path fill=\"%s\" stroke=\"" PALETTE_NOSE
+            "\" stroke-width=\"0.5\" d=\"M%.1f %.1fl%.1f "
             "%.1fl%.1f %.1fZ\"/>\n",
             colour, across(v, middle->r) + 6.0 * x, down(v, middle->r) + 6.0 * y,
             -11.0 * x - 4.5 * y, -11.0 * y + 4.5 * x, 9.0 * y, -9.0 * x);
@@ -98,11 +103,12 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
     const bool has_piece = is_event ? moved || time > last : is_moving(label);
     if (has_piece) {
       if (!moved)
-        fprintf(v->out,
-                "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\"%s "
-                "d=\"M%.1f %.1f",
-                colour, thin ? "0.8" : "2.2", dashes, across(v, states[ball].r),
-                down(v, states[ball].r));
+        fprintf(
+            v->out,
+            "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-linejoin=\"round\"%s "
+            "d=\"M%.1f %.1f",
+            colour, thin ? thin_path : v->scale * PALETTE_SIZE_PATH, dashes,
+            across(v, states[ball].r), down(v, states[ball].r));
       moved = true;
       draw_piece(v, line, shot, ball, last, time, states[ball].r, end->r,
                  label == CAROM_BALL_SLIDING);
@@ -130,14 +136,14 @@ static void draw_part(const view *v, FILE *out, const band_point *band, int star
   fputc('Z', out);
 }
 
-static const char *colour_in(const shot_line *line, int ball) {
-  return colour_of(line->name[ball], ball, line->ball[ball].kind.radius);
+static ball_look look_in(const shot_line *line, int ball) {
+  return look_of(line->name[ball], ball, line->ball[ball].kind.radius);
 }
 
 /* The band of a player's spread around a ball's path: where it is beyond reach, pale and dashed. */
 static void draw_band(const view *v, const shot_line *line, const spread *s, int ball) {
   const band_point *band = s->band[ball];
-  const char *colour = colour_in(line, ball);
+  const char *colour = look_in(line, ball).path;
   for (int beyond = 0; beyond < 2; beyond++) {
     char *parts;
     size_t size;
@@ -155,7 +161,7 @@ static void draw_band(const view *v, const shot_line *line, const spread *s, int
     close_text(part, &parts);
     if (size > 0)
       fprintf(v->out, "<path class=\"band\" fill=\"%s\" %s d=\"%s\"/>\n", colour,
-              beyond ? "fill-opacity=\"0.12\" stroke=\"#0b2a22\" stroke-width=\"0.8\" "
+              beyond ? "fill-opacity=\"0.12\" stroke=\"" PALETTE_TEXT "\" stroke-width=\"0.8\" "
                        "stroke-dasharray=\"5 4\""
                      : "fill-opacity=\"0.4\"",
               parts);
@@ -172,7 +178,7 @@ static void draw_ellipse(const view *v, const spread *s, const carom_ball_state 
   const double x = across(v, final->r), y = down(v, final->r);
   fprintf(v->out,
           "<ellipse class=\"band\" cx=\"%.1f\" cy=\"%.1f\" rx=\"%.1f\" ry=\"%.1f\" "
-          "transform=\"rotate(%.1f %.1f %.1f)\" fill=\"none\" stroke=\"#0b2a22\" "
+          "transform=\"rotate(%.1f %.1f %.1f)\" fill=\"none\" stroke=\"" PALETTE_TEXT "\" "
           "stroke-width=\"1.6\"%s/>\n",
           x, y, v->scale * axes.along, v->scale * axes.across,
           v->turned ? 90.0 - axes.degrees : -axes.degrees, x, y,
@@ -183,30 +189,43 @@ static void draw_ellipse(const view *v, const spread *s, const carom_ball_state 
 static void draw_start(const view *v, const shot_line *line, int ball, double y) {
   svg_circle(v->out, across(v, line->ball[ball].state.r), y,
              v->scale * line->ball[ball].kind.radius,
-             "fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"", colour_in(line, ball));
+             "fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"", look_in(line, ball).path);
 }
 
-void draw_disc(const view *v, const shot_line *line, int ball, double x, double y,
-               const char *name) {
-  const char *colour = colour_in(line, ball);
+/* The band around a striped ball, as it is seen from the side of its number. */
+static void draw_stripe(FILE *out, double x, double y, double r, const char *colour) {
+  const double high = half_band * r, wide = sqrt(r * r - high * high);
+  fprintf(out,
+          "<path fill=\"%s\" d=\"M%.1f %.1fh%.1fA%.1f %.1f 0 0 1 %.1f %.1fh%.1fA%.1f %.1f 0 0 1 "
+          "%.1f %.1fZ\"/>\n",
+          colour, x - wide, y - high, 2.0 * wide, r, r, x + wide, y + high, -2.0 * wide, r, r,
+          x - wide, y - high);
+}
+
+void draw_disc(const view *v, const shot_line *line, int ball, double x, double y, const char *name,
+               const char *rim) {
+  const ball_look look = look_in(line, ball);
   const double r = v->scale * line->ball[ball].kind.radius;
-  svg_circle(v->out, x, y, r, "fill=\"%s\" stroke=\"#111\" stroke-width=\"0.8\"", colour);
-  if (is_striped(line->name[ball], line->ball[ball].kind.radius))
-    svg_circle(v->out, x, y, r - 1.8, "fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\"");
+  const bool striped = is_striped(line->name[ball], line->ball[ball].kind.radius);
+  svg_circle(v->out, x, y, r, "fill=\"%s\"", striped ? PALETTE_TEXT : look.colour);
+  if (striped)
+    draw_stripe(v->out, x, y, r, look.colour);
+  svg_circle(v->out, x, y, r, "fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\"",
+             rim != NULL ? rim : look.path, outline);
   if (strlen(name) <= 2)
     svg_text(v->out, x, y + 0.36 * v->labels->size, name, 2,
-             "font-size=\"%.1f\" letter-spacing=\"-2\" fill=\"%s\" text-anchor=\"middle\"",
-             v->labels->size, same_text(colour, "#111111") ? "#fff" : "#111");
+             "font-size=\"%.1f\" letter-spacing=\"%d\" fill=\"%s\" text-anchor=\"middle\"",
+             v->labels->size, strlen(name) == 2 ? -3 : 0, look.ink);
 }
 
 /* A name of more than two letters stands beside the ball, unless the ball's colour says it: of the
  * reds of snooker that of one that moved. */
 static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball,
-                      const char *name, bool moved) {
+                      const char *name, bool moved, const char *rim) {
   const double x = across(v, s->r), y = down(v, s->r);
   const bool one_of_many = strncmp(name, "red", 3) == 0 && name[3] != '\0' && moved;
-  draw_disc(v, line, ball, x, y, name);
-  if (strlen(name) > 2 && (named_colour(name) == NULL || one_of_many))
+  draw_disc(v, line, ball, x, y, name, rim);
+  if (strlen(name) > 2 && (!is_colour(name) || one_of_many))
     put_label(v->labels, x, y, name);
 }
 
@@ -228,9 +247,9 @@ static double draw_missing(const view *v, const shot_line *line, double left, do
     const double r = v->scale * line->ball[k].kind.radius;
     if (draws && high == 0.0)
       svg_text(v->out, left, top + r + 0.36 * letters, "Down:", 5,
-               "font-size=\"%.1f\" fill=\"#fff\"", letters);
+               "font-size=\"%.1f\" fill=\"" PALETTE_TEXT "\"", letters);
     if (draws)
-      draw_disc(v, line, k, x, top + r, line->name[k]);
+      draw_disc(v, line, k, x, top + r, line->name[k], NULL);
     x += 2.3 * r;
     high = fmax(high, 2.0 * r + 0.75 * letters);
   }
@@ -279,8 +298,8 @@ static void draw_heights(const view *v, const shot_line *line, const carom_shot 
   enum { PIECES = 24 };
   carom_ball_state states[CAROM_BALLS_MOST];
   fprintf(v->out,
-          "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"",
-          colour_in(line, ball));
+          "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-linejoin=\"round\" d=\"",
+          look_in(line, ball).path, v->scale * PALETTE_SIZE_PATH);
   double last = 0.0;
   for (int64_t k = 0; k < shot_events_kept(shot); k++) {
     const carom_event *e = &shot->events[k];
@@ -308,12 +327,13 @@ static void draw_heights(const view *v, const shot_line *line, const carom_shot 
 static void draw_side(const view *v, const shot_line *line, const carom_shot *shot, double cloth,
                       double width) {
   const carom_table *t = &line->table->table;
-  fprintf(v->out, "<path d=\"M0 %.1fL%.1f %.1f\" stroke=\"#3f9d80\" stroke-width=\"3\"/>\n", cloth,
-          width, cloth);
+  fprintf(v->out, "<path d=\"M0 %.1fL%.1f %.1f\" stroke=\"%s\" stroke-width=\"3\"/>\n", cloth,
+          width, cloth, colours_of(t).cloth);
   for (int k = 0; k < t->rails; k++) /* noses, as posts at their ends */
     for (int end = 0; end < 2; end++) {
       const double x = across(v, end == 0 ? t->rail[k].p : t->rail[k].q);
-      fprintf(v->out, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#1d4a3c\" stroke-width=\"2\"/>\n", x,
+      fprintf(v->out,
+              "<path d=\"M%.1f %.1fV%.1f\" stroke=\"" PALETTE_MARK "\" stroke-width=\"2\"/>\n", x,
               cloth, cloth - v->scale * t->rail[k].height);
     }
   for (int ball = line->count - 1; ball >= 0; ball--) {
@@ -339,10 +359,8 @@ static void draw_rails(const view *v, labels *l, const shot_line *line, const ca
 /* ---- Several shots over each other: one colour for each, dashes for all but the cue ball */
 
 #define DASHES " stroke-dasharray=\"7 4\""
-
-static const char *shot_colour(int shot) {
-  return ball_colours[shot % 8];
-}
+/* Of a striped ball, whose path has the colour of the solid one that is as dark. */
+#define STRIPES " stroke-dasharray=\"16 3\""
 
 /* Which colour is which shot, in lines from y on; returns their height. Without `draws` it only
  * tells that. */
@@ -362,15 +380,15 @@ static double draw_legend(FILE *out, double left, double y, double letters, int 
       const double base = y + height - line;
       fprintf(out,
               "<path class=\"legend\" d=\"M%.1f %.1fh%.1f\" stroke=\"%s\" stroke-width=\"4\"/>\n",
-              left + x, base - 0.35 * letters, 2.0 * letters, shot_colour(shot));
-      svg_text(out, left + x + 2.5 * letters, base, text, 80, "font-size=\"%.1f\" fill=\"#fff\"",
-               letters);
+              left + x, base - 0.35 * letters, 2.0 * letters, line_colour(shot));
+      svg_text(out, left + x + 2.5 * letters, base, text, 80,
+               "font-size=\"%.1f\" fill=\"" PALETTE_TEXT "\"", letters);
     }
     x += wide;
   }
   if (draws && height > 0.0)
     svg_text(out, left, y + height, "Solid: the cue ball. Dashed: the other balls.", 80,
-             "font-size=\"%.1f\" fill=\"#fff\"", letters);
+             "font-size=\"%.1f\" fill=\"" PALETTE_TEXT "\"", letters);
   return height > 0.0 ? height + line : 0.0;
 }
 
@@ -383,21 +401,25 @@ static void draw_paths(const view *v, const played *shots, int count) {
     for (int n = 0; n < shots[shot].others_count; n++)
       for (int k = shots[shot].line->count - 1; k >= 0; k--)
         draw_path(&thin, shots[shot].line, &shots[shot].others[n], k,
-                  colour_in(shots[shot].line, k), "", true);
+                  look_in(shots[shot].line, k).path, "", true);
     fputs(text_if(shots[shot].others_count > 0, "</g>\n"), v->out);
   }
   for (int shot = count - 1; shot >= 0; shot--)
     for (int k = shots[shot].line->count - 1; k >= 0; k--) {
       const shot_line *line = shots[shot].line;
-      const bool is_dashed = count > 1 && k != line->cue.ball;
-      draw_path(v, line, shots[shot].shot, k, count > 1 ? shot_colour(shot) : colour_in(line, k),
-                text_if(is_dashed, DASHES), false);
+      const bool striped = is_striped(line->name[k], line->ball[k].kind.radius);
+      if (count == 1)
+        draw_path(v, line, shots[shot].shot, k, look_in(line, k).path, text_if(striped, STRIPES),
+                  false);
+      else
+        draw_path(v, line, shots[shot].shot, k, line_colour(shot),
+                  text_if(k != line->cue.ball, DASHES), false);
     }
 }
 
 static void draw_zones(const view *v, const played *shots, int count) {
   for (int shot = 0; shot < count; shot++) {
-    const char *colour = shot_colour(shot);
+    const char *colour = line_colour(shot);
     if (shots[shot].zone_corners == 0)
       continue;
     fputs("<path class=\"zone\" d=\"", v->out);
@@ -429,7 +451,7 @@ static void draw_ends(const view *v, const played *shots, int count) {
         snprintf(number, sizeof number, "%d", shot + 1);
         fputs("<g class=\"ball\">\n", v->out);
         draw_ball(v, line, &final[k], k, count > 1 && k == line->cue.ball ? number : line->name[k],
-                  ball_moved(shots[shot].shot, k));
+                  ball_moved(shots[shot].shot, k), count > 1 ? line_colour(shot) : NULL);
         fputs("</g>\n", v->out);
         if (shots[shot].spread != NULL)
           draw_ellipse(v, shots[shot].spread, &final[k], k);
@@ -470,8 +492,8 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
              below + missing + legend + footer_height +
                  (legend + footer_height > 0.0 ? 1.5 * letters : 0.0));
   if (side > 0.0)
-    fprintf(out, "<rect y=\"%.1f\" width=\"100%%\" height=\"%.1f\" fill=\"#86a398\"/>\n", high,
-            below + (legend + footer_height > 0.0 ? 0.0 : 20.0));
+    fprintf(out, "<rect y=\"%.1f\" width=\"100%%\" height=\"%.1f\" fill=\"%s\"/>\n", high,
+            below + (legend + footer_height > 0.0 ? 0.0 : 20.0), colours_of(t).cushion);
   for (int shot = 0; shot < count && side > 0.0; shot++)
     draw_side(&v, shots[shot].line, shots[shot].shot, high + side, wide);
   for (int k = 0; k < shots[0].line->count; k++)
@@ -491,6 +513,6 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   draw_missing(&v, shots[0].line, left, high + below + 0.25 * letters, true);
   const double under = high + below + missing + 1.25 * letters;
   draw_legend(out, left, under, letters, columns, shots, count, true);
-  svg_lines(out, left, under + legend, letters, columns, "fill=\"#fff\"", footer);
+  svg_lines(out, left, under + legend, letters, columns, "fill=\"" PALETTE_TEXT "\"", footer);
   fputs("</svg>\n", out);
 }

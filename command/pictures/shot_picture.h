@@ -21,9 +21,10 @@ typedef struct played {
 /* Whether the shot has this id; any has NULL. */
 bool shot_has_id(const shot_line *line, const char *id);
 
-/* Draws a ball at a place of the picture, pixels, with its name where that is a number. */
-void draw_disc(const view *v, const shot_line *line, int ball, double x, double y,
-               const char *name);
+/* Draws a ball at a place of the picture, pixels, with its name where that is a number. Its rim
+ * has this colour; NULL: that of its path. */
+void draw_disc(const view *v, const shot_line *line, int ball, double x, double y, const char *name,
+               const char *rim);
 
 /* The size of letters on a picture of a table, pixels. */
 double picture_letters(const view *v);

@@ -2,14 +2,15 @@
  * lie on their side: y of the table runs to the right. */
 #include "pictures/table_picture.h"
 
+#include "pictures/colours.h"
+#include "pictures/palette.h"
 #include "pictures/picture.h"
 #include "shots/shot_story.h"
 
 #include <math.h>
 #include <string.h>
 
-/* pixels a metre; over the length of the table */
-static const double table_scale = 400.0, table_margin = 0.05;
+static const double table_scale = 400.0; /* pixels a metre */
 
 double across(const view *v, const double r[2]) {
   const int axis = v->turned;
@@ -33,7 +34,7 @@ view view_of(FILE *out, const carom_table *t) {
       v.high[axis] = fmax(v.high[axis], fmax(p, q));
     }
   v.turned = v.high[1] - v.low[1] > v.high[0] - v.low[0];
-  v.margin = table_margin * fmax(v.high[0] - v.low[0], v.high[1] - v.low[1]);
+  v.margin = PALETTE_SIZE_MARGIN * fmax(v.high[0] - v.low[0], v.high[1] - v.low[1]);
   return v;
 }
 
@@ -56,6 +57,7 @@ static void draw_diamonds(const view *v, const carom_table *t) {
   double low[2], high[2];
   noses_of(t, low, high);
   const int along = high[1] - low[1] > high[0] - low[0]; /* the axis of the long ones */
+  const double tall = v->scale * PALETTE_SIZE_DIAMOND, wide = v->scale * PALETTE_SIZE_DIAMOND_WIDTH;
   for (int axis = 0; axis < 2; axis++) {
     const int parts = axis == along ? 8 : 4, cross_axis = 1 - axis;
     const double edges[2] = {v->low[cross_axis] - 0.75 * v->margin,
@@ -65,8 +67,10 @@ static void draw_diamonds(const view *v, const carom_table *t) {
         double r[2];
         r[axis] = low[axis] + (high[axis] - low[axis]) * k / parts;
         r[cross_axis] = edges[side];
-        fprintf(v->out, "<path d=\"M%.1f %.1fl3 4l-3 4l-3 -4Z\" fill=\"#e8dcc0\"/>\n", across(v, r),
-                down(v, r) - 4.0);
+        fprintf(v->out,
+                "<path d=\"M%.1f %.1fl%.1f %.1fl%.1f %.1fl%.1f %.1fZ\" fill=\"" PALETTE_MARK
+                "\"/>\n",
+                across(v, r), down(v, r) - tall, wide, tall, -wide, tall, -wide, -tall);
       }
   }
 }
@@ -88,8 +92,8 @@ static void name_pockets(const view *v, const carom_table *t, double width, doub
     }
     if (name != NULL)
       svg_text(v->out, position, (y < 0.5 * height ? 0.0 : height - band) + edge, name, 20,
-               "class=\"pocket\" font-size=\"%.1f\" fill=\"#e8dcc0\" text-anchor=\"%s\"", size,
-               anchor);
+               "class=\"pocket\" font-size=\"%.1f\" fill=\"" PALETTE_MARK "\" text-anchor=\"%s\"",
+               size, anchor);
   }
 }
 
@@ -110,7 +114,7 @@ static void draw_axes(const view *v, const carom_table *t) {
     const double ux = x / hypot(x, y), uy = y / hypot(x, y);
     fprintf(v->out,
             "<path class=\"axis\" d=\"M%.1f %.1fl%.1f %.1fm%.1f %.1fl%.1f %.1fl%.1f %.1f\" "
-            "stroke=\"#e8dcc0\" fill=\"none\"/>\n",
+            "stroke=\"" PALETTE_MARK "\" fill=\"none\"/>\n",
             left, top, x, y, -7.0 * ux - 4.0 * uy, -7.0 * uy + 4.0 * ux, 7.0 * ux + 4.0 * uy,
             7.0 * uy - 4.0 * ux, -7.0 * ux + 4.0 * uy, -7.0 * uy - 4.0 * ux);
     /* The name is on the outer side of its arrow: above it, left of it, or below one along the
@@ -119,7 +123,7 @@ static void draw_axes(const view *v, const carom_table *t) {
     const bool is_level = x > 1.0, goes_down = y > 1.0;
     svg_text(v->out, goes_down ? left - 4.0 : left + 4.0,
              is_level && !v->turned ? top + size : top - 0.25 * size, names[axis], 20,
-             "class=\"axis\" font-size=\"%.1f\" fill=\"#e8dcc0\" text-anchor=\"%s\" "
+             "class=\"axis\" font-size=\"%.1f\" fill=\"" PALETTE_MARK "\" text-anchor=\"%s\" "
              "transform=\"rotate(%d %.1f %.1f)\"",
              size, goes_down ? "end" : "start", is_level ? 0 : -90, left, top);
   }
@@ -152,24 +156,28 @@ void draw_table(const view *v, const carom_table *t, double below) {
   const int axis = v->turned; /* that across the picture */
   const double width = scale * (v->high[axis] - v->low[axis] + 2.0 * v->margin);
   const double height = scale * (v->high[1 - axis] - v->low[1 - axis] + 2.0 * v->margin);
-  svg_begin(out, width, height + below, "rx=\"18\" fill=\"#5b3a21\"");
+  const table_colours colours = colours_of(t);
+  char frame[64];
+  snprintf(frame, sizeof frame, "rx=\"%.0f\" fill=\"%s\"", scale * PALETTE_SIZE_CORNER,
+           colours.wood);
+  svg_begin(out, width, height + below, frame);
   const double inset = scale * 0.5 * v->margin;
-  fprintf(
-      out,
-      "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"10\" fill=\"#3f9d80\"/>\n",
-      inset, inset, width - 2.0 * inset, height - 2.0 * inset);
+  fprintf(out,
+          "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"%.0f\" fill=\"%s\"/>\n",
+          inset, inset, width - 2.0 * inset, height - 2.0 * inset, scale * PALETTE_SIZE_BED_CORNER,
+          colours.cloth);
   for (int k = 0; k < t->pockets; k++)
     svg_circle(out, across(v, t->pocket[k].centre), down(v, t->pocket[k].centre),
-               scale * t->pocket[k].radius, "fill=\"#111\"");
+               scale * t->pocket[k].radius, "fill=\"" PALETTE_POCKET "\"");
   for (int k = 0; k < t->jaws; k++)
     svg_circle(out, across(v, t->jaw[k].centre), down(v, t->jaw[k].centre),
-               scale * t->jaw[k].radius, "fill=\"#2b6f5a\"");
+               scale * t->jaw[k].radius, "fill=\"%s\"", colours.cushion);
   for (int k = 0; k < t->rails; k++)
     fprintf(out,
-            "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#1d4a3c\" stroke-width=\"4\" "
+            "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"" PALETTE_NOSE "\" stroke-width=\"%.1f\" "
             "stroke-linecap=\"round\"/>\n",
             across(v, t->rail[k].p), down(v, t->rail[k].p), across(v, t->rail[k].q),
-            down(v, t->rail[k].q));
+            down(v, t->rail[k].q), scale * PALETTE_SIZE_NOSE);
   draw_diamonds(v, t);
   draw_axes(v, t);
   name_pockets(v, t, width, height);

@@ -79,7 +79,7 @@ static bool isa_is_known(void) {
       return true;
     append(names, sizeof names, ", ", "%s", name);
   }
-  complain("CAROM_ISA is '%s', which is none of the instruction sets %s", request, names);
+  complain("CAROM_ISA '%.40s': no such instruction set; try %s", request, names);
   return false;
 }
 
@@ -123,8 +123,11 @@ static void complain_unknown(const program *p, const char *name) {
     strcat(words, "|--cite|--report");
   for (size_t k = 0; k < p->count; k++)
     append(words, sizeof words, "|", "%s", p->commands[k].name);
-  complain("no command '%s'; `%s --help` lists them%s", name, p->name,
-           did_you_mean(name, words, hint));
+  if (is_nearly(name, words))
+    complain("'%.40s': no such command; try %s (`%s --help` lists them)", name,
+             words_to_try(name, words, hint), p->name);
+  else
+    complain("'%.40s': no such command; try `%s --help`, which lists them", name, p->name);
 }
 
 int program_run(const program *p, int argc, char **argv) {
@@ -149,7 +152,7 @@ int program_run(const program *p, int argc, char **argv) {
   /* options of the program; --cite is also one of the command that cites, as what follows */
   const bool cite = p->cites != NULL && same_text(name, "--cite");
   if (name[0] == '-' && !same_text(name, "--cite") && argc > 2) {
-    complain("%s stands alone, without '%s'", name, argv[2]);
+    complain("%s '%.40s': it takes no argument; try %s alone", name, argv[2], name);
     return EXIT_USAGE;
   }
   if (run_option(p, name))

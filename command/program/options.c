@@ -9,11 +9,13 @@
 
 #include <getopt.h>
 #include <limits.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ROWS = 48, MOST_LONGS = MOST_ROWS + 24, FIRST_CODE = UCHAR_MAX + 1 };
+enum { MOST_ROWS = 64, MOST_LONGS = MOST_ROWS + 24, FIRST_CODE = UCHAR_MAX + 1 };
+enum { USUAL_TEXT = 80 };
 enum { HELP_WIDTH = 80, OPTION_WIDTH = 23 }; /* columns of the help */
 
 static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};
@@ -39,19 +41,16 @@ static const struct {
 static const struct {
   const char *alias, *name, *advice;
 } advices[] = {
-    {"english", "tip", "--tip has it: --tip 50%,0 is half of the possible right english"},
-    {"side", "tip", "--tip has it: --tip 50%,0 is half of the possible right english"},
-    {"spin", "tip", "--tip has it: --tip low is the most draw, --tip 0,0.2 some follow"},
-    {"pivot", "tip",
-     "`carom shoot` reports the bridge for back-hand english of each --tip with "
-     "side: --tip 0.3,0 --with end_mass=7g"},
-    {"pocket-size", "table", "a measure of --table has it: --table 9ft,corner=4.25in"},
-    {"pockets", "table", "a measure of --table has it: --table 9ft,corner=4.25in"},
-    {"with", "friction",
-     "--friction, --restitution, --mu-slide, --roll, --mass and --radius say it"},
-    {"jump", "elevation", "--elevation 40 --speed 4 jumps; the report says how high and far"},
-    {"angle", "aim", "--aim is the direction of the cue, --cut the angle at the ball"},
-    {"from", "cue", "--cue is where the cue ball lies"}};
+    {"english", "tip", "try --tip 50%,0, half of the possible right english"},
+    {"side", "tip", "try --tip 50%,0, half of the possible right english"},
+    {"spin", "tip", "try --tip low, the most draw, or --tip 0,0.2 for some follow"},
+    {"pivot", "tip", "try --tip 0.3,0: the report has the bridge for back-hand english"},
+    {"pocket-size", "table", "try --table 9ft,corner=4.25in"},
+    {"pockets", "table", "try --table 9ft,corner=4.25in"},
+    {"with", "friction", "try --friction, --restitution, --mu-slide, --roll, --mass or --radius"},
+    {"jump", "elevation", "try --elevation 40 --speed 4: the report has the height"},
+    {"angle", "aim", "try --aim for the direction of the cue, --cut for the angle at the ball"},
+    {"from", "cue", "try --cue, the position of the cue ball"}};
 
 static bool has_option(const command_form *form, const char *name) {
   for (size_t k = 0; form->options[k] != NULL; k++)
@@ -62,23 +61,36 @@ static bool has_option(const command_form *form, const char *name) {
 
 /* ---- Defaults */
 
-/* The default of a row in a form. */
+/* The default and the help of a row in a form. One of a form without a default has that of the
+ * row. */
 static option_usual usual_of(const command_form *form, const option_row *row) {
-  for (const option_usual *usual = form->usual; usual != NULL && usual->name != NULL; usual++)
-    if (same_text(usual->name, row->name))
-      return *usual;
-  return (option_usual){row->name, row->usual, row->else_usual};
+  const option_usual of_row = {row->name, row->usual, row->else_usual, row->help};
+  for (const option_usual *usual = form->usual; usual != NULL && usual->name != NULL; usual++) {
+    if (!same_text(usual->name, row->name))
+      continue;
+    option_usual found = *usual;
+    if (found.usual == NULL && found.else_usual == NULL) {
+      found.usual = of_row.usual;
+      found.else_usual = of_row.else_usual;
+    }
+    if (found.help == NULL)
+      found.help = of_row.help;
+    return found;
+  }
+  return of_row;
 }
 
-/* Reads the default of a row into its field. */
+/* Reads the default of a row into its field, from a copy, which set() may change. */
 static void set_usual(const command_form *form, const option_row *row, void *job) {
-  static char texts[MOST_ROWS][80]; /* which fields may keep */
+  static char kept[MOST_ROWS][USUAL_TEXT]; /* the field of an option without a list may keep it */
   static int used;
+  char copy[USUAL_TEXT], *text = copy;
   const char *usual = usual_of(form, row).usual;
   if (usual == NULL)
     return;
-  char *text = texts[used++ % MOST_ROWS];
-  snprintf(text, sizeof texts[0], "%s", usual);
+  if (!row->is_list)
+    text = kept[used++ % MOST_ROWS];
+  snprintf(text, USUAL_TEXT, "%s", usual);
   if (!row->set(row, text, (char *)job + row->field))
     abort(); /* a default that its own option refuses */
 }
@@ -87,33 +99,106 @@ void fill_usual(void *job, const option_row *row) {
   set_usual(((const shared_options *)job)->form, row, job);
 }
 
-/* The help with the default behind it: "the table (default 9ft)". */
-static const char *help_of(const command_form *form, const option_row *row, char text[1024]) {
+/* ---- Complaints */
+
+enum { HELP_TEXT = 1600 };
+enum { QUOTED_MOST = 40 }; /* characters of a value that a complaint quotes */
+
+/* Writes `NAME 'TEXT': `, with the beginning of a long text. */
+static void quote_value(const option_row *row, const char *text, char quoted[120]) {
+  const bool is_long = strlen(text) > QUOTED_MOST;
+  snprintf(quoted, 120, "--%.30s '%.*s%s'", row->name, is_long ? QUOTED_MOST - 3 : QUOTED_MOST,
+           text, text_if(is_long, "..."));
+}
+
+/* The command that describes an option. */
+static const char *help_for(const option_row *row) {
+  return row->is_physics ? "`carom help physics`" : "--help";
+}
+
+bool refuse_value(const option_row *row, const char *text, const char *format, ...) {
+  char quoted[120], what[256];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(what, sizeof what, format, arguments);
+  va_end(arguments);
+  quote_value(row, text, quoted);
+  complain("%s: %s (see %s)", quoted, what, help_for(row));
+  return false;
+}
+
+bool refuse_word(const option_row *row, const char *text, const char *words) {
+  char quoted[120], list[HINT_TEXT];
+  quote_value(row, text, quoted);
+  complain("%s: no such %s; try %s (%s lists them)", quoted, text_or(row->noun, "value"),
+           words_to_try(text, words, list), help_for(row));
+  return false;
+}
+
+/* ---- Help of rows */
+
+/* Whether the words of an argument do not fit into a line, so that the text of the help has
+ * them. */
+static bool is_long_list(const char *argument) {
+  return strlen(argument) > HELP_WIDTH - OPTION_WIDTH;
+}
+
+/* Whether a letter begins a kind of value, such as X,Y, instead of a word. */
+static bool is_upper(char letter) {
+  return letter >= 'A' && letter <= 'Z';
+}
+
+/* "NAME" for a long list, or "NAME|X,Y:..." where other values follow its words. */
+static const char *short_list(const char *words) {
+  static char text[40];
+  const char *last = strrchr(words, '|');
+  snprintf(text, sizeof text, "NAME%s", text_if(last != NULL && is_upper(last[1]), last));
+  return text;
+}
+
+/* Adds the words of a long list behind a text: " NAME is 7ft, 8ft or 9ft." */
+static void add_names(const option_row *row, char text[HELP_TEXT]) {
+  const char *words = text_or(argument_of(row), "");
+  if (!is_long_list(words))
+    return;
+  append(text, HELP_TEXT, ". ", "NAME is ");
+  for (const char *separator = ""; *words != '\0' && !is_upper(*words); separator = ", ") {
+    const size_t size = strcspn(words, "|");
+    append(text, HELP_TEXT, separator, "%.*s", (int)size, words);
+    words += size + (words[size] == '|');
+  }
+}
+
+/* The help, the default and the names of a long list: "the table (default 9ft)". */
+static const char *help_of(const command_form *form, const option_row *row, char text[HELP_TEXT]) {
   const option_usual usual = usual_of(form, row);
   const char *value = text_if(usual.usual != NULL, usual.usual),
              *more = text_if(usual.else_usual != NULL, usual.else_usual);
   if (usual.usual == NULL && usual.else_usual == NULL)
-    return row->help;
-  snprintf(text, 1024, "%s (default%s %s%s%s)", row->help, text_if(usual.usual == NULL, ":"), value,
-           text_if(usual.usual != NULL && usual.else_usual != NULL, "; "), more);
+    snprintf(text, HELP_TEXT, "%s", usual.help);
+  else
+    snprintf(text, HELP_TEXT, "%s (default%s %s%s%s)", usual.help,
+             text_if(usual.usual == NULL, ":"), value,
+             text_if(usual.usual != NULL && usual.else_usual != NULL, "; "), more);
+  add_names(row, text);
   return text;
 }
 
 /* ---- Help */
 
-/* "  -o, --output OUT"; choices that do not fit into a line are listed in the details. */
+/* "  -o, --output OUT" */
 static int write_head(const option_row *row, char text[80]) {
   const char letter[] = {'-', row->letter, ',', ' ', '\0'};
-  const char *argument = argument_of(row) != NULL ? argument_of(row) : "";
-  if (strlen(argument) > HELP_WIDTH - OPTION_WIDTH)
-    argument = "NAME";
+  const char *argument = text_or(argument_of(row), "");
+  if (is_long_list(argument))
+    argument = short_list(argument);
   return snprintf(text, 80, "  %s--%s%s%s", row->letter != 0 ? letter : "", row->name,
                   text_if(argument[0] != '\0', " "), argument);
 }
 
 /* The help beside the head, or below it where that is long. */
 static void print_row(FILE *out, const command_form *form, const option_row *row) {
-  char head[80], help[1024], text[1200];
+  char head[80], help[HELP_TEXT], text[HELP_TEXT + 80];
   const int width = write_head(row, head);
   if (width + 2 > OPTION_WIDTH)
     fprintf(out, "%s\n", head);
@@ -123,18 +208,24 @@ static void print_row(FILE *out, const command_form *form, const option_row *row
 }
 
 static void print_item(FILE *out, const command_form *form, const option_row *row) {
-  char head[80], help[1024];
+  char head[80], help[HELP_TEXT];
+  const char *argument = argument_of(row);
+  if (argument != NULL && is_long_list(argument))
+    argument = short_list(argument);
+  help_of(form, row, help);
   snprintf(head, sizeof head, "-%c, --%s", row->letter, row->name);
-  manual_item(out, row->letter != 0 ? head : head + 4, argument_of(row), help_of(form, row, help));
+  manual_item(out, row->letter != 0 ? head : head + 4, argument, help);
 }
 
 /* Prints the options that are for one kind of rows, or all, by one of these. */
 enum { EVERY_ROW = -1 };
 typedef void print_option(FILE *out, const command_form *form, const option_row *row);
 static void print_options(FILE *out, const command_form *form, int only, print_option *print) {
-  for (size_t k = 0; form->options[k] != NULL; k++)
-    if (only == EVERY_ROW || form->options[k]->only == only)
-      print(out, form, form->options[k]);
+  for (size_t k = 0; form->options[k] != NULL; k++) {
+    const option_row *row = form->options[k];
+    if ((only == EVERY_ROW || row->only == only) && (form->is_physics || !row->is_physics))
+      print(out, form, row);
+  }
 }
 
 /* Whether the subcommand works on both kinds of rows. */
@@ -158,25 +249,45 @@ static void print_all_options(FILE *out, const command_form *form, const char *t
   }
 }
 
+static const command_form *with_all_rows(const command_form *form);
+
+/* Names the options that only `carom help physics` describes. False where there are none. */
+static bool list_physics(const command_form *form, char text[512]) {
+  char names[400] = "";
+  for (size_t k = 0; form->options[k] != NULL && !form->is_physics; k++)
+    if (form->options[k]->is_physics)
+      append(names, sizeof names, ", ", "--%s", form->options[k]->name);
+  snprintf(text, 512, "`carom help physics` describes %s.\n", names);
+  return names[0] != '\0';
+}
+
 static void print_help(FILE *out, const command_form *form) {
-  fprintf(out, "usage: %s %s%s%s\n\n", program_name, form->name,
-          text_if(form->usage[0] != '\0', " "), form->usage);
+  char physics[512];
+  fprintf(out, "usage: %s %s%s%s\n\nexample:\n  %s\n\n", program_name, form->name,
+          text_if(form->usage[0] != '\0', " "), form->usage, form->example);
   print_wrapped(out, form->about, HELP_WIDTH);
   fputs("\noptions:\n", out);
   print_all_options(out, form, "\noptions %s:\n", print_row);
   putc('\n', out);
+  if (list_physics(form, physics))
+    print_wrapped(out, physics, HELP_WIDTH);
   print_wrapped(out, form->details, HELP_WIDTH);
-  fprintf(out, "\nexample:\n  %s\n", form->example);
+}
+
+void print_help_of(const command_form *form) {
+  print_help(stdout, with_all_rows(form));
 }
 
 /* The same as a page of the manual. */
 static void print_manual(FILE *out, const command_form *form) {
   static const char exits[] = "exit code: ";
-  char text[4096];
+  char text[4096], physics[512];
   const char *exit = strstr(form->details, exits);
   manual_begin(out, program_name, form->name, form->usage, form->about);
   snprintf(text, sizeof text, "%s\n%.*s", form->about, (int)(exit - form->details), form->details);
   manual_section(out, "DESCRIPTION", text);
+  if (list_physics(form, physics))
+    manual_section(out, "PHYSICS", physics);
   manual_section(out, "OPTIONS", "");
   print_all_options(out, form, ".SS Options %s\n", print_item);
   manual_end(out, exit + sizeof exits - 1, form->example);
@@ -211,6 +322,8 @@ static const command_form *with_all_rows(const command_form *form) {
     }
     next += more;
   }
+  if (count >= MOST_ROWS)
+    abort(); /* a form with more options than the tables hold */
   whole = *form;
   whole.options = rows;
   return &whole;
@@ -227,13 +340,17 @@ static const option_row *row_of(const command_form *form, int code) {
 static void list_options(const command_form *form, struct option longs[MOST_LONGS],
                          char shorts[2 * MOST_ROWS]) {
   int k = 0;
-  for (; form->options[k] != NULL && k < MOST_ROWS - 3; k++) {
+  for (; form->options[k] != NULL; k++) {
     const option_row *row = form->options[k];
     longs[k] =
         (struct option){row->name, argument_of(row) != NULL ? required_argument : no_argument, NULL,
                         FIRST_CODE + k};
     if (row->letter != 0)
       strcat(strncat(shorts, &row->letter, 1), argument_of(row) != NULL ? ":" : "");
+  }
+  if (form->options[k] != NULL) {
+    complain("MOST_ROWS has no room for --%s", form->options[k]->name);
+    abort();
   }
   longs[k] = (struct option){help_row.name, no_argument, NULL, help_row.letter};
 
@@ -250,23 +367,66 @@ static void list_options(const command_form *form, struct option longs[MOST_LONG
       }
 }
 
-/* What an option that there is not may have been; its value may stand behind it. Nothing of the
- * beginnings of several. */
-static void hint_at_option(const command_form *form, char *text) {
-  char words[32 * MOST_ROWS] = "--help", hint[HINT_TEXT];
+/* Lists the options of a form that begin as a text does; returns how many. */
+static int list_beginnings(const command_form *form, const char *text, char list[128]) {
+  int count = 0;
+  list[0] = '\0';
+  for (int k = 0; form->options[k] != NULL; k++)
+    if (strncmp(text + 2, form->options[k]->name, strlen(text + 2)) == 0) {
+      append(list, 128, ", ", "--%s", form->options[k]->name);
+      count++;
+    }
+  return count;
+}
+
+/* Complains of an option that the subcommand does not have; its value may follow at "=". */
+static void complain_unknown(const command_form *form, char *text) {
+  char words[32 * MOST_ROWS] = "--help", list[HINT_TEXT];
   text[strcspn(text, "=")] = '\0';
   for (size_t k = 0; k < COUNT_OF(advices); k++)
     if (same_text(text + 2, advices[k].alias) && has_option(form, advices[k].name)) {
-      fprintf(stderr, "%s %s: %s\n", program_name, form->name, advices[k].advice);
+      complain("%s: no such option of %s; %s", text, form->name, advices[k].advice);
       return;
     }
-  for (int k = 0; form->options[k] != NULL; k++) {
+  for (int k = 0; form->options[k] != NULL; k++)
     append(words, sizeof words, "|", "--%s", form->options[k]->name);
-    if (strncmp(text + 2, form->options[k]->name, strlen(text + 2)) == 0)
-      return;
-  }
-  if (did_you_mean(text, words, hint)[0] != '\0')
-    fprintf(stderr, "%s %s: %s\n", program_name, form->name, hint + 2);
+  if (list_beginnings(form, text, list) > 1)
+    complain("%s: several options of %s begin like this; try one of %s", text, form->name, list);
+  else if (is_nearly(text, words))
+    complain("%s: no such option of %s; try %s (`%s %s --help` lists them)", text, form->name,
+             words_to_try(text, words, list), program_name, form->name);
+  else
+    complain("%s: no such option of %s; try `%s %s --help`, which lists them", text, form->name,
+             program_name, form->name);
+}
+
+/* A value to suggest for an option: its example, its default, or one of its words. */
+static const char *value_to_try(const command_form *form, const option_row *row,
+                                char list[HINT_TEXT]) {
+  const char *usual = usual_of(form, row).usual;
+  if (row->example != NULL)
+    return row->example;
+  if (usual != NULL)
+    return usual;
+  return words_to_try("", argument_of(row), list);
+}
+
+/* Complains of what getopt_long() could not read: `option` is what it returned. */
+static void complain_unread(const command_form *form, int option, char **argv) {
+  const option_row *row = row_of(form, optopt);
+  char *text = argv[optind - 1], list[HINT_TEXT];
+  const char *equals = strchr(text, '=');
+  if (option == ':' && row != NULL) /* a value is missing */
+    complain("--%s: it needs a value; try --%s %s (see --help)", row->name, row->name,
+             value_to_try(form, row, list));
+  else if (row != NULL && equals != NULL)
+    complain("--%s '%.40s': it takes no value; try --%s alone (see --help)", row->name, equals + 1,
+             row->name);
+  else if (optopt == 0 && strncmp(text, "--", 2) == 0)
+    complain_unknown(form, text);
+  else
+    complain("-%c: no such option of %s; try `%s %s --help`, which lists them", optopt, form->name,
+             program_name, form->name);
 }
 
 /* Whether the options that were given are for the kind of rows that is asked for; complains
@@ -277,7 +437,7 @@ static bool are_for_kind(const command_form *form, const bool is_set[MOST_ROWS],
     if (!is_set[k] || row->only == ANY_KIND ||
         (row->only == CUSHION_ONLY) == ((const shared_options *)job)->cushion)
       continue;
-    complain("%s: option '--%s' goes %s --cushion", form->name, row->name,
+    complain("--%s: no option for these rows; give it %s --cushion", row->name,
              row->only == CUSHION_ONLY ? "with" : "without");
     return false;
   }
@@ -294,7 +454,7 @@ static void complete(const command_form *form, const char *previous, const char 
       continue;
     for (size_t size; *value != '\0'; value += size + (value[size] == '|')) {
       size = strcspn(value, "|");
-      if (*value < 'A' || *value > 'Z')
+      if (!is_upper(*value))
         printf("%.*s\n", (int)size, value);
     }
     return;
@@ -306,12 +466,9 @@ static void complete(const command_form *form, const char *previous, const char 
 /* Sets the fields; -1, or an exit code. */
 static int parse_options(const command_form *form, int argc, char **argv, void *job) {
   struct option longs[MOST_LONGS] = {0};
-  char shorts[2 * MOST_ROWS] = "h", name[80];
+  char shorts[2 * MOST_ROWS] = ":h", whole[WHOLE_TEXT];
   bool is_set[MOST_ROWS] = {false};
   int option;
-  /* getopt complains in the name of the subcommand. */
-  snprintf(name, sizeof name, "%s %s", program_name, form->name);
-  argv[0] = name;
   if (argc == 4 && same_text(argv[1], "--complete")) {
     complete(form, argv[2], argv[3]);
     return EXIT_GOOD;
@@ -325,15 +482,21 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
     if (!form->options[k]->is_list)
       set_usual(form, form->options[k], job);
   list_options(form, longs, shorts);
+  opterr = 0; /* complain_unread() says what is wrong */
   while ((option = getopt_long(argc, argv, shorts, longs, NULL)) != -1) {
-    const option_row *row = row_of(form, option);
-    if (row == NULL && optopt == 0 && optind > 1 && strncmp(argv[optind - 1], "--", 2) == 0)
-      hint_at_option(form, argv[optind - 1]);
-    if (row == NULL)
-      return usage_hint(form);
+    const option_row *row = option == ':' ? NULL : row_of(form, option);
+    if (row == NULL) {
+      complain_unread(form, option, argv);
+      return EXIT_USAGE;
+    }
     if (row == &help_row) {
       print_help(stdout, form);
       return EXIT_GOOD;
+    }
+    if (optarg != NULL && optind < argc && is_torn(row, optarg, argv[optind], whole)) {
+      complain("--%s '%.20s %.20s': a value has no blanks; try --%s %s (see --help)", row->name,
+               optarg, argv[optind], row->name, whole);
+      return EXIT_USAGE;
     }
     if (!row->set(row, optarg, (char *)job + row->field))
       return EXIT_USAGE;
@@ -349,13 +512,13 @@ int parse_arguments(const command_form *form, int argc, char **argv, void *job, 
   if (code >= 0)
     return code;
   if (form->files == NO_FILES && files > 0)
-    complain("%s takes no files, but got '%s'", form->name, argv[optind]);
+    complain("'%.80s': %s takes no file; give its options only", argv[optind], form->name);
   else if (form->files == ONE_FILE && files == 0)
-    complain("%s needs the name of a file", form->name);
+    complain("%s needs a file; give its name", form->name);
   else if (files > 1)
-    complain("%s takes one file, but got %d", form->name, files);
+    complain("'%.80s': %s takes one file, and %d are given", argv[optind + 1], form->name, files);
   else if (files == 1 && argv[optind][0] == '\0')
-    complain("%s needs the name of a file, and got an empty one", form->name);
+    complain("'': no name of a file; give one to %s", form->name);
   else {
     if (file != NULL)
       *file = files == 1 ? argv[optind] : NULL;

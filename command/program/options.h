@@ -30,11 +30,15 @@ typedef struct option_row {
    * whether it was given. */
   const char *usual, *else_usual;
   bool is_list;
+  bool is_physics;     /* described by `carom help physics` instead of the subcommand's help */
+  const char *noun;    /* what a value is, for complaints: "table"; NULL: "value" */
+  const char *example; /* a value for complaints to suggest; NULL: the default, or a word */
 } option_row;
 
-/* The default of an option in one subcommand, instead of that of its row. */
+/* The default and the help of an option in one subcommand, instead of those of its row. */
 typedef struct option_usual {
   const char *name, *usual, *else_usual;
+  const char *help; /* NULL: that of the row */
 } option_usual;
 
 /* Kinds of rows that an option is for: all, collisions of two balls, or impacts on a cushion,
@@ -50,8 +54,9 @@ typedef struct command_form {
   const option_row *const *options; /* ends with NULL */
   const option_usual *usual;        /* ends with a name NULL; or NULL */
   const char *details;              /* columns, exit codes: what stands behind the options */
-  const char *example;              /* a line that begins with the program's name */
+  const char *example;              /* lines that begin with the program's name */
   int files;                        /* NO_FILES, ... */
+  bool is_physics;                  /* describes the options with is_physics */
 } command_form;
 
 /* Reads the arguments of a subcommand into its job, and the one file, if any, into `*file`.
@@ -65,6 +70,23 @@ void fill_usual(void *job, const option_row *row);
 
 /* Says where help is; returns EXIT_USAGE. */
 int usage_hint(const command_form *form);
+
+/* Prints the help of a subcommand. */
+void print_help_of(const command_form *form);
+
+/* Complains of the value of an option, and returns false. The format says what is wrong and what
+ * would be right: "--errors '-1': below 0; try 1 (see --help)". */
+__attribute__((format(printf, 3, 4))) bool refuse_value(const option_row *row, const char *text,
+                                                        const char *format, ...);
+
+/* Complains of a text that is none of the words, and returns false: "--table 'attic': no such
+ * table; try 7ft or 8ft (--help lists them)". */
+bool refuse_word(const option_row *row, const char *text, const char *words);
+
+/* Whether `next`, the argument after the value `text`, seems to belong to it: a unit, or the second
+ * number of a pair. Writes the value as it should be, "5m/s", into `whole`. */
+enum { WHOLE_TEXT = 80 };
+bool is_torn(const option_row *row, const char *text, const char *next, char whole[WHOLE_TEXT]);
 
 #define OPTION_SET(function) bool function(const option_row *row, char *text, void *field)
 OPTION_SET(set_flag);   /* bool */
@@ -87,7 +109,7 @@ enum { MOST_OF_LIBRARY = 24 };
 int rows_of(const option_row *for_all, option_row rows[MOST_OF_LIBRARY]);
 
 /* The words of an enumeration of the library with bars between them, with or without "default". */
-enum { MOST_WORDS = 200 };
+enum { MOST_WORDS = 400 };
 const char *words_of(int list, bool with_default, char text[MOST_WORDS]);
 
 /* Sets the place of the text among words with bars between them; complains and returns false where

@@ -1,6 +1,8 @@
 /* Lists of words. */
 #include "program/words.h"
 
+#include "carom_shot.h"
+
 #include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -8,102 +10,25 @@
 
 enum { LONGEST_WORD = 24 };
 
-/* What players also say: each stands for the word where that is one of those that may be said. */
-static const struct {
-  const char *alias, *word;
-} also[] = {{"8ball", "eightball"},
-            {"9ball", "nineball"},
-            {"10ball", "tenball"},
-            {"4ball", "fourball"},
-            {"3cushion", "threecushion"},
-            {"carom", "threecushion"},
-            {"billiards", "threecushion"},
-            {"10ft", "threecushion"},
-            {"12ft", "snooker"},
-            {"pool", "9ft"},
-            {"14.1", "straight"},
-            {"straightpool", "straight"},
-            {"bankpool", "bank"},
-            {"1pocket", "onepocket"},
-            {"englishpool", "blackball"},
-            {"chineseeightball", "heyball"},
-            {"chinese8ball", "heyball"},
-            {"freepyramid", "pyramid"},
-            {"russianpyramid", "pyramid"},
-            {"center", "centre"},
-            {"middle", "centre"},
-            {"head", "head-spot"},
-            {"foot", "foot-spot"},
-            {"top-left", "foot-left"},
-            {"top-right", "foot-right"},
-            {"middle-left", "side-left"},
-            {"middle-right", "side-right"},
-            {"bottom-left", "head-left"},
-            {"bottom-right", "head-right"},
-            {"rolling", "roll"},
-            {"topspin", "follow"},
-            {"backspin", "draw"},
-            {"screw", "draw"},
-            {"stop", "stun"},
-            {"gentle", "soft"},
-            {"firm", "fast"},
-            {"hard", "fast"},
-            {"slow", "slow_cloth"},
-            {"dirty", "slow_cloth"},
-            {"medium", "medium_cloth"},
-            {"fast", "fast_cloth"},
-            {"old", "old_cushion"},
-            {"new", "new_cushion"},
-            {"humid", "humid_cushion"},
-            {"check", "reverse"},
-            {"top", "high"},
-            {"follow", "high"},
-            {"bottom", "low"},
-            {"draw", "low"},
-            {"screw", "low"},
-            {"stun", "centre"}};
-
-/* What players ask for by a word that is no value, and what says it. */
+/* What players ask for by a word that is no value, and what to try instead. */
 static const struct {
   const char *word, *advice;
-} advices[] = {
-    {"kitchen", "head-spot is on its line; `carom plan --in-hand --opening` chooses a place in it"},
-    {"lag", "`carom shoot --cue 1d,2d --leave 1d,0.2d` finds it"},
-    {"straight", "`carom plan --rules straight --balls straight --opening` plans its break"}};
+} advices[] = {{"kitchen", "head-spot, which is on its line; `carom plan --in-hand --opening`"},
+               {"lag", "`carom shoot --cue 1d,2d --to 1d,8d --stop 1d,0.2d`"},
+               {"straight", "`carom plan --rules straight --balls straight --opening`"}};
 
-/* The letters of a word in lower case, without hyphens, underscores and blanks. */
-static size_t plain(const char *text, size_t size, char letters[LONGEST_WORD + 1]) {
-  size_t n = 0;
-  for (size_t k = 0; k < size; k++)
-    if (strchr("-_ ", text[k]) == NULL && n < LONGEST_WORD)
-      letters[n++] = (char)tolower((unsigned char)text[k]);
-  letters[n] = '\0';
-  return n;
-}
-
-/* Whether two words have the same letters, or the parts at a hyphen in the other order. */
-static bool same_letters(const char *a, size_t size, const char *b, size_t length) {
-  char letters_a[LONGEST_WORD + 1], letters_b[LONGEST_WORD + 1], turned[LONGEST_WORD + 1];
-  const size_t n = plain(a, size, letters_a);
-  if (n == 0 || n != plain(b, length, letters_b) || size > LONGEST_WORD || length > LONGEST_WORD)
-    return false;
-  if (same_text(letters_a, letters_b))
-    return true;
-  const char *hyphen = memchr(b, '-', length);
-  if (hyphen == NULL)
-    return false;
-  const size_t first = (size_t)(hyphen - b);
-  const size_t second = plain(hyphen, length - first, turned);
-  plain(b, first, turned + second);
-  return same_text(letters_a, turned);
+const char *name_of_file(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash != NULL && slash[1] != '\0' ? slash + 1 : path;
 }
 
 bool same_word(const char *text, size_t size, const char *word, size_t length) {
-  bool same = same_letters(text, size, word, length);
-  for (size_t k = 0; k < COUNT_OF(also) && !same; k++)
-    same = same_letters(also[k].word, strlen(also[k].word), word, length) &&
-           same_letters(text, size, also[k].alias, strlen(also[k].alias));
-  return same;
+  char text_copy[LONGEST_WORD + 1], word_copy[LONGEST_WORD + 1];
+  if (size > LONGEST_WORD || length > LONGEST_WORD)
+    return false;
+  snprintf(text_copy, sizeof text_copy, "%.*s", (int)size, text);
+  snprintf(word_copy, sizeof word_copy, "%.*s", (int)length, word);
+  return carom_word_means(text_copy, word_copy) != 0;
 }
 
 int word_among(const char *words, const char *text, size_t size) {
@@ -187,24 +112,93 @@ static int misspelt(const char *text, int n, const char *word, int m) {
   return cost[n][m];
 }
 
-const char *did_you_mean(const char *text, const char *words, char hint[HINT_TEXT]) {
-  const int size = (int)strlen(text);
-  int least = (size + 4) / 3; /* a third of the letters may be wrong, and one of few */
-  hint[0] = '\0';
+static const char *advice_for(const char *text) {
   for (size_t k = 0; k < COUNT_OF(advices); k++)
     if (same_word(text, strlen(text), advices[k].word, strlen(advices[k].word)))
-      snprintf(hint, HINT_TEXT, "; %s", advices[k].advice);
-  if (hint[0] != '\0')
-    return hint;
+      return advices[k].advice;
+  return NULL;
+}
+
+/* The only word that begins with a text of one character, such as 9ft for 9. */
+static const char *only_beginning(const char *text, const char *words) {
+  const char *found = NULL;
+  for (size_t length; *words != '\0'; words += length + (words[length] != '\0')) {
+    length = strcspn(words, " |");
+    if (words[0] != text[0])
+      continue;
+    if (found != NULL)
+      return NULL;
+    found = words;
+  }
+  return found;
+}
+
+/* How many letters of a text are wrong for a word, or for its nearest synonym. */
+static int misspelt_anyhow(const char *text, const char *word, int length) {
+  char copy[LONGEST_WORD + 1];
+  const char *synonym;
+  const int size = (int)strlen(text);
+  int least = misspelt(text, size, word, length);
+  snprintf(copy, sizeof copy, "%.*s", length < LONGEST_WORD ? length : LONGEST_WORD, word);
+  for (int k = 0; (synonym = carom_word_synonym(copy, k)) != NULL; k++)
+    least = lesser(least, misspelt(text, size, synonym, (int)strlen(synonym)));
+  return least;
+}
+
+/* The word that a text nearly is; NULL: none is. */
+static const char *nearest_word(const char *text, const char *words) {
+  const int size = (int)strlen(text);
+  int least = (size + 4) / 3; /* a third of the letters may be wrong, and one of few */
+  const char *nearest = NULL;
   if (place_among(words, text, strlen(text)) >= 0) /* it is something else that is wrong */
-    return hint;
+    return NULL;
+  if (size == 1)
+    return only_beginning(text, words);
   for (int length; *words != '\0'; words += length + (words[length] != '\0')) {
     length = (int)strcspn(words, " |");
-    const int wrong = length > 0 ? misspelt(text, size, words, length) : least;
+    const int wrong = length > 0 ? misspelt_anyhow(text, words, length) : least;
     if (wrong < least) {
       least = wrong;
-      snprintf(hint, HINT_TEXT, "; did you mean '%.*s'?", length, words);
+      nearest = words;
     }
   }
+  return nearest;
+}
+
+const char *did_you_mean(const char *text, const char *words, char hint[HINT_TEXT]) {
+  const char *advice = advice_for(text), *nearest = nearest_word(text, words);
+  hint[0] = '\0';
+  if (advice != NULL)
+    snprintf(hint, HINT_TEXT, "; try %s", advice);
+  else if (nearest != NULL)
+    snprintf(hint, HINT_TEXT, "; did you mean '%.*s'?", (int)strcspn(nearest, " |"), nearest);
   return hint;
+}
+
+bool is_nearly(const char *text, const char *words) {
+  return advice_for(text) != NULL || nearest_word(text, words) != NULL;
+}
+
+const char *words_to_try(const char *text, const char *words, char list[HINT_TEXT]) {
+  enum { SHORT_LIST = 48, FIRST_WORDS = 2 }; /* a longer list is cut after its first words */
+  const char *advice = advice_for(text), *nearest = nearest_word(text, words);
+  list[0] = '\0';
+  if (advice != NULL) {
+    snprintf(list, HINT_TEXT, "%s", advice);
+    return list;
+  }
+  if (nearest != NULL) {
+    snprintf(list, HINT_TEXT, "%.*s", (int)strcspn(nearest, " |"), nearest);
+    return list;
+  }
+  const bool is_short = strlen(words) <= SHORT_LIST;
+  int count = 0;
+  for (const char *word = words; *word != '\0' && (is_short || count < FIRST_WORDS); count++) {
+    const size_t length = strcspn(word, " |");
+    const bool ends = word[length] == '\0' || word[length + 1] == '\0';
+    const bool last = ends || (!is_short && count + 1 == FIRST_WORDS);
+    append(list, HINT_TEXT, last ? " or " : ", ", "%.*s", (int)length, word);
+    word += length + (word[length] != '\0');
+  }
+  return list;
 }

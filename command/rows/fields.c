@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <jansson.h>
 #include <limits.h>
+#include <unistd.h>
 
 /* 2^53: greater whole numbers may not be doubles. */
 static const double WHOLE_MOST = 9007199254740992.0;
@@ -23,21 +24,54 @@ OPTION_SET(set_text) {
   return true;
 }
 
-/* Why a list is none of an option's values. */
-static const char *one_hint(const char *text) {
-  if (strchr(text, ':') != NULL || strstr(text, "..") != NULL)
-    return "; it takes one value, no range";
-  return text_if(strchr(text, ',') != NULL, "; it takes one value, in which decimals have a point");
+enum { FAULT_ROOM = 200 };
+
+/* Whether a text is a list or a range, where an option takes one value. */
+static bool is_several(const char *text) {
+  return strpbrk(text, ",:") != NULL || strstr(text, "..") != NULL;
+}
+
+/* What is wrong with a text that is no number of a range, such as "a number, 0 or more". */
+static const char *fault_of(const char *text, const char *range, char fault[FAULT_ROOM]) {
+  if (is_several(text))
+    snprintf(fault, FAULT_ROOM, "it takes one value, %s", range);
+  else
+    snprintf(fault, FAULT_ROOM, "not %s", range);
+  return fault;
+}
+
+/* A number to try: the row's example, its default, or another one. */
+static const char *example_of(const option_row *row, const char *other) {
+  return text_or(row->example, text_or(row->usual, other));
+}
+
+bool is_torn(const option_row *row, const char *text, const char *next, char whole[WHOLE_TEXT]) {
+  const size_t size = strlen(text);
+  const char *argument = argument_of(row);
+  const size_t digits = strspn(next, "+-.0123456789");
+  const bool ends_in_digit = size > 0 && text[size - 1] >= '0' && text[size - 1] <= '9';
+  const bool is_number = digits > 0 && (next[digits] == '\0' || is_unit(next + digits));
+  const bool is_pair =
+      is_number && strchr(text, ',') == NULL && strchr(text_or(argument, ""), ',') != NULL;
+  if (!ends_in_digit || (!is_unit(next) && !is_pair) || access(next, F_OK) == 0)
+    return false;
+  snprintf(whole, WHOLE_TEXT, "%.30s%s%.30s", text, text_if(is_pair, ","), next);
+  return true;
 }
 
 OPTION_SET(set_count) {
-  char *end;
+  enum { USUAL_COUNT = 10 };
+  char *end, range[40], fault[FAULT_ROOM], other[16];
   errno = 0;
   const long count = strtol(text, &end, 10);
-  if (end == text || *end != '\0' || errno != 0 || count < row->least || count > INT_MAX) {
-    complain("--%s is a whole number from %d to %d, not '%s'%s", row->name, row->least, INT_MAX,
-             text, one_hint(text));
-    return false;
+  const bool is_too_large = errno != 0 || count > INT_MAX;
+  if (end == text || *end != '\0' || count < row->least || is_too_large) {
+    snprintf(range, sizeof range, "a whole number, %d or more", row->least);
+    if (is_too_large)
+      snprintf(range, sizeof range, "a whole number, %d to %d", row->least, INT_MAX);
+    snprintf(other, sizeof other, "%d", row->least > USUAL_COUNT ? row->least : USUAL_COUNT);
+    return refuse_value(row, text, "%s; try %s", fault_of(text, range, fault),
+                        example_of(row, other));
   }
   *(int *)field = (int)count;
   return true;
@@ -51,42 +85,35 @@ static OPTION_SET(set_threads) {
   }
   if (!same_text(text, "0"))
     return set_count(row, text, threads);
-  complain("--threads 0 is no number of threads: all is one for each processor, 1 is one alone");
-  return false;
+  return refuse_value(row, text, "there must be a thread; try all, one for each processor, or 1");
 }
 
 OPTION_SET(set_number) {
+  char fault[FAULT_ROOM];
   if (parse_number(text, field) && isfinite(*(double *)field))
     return true;
-  complain("--%s is a number, not '%s'%s", row->name, text, one_hint(text));
-  return false;
+  return refuse_value(row, text, "%s; try %s", fault_of(text, "a number", fault),
+                      example_of(row, "1"));
 }
 
 OPTION_SET(set_amount) {
+  char fault[FAULT_ROOM];
   if (parse_number(text, field) && *(double *)field >= 0.0 && isfinite(*(double *)field))
     return true;
-  complain("--%s is a number, 0 or more, not '%s'%s", row->name, text, one_hint(text));
-  return false;
+  return refuse_value(row, text, "%s; try %s", fault_of(text, "a number, 0 or more", fault),
+                      example_of(row, "1"));
 }
 
 bool set_place(const option_row *row, const char *text, const char *words, int *place) {
   const int found = word_among(words, text, strlen(text));
+  const size_t first = strcspn(text, ",:");
   if (found >= 0) {
     *place = found;
     return true;
   }
-  char list[200] = "", hint[HINT_TEXT]; /* "this, that or another" */
-  for (const char *item = words; *item != '\0';) {
-    const size_t size = strcspn(item, "|");
-    const bool last = item[size] == '\0';
-    append(list, sizeof list, last ? " or " : ", ", "%.*s", (int)size, item);
-    item += size + !last;
-  }
-  const char *advice = did_you_mean(text, words, hint);
-  if (place_among(words, text, strcspn(text, ",:")) >= 0)
-    advice = "; it takes one value";
-  complain("--%s is %s, not '%s'%s", row->name, list, text, advice);
-  return false;
+  if (place_among(words, text, first) >= 0)
+    return refuse_value(row, text, "it takes one value; try %.*s", (int)first, text);
+  return refuse_word(row, text, words);
 }
 
 OPTION_SET(set_choice) {
@@ -102,9 +129,19 @@ const char *words_of(int list, bool with_default, char text[MOST_WORDS]) {
   return text;
 }
 
+/* Sets a word of the library; a complaint does not suggest "default". */
+static bool set_word(const option_row *row, const char *text, int kind, char list[MOST_WORDS],
+                     void *field) {
+  const int found = word_among(words_of(kind, true, list), text, strlen(text));
+  if (found < 0)
+    return set_place(row, text, words_of(kind, false, list), field);
+  *(int *)field = found;
+  return true;
+}
+
 OPTION_SET(set_named) {
   char list[MOST_WORDS];
-  return set_place(row, text, words_of(row->least, true, list), field);
+  return set_word(row, text, row->least, list, field);
 }
 
 /* ---- Options of the library, as it tells them */
@@ -123,10 +160,10 @@ static const carom_number *option_of(const option_row *row) {
 
 OPTION_SET(set_option) {
   const carom_number *n = option_of(row);
-  char list[MOST_WORDS], must[100];
+  char list[MOST_WORDS], must[100], range[120], fault[FAULT_ROOM];
   value v;
   if (n->words >= 0)
-    return set_place(row, text, words_of(n->words, true, list), field);
+    return set_word(row, text, n->words, list, field);
   const bool whole = n->type != CAROM_TYPE_DOUBLE;
   double most = n->high;
   if (n->type == CAROM_TYPE_UINT64)
@@ -146,9 +183,8 @@ OPTION_SET(set_option) {
     snprintf(must, sizeof must, "0 to %.0f", WHOLE_MOST);
   else
     carom_number_range(n, must, sizeof must);
-  complain("--%s is a %snumber, %s, not '%s'%s", row->name, text_if(whole, "whole "), must, text,
-           one_hint(text));
-  return false;
+  snprintf(range, sizeof range, "a %snumber, %s", text_if(whole, "whole "), must);
+  return refuse_value(row, text, "%s; try %s", fault_of(text, range, fault), whole ? "100" : "1");
 }
 
 int rows_of(const option_row *for_all, option_row rows[MOST_OF_LIBRARY]) {
@@ -161,7 +197,8 @@ int rows_of(const option_row *for_all, option_row rows[MOST_OF_LIBRARY]) {
                                    .set = set_option,
                                    .field = for_all->field + (size_t)n->offset,
                                    .least = k,
-                                   .part = for_all->part};
+                                   .part = for_all->part,
+                                   .is_physics = for_all->part == CAROM_PART_NONE};
   return count;
 }
 
@@ -196,23 +233,23 @@ static const struct {
               {CAROM_PART_MEASURES, "a table"}};
 enum { OWNERS = COUNT_OF(owners) };
 
-/* Why an option does not take a number; NULL: it does. Those of one impact on a cushion are
- * numbers of its model. */
+/* What to try where an option does not take a parameter; NULL: it takes it. Those of one impact
+ * on a cushion are parameters of its model. */
 static const char *refusal(const option_row *row, carom_part_kind part, const carom_number *n) {
   if (part == CAROM_PART_MEASURES)
-    return "--table has it by its key, as in --table 9ft,corner=4.25in";
+    return "try --table with its key, as in --table 9ft,corner=4.25in";
   if (part != CAROM_PART_BALL && part != CAROM_PART_CUE)
-    return "a table in a file for `carom shoot` has it";
+    return "try a table in a file for `carom shoot`";
   if (part == CAROM_PART_CUE && row->part == CAROM_PART_BALL)
-    return "--with has it";
+    return "try --with";
   if (part == CAROM_PART_CUE && n->offset == (int32_t)offsetof(carom_cue, tip_radius))
-    return "no strike reads it";
+    return "no strike reads it; try without it";
   if (part == CAROM_PART_CUE && n->type != CAROM_TYPE_DOUBLE)
-    return "a file for `carom shoot` has it";
+    return "try a file for `carom shoot`";
   if (part == CAROM_PART_CUE && n->offset <= (int32_t)offsetof(carom_cue, b))
-    return "--speed, --aim, --elevation and --tip of `carom shoot`, or its file, say it";
+    return "try --speed, --aim, --elevation or --tip of `carom shoot`";
   if (row->only == CUSHION_ONLY && n->cushion_offset < 0)
-    return "`carom shoot --with` takes it, here only those of the model are taken";
+    return "the cushion does not read it; try `carom shoot --with`";
   return NULL;
 }
 
@@ -225,7 +262,7 @@ typedef struct named_number {
 
 /* A number that the option takes, by its name or its key of files; none after a complaint. */
 static named_number number_named(const option_row *row, const char *name) {
-  char known[1200] = "", hint[HINT_TEXT];
+  char known[1200] = "", list[HINT_TEXT];
   const carom_number *n, *refused = NULL;
   int of_other = 0;
   for (int owner = 0; owner < OWNERS; owner++)
@@ -242,13 +279,16 @@ static named_number number_named(const option_row *row, const char *name) {
       }
     }
   if (refused != NULL)
-    complain("--%s: %s is a number of %s; %s", row->name, name, owners[of_other].whose,
-             refusal(row, owners[of_other].part, refused));
+    refuse_value(row, name, "a parameter of %s; %s", owners[of_other].whose,
+                 refusal(row, owners[of_other].part, refused));
   else if (name[strspn(name, "+-.:0123456789")] == '\0')
-    complain("--%s is NAME=X,...; '%.40s' has no NAME", row->name, name);
+    refuse_value(row, name, "it has no NAME; try %s", example_of(row, "mass=6oz"));
+  else if (is_nearly(name, known))
+    refuse_value(row, name, "no such parameter; try %s, as `carom models` lists them",
+                 words_to_try(name, known, list));
   else
-    complain("--%s is NAME=X,...; there is no number '%.40s'%s; `carom models` lists them",
-             row->name, name, did_you_mean(name, known, hint));
+    refuse_value(row, name, "no such parameter; try one that `carom models` lists, as in %s",
+                 example_of(row, "mass=6oz"));
   return (named_number){NULL, CAROM_PART_NONE, 0};
 }
 
@@ -256,12 +296,23 @@ static bool is_within(const carom_number *n, double x) {
   return (x >= n->low && x <= n->high) || x == n->other;
 }
 
-/* Says what a number may be; returns false. */
-static bool refuse_value(const option_row *row, const carom_number *n, const char *text) {
-  char must[100];
+/* Complains of the value of a parameter, and returns false. */
+static bool refuse_number(const option_row *row, const carom_number *n, const char *text) {
+  char must[100], range[120], typed[120], fault[FAULT_ROOM];
+  const bool is_own_option = row->set == set_cue_number;
   carom_number_range(n, must, sizeof must);
-  complain("--%s: %s must be %s, not '%.40s'%s", row->name, n->name, must, text, one_hint(text));
-  return false;
+  snprintf(range, sizeof range, "a number, %s", must);
+  snprintf(typed, sizeof typed, "%.40s=%.40s", n->name, text);
+  double x;
+  const bool is_number = parse_number(text, &x);
+  if (is_number)
+    snprintf(fault, sizeof fault, "it must be %s", must);
+  else
+    fault_of(text, range, fault);
+  if (is_own_option)
+    return refuse_value(row, text, "%s; try %s", fault, example_of(row, row->else_usual));
+  return refuse_value(row, typed, "%s; try a number of this range, as in %s", fault,
+                      example_of(row, "mass=6oz"));
 }
 
 /* A fit whose smooth_q is 0 has no smooth law: what it does not say of the law is 0, whatever the
@@ -311,7 +362,7 @@ static bool give_named(given_numbers *numbers, const char *name, double x) {
     return false;
   snprintf(text, sizeof text, "%.17g", x);
   if (!is_within(named.number, x))
-    return refuse_value(&with, named.number, text);
+    return refuse_number(&with, named.number, text);
   give_value(numbers, named.part, named.index, x);
   return true;
 }
@@ -333,7 +384,7 @@ static bool give_fit(const char *path, given_numbers *numbers) {
   if (fit == NULL)
     complain("--with %.200s: %s", path, error.text);
   else if (!good)
-    complain("--with %.200s: no fit, whose `constants` are numbers of balls", path);
+    complain("--with %.200s: the file has no fit, an object with `constants` of balls", path);
   for (int k = 0; model != NULL && carom_word(CAROM_WORDS_CUSHION_MODEL, k) != NULL; k++)
     if (same_text(carom_word(CAROM_WORDS_CUSHION_MODEL, k), model))
       numbers->fitted = (carom_shot_cushion)(k + 1);
@@ -396,11 +447,12 @@ static bool add_to_list(const option_row *row, given_numbers *numbers, carom_par
   while (list < numbers->list + numbers->lists && (list->part != (int)part || list->number != k))
     list++;
   if (row->only == CUSHION_ONLY) {
-    complain("--%s takes one value of a number here; `carom shoot` takes a list", row->name);
+    complain("--%s: it takes one value of a parameter here; try `carom shoot`, which takes lists",
+             row->name);
     return false;
   }
   if (list == numbers->list + LISTS_MOST || list->count == LIST_MOST) {
-    complain("--%s: at most %d numbers have lists, of at most %d values", row->name, LISTS_MOST,
+    complain("--%s: at most %d parameters have lists, of at most %d values", row->name, LISTS_MOST,
              LIST_MOST);
     return false;
   }
@@ -427,7 +479,7 @@ static bool read_numbers(const option_row *row, const carom_number *n, char *tex
   }
   for (int k = 0; k < list->count && good; k++)
     good = is_within(n, list->item[k].x);
-  return good || refuse_value(row, n, text_or(text, ""));
+  return good || refuse_number(row, n, text_or(text, ""));
 }
 
 /* The condition of the table with that name; -1: none. */
@@ -448,8 +500,7 @@ static bool give_condition(const option_row *row, int condition, given_numbers *
   carom_condition_give((carom_condition)condition, &kind);
   const int first = first_given(&kind);
   if (row->only == CUSHION_ONLY && kind.restitution_cushion == 0.0) {
-    complain("--%s: %s has no effect on one impact; `carom shoot --with` takes it", row->name,
-             word);
+    complain("--%s %s: it has no effect on one impact; try `carom shoot --with`", row->name, word);
     return false;
   }
   numbers->conditions |= 1U << condition;
@@ -468,7 +519,7 @@ bool condition_fits(const given_numbers *numbers, carom_game game) {
   if (numbers->condition == NULL ||
       (kind.mu_roll == pool.mu_roll && kind.restitution_cushion == pool.restitution_cushion))
     return true;
-  complain("--with: %s is a condition of tables of pool, not of %s", numbers->condition,
+  complain("--with %s: a condition of pool tables has no effect in %s", numbers->condition,
            carom_word(CAROM_WORDS_GAME, (int)game));
   return false;
 }
@@ -501,7 +552,7 @@ static bool give_values(const option_row *row, const named_number *named, char *
   if (!read_numbers(row, named->number, text, &list))
     return false;
   if (is_listed(numbers, named)) {
-    complain("--%s: %s is given by several conditions: leave it out, or them", row->name,
+    complain("--%s: several conditions set %s; give it or the conditions, not both", row->name,
              named->number->name);
     return false;
   }
@@ -641,7 +692,8 @@ bool numbers_are_read(shared_options *shared) {
       const char *option = "cushion";
       if (shared->cushion)
         option = "model";
-      complain("--with: %s has no effect; %s reads it", n->name, reader_of(n, option, reader));
+      complain("--with %s: it has no effect here; try it with %s", n->name,
+               reader_of(n, option, reader));
       return false;
     }
   if (!shared->cushion)
@@ -661,7 +713,7 @@ static OPTION_SET(set_law) {
   friction_law *law = field;
   static const char name[] = "alciatore";
   const size_t size = sizeof name - 1;
-  char rest, hint[HINT_TEXT];
+  char rest;
   double mu;
   *law = (friction_law){.is_set = true, .law = carom_alciatore()};
   if (parse_number(text, &mu) && mu >= 0.0 && mu <= 1.0) {
@@ -673,17 +725,13 @@ static OPTION_SET(set_law) {
        (text[size] == '=' && sscanf(text + size + 1, "%lf,%lf,%lf%c", &law->law.a, &law->law.b,
                                     &law->law.c, &rest) == 3)))
     return true;
-  const char *advice;
-  if (strpbrk(text, "=abc") == NULL)
-    advice = one_hint(text);
-  else if (strchr(text, '=') == NULL)
-    advice = did_you_mean(text, name, hint);
-  else
-    advice = did_you_mean(name, name, hint);
-  complain("--%s is alciatore, alciatore=a,b,c (mu = a + b exp(-c |u|)) or a number from 0 to 1, "
-           "not '%s'%s",
-           row->name, text, advice);
-  return false;
+  if (is_nearly(text, name))
+    return refuse_word(row, text, name);
+  if (text[0] != 'a' && is_several(text))
+    return refuse_value(row, text, "it takes one value, a law or a number; try 0.06 or alciatore");
+  return refuse_value(row, text,
+                      "not a law or a number from 0 to 1; try 0.06, alciatore or "
+                      "alciatore=0.01,0.1,1");
 }
 
 /* Takes the player of a fit with repeated strokes. */
@@ -697,7 +745,7 @@ static bool take_filmed(const option_row *row, const char *path, given_player *p
   if (fit == NULL)
     complain("--%s %.200s: %s", row->name, path, error.text);
   else if (!player->filmed)
-    complain("--%s %.200s: no player; `python -m carom.fit --player` finds one in repeated strokes",
+    complain("--%s %.200s: the file has no player; `python -m carom.fit --player` writes one",
              row->name, path);
   json_decref(fit);
   return player->filmed;
@@ -711,11 +759,13 @@ static OPTION_SET(set_player) {
     return take_filmed(row, text, player);
   const bool good =
       parse_number(text, &player->rating) && player->rating >= 200.0 && player->rating <= 850.0;
-  if (!good)
-    complain("--%s is a Fargo rating, 200 to 850, or FIT.json, not '%s'%s", row->name, text,
-             text_or(one_hint(text), "; a 200 is a beginner, a 500 plays in a league, a 700 is a "
-                                     "strong amateur"));
-  return good;
+  if (good)
+    return true;
+  if (is_several(text))
+    return refuse_value(row, text, "it takes one value, a Fargo rating; try 500");
+  return refuse_value(row, text,
+                      "not a Fargo rating, 200 to 850; try 200 for a beginner, 500 for a league "
+                      "player, or FIT.json");
 }
 
 static OPTION_SET(set_errors) {
@@ -729,9 +779,8 @@ static OPTION_SET(set_eye) {
   given_player *player = field;
   value v;
   if (!value_of(MEASURE_LENGTH, text, &v) || !(v.x >= 0.0 && v.x <= 0.01)) {
-    complain("--%s is a length of 0 to 10mm, such as 0.2mm, not '%s'%s", row->name, text,
-             one_hint(text));
-    return false;
+    char fault[FAULT_ROOM];
+    return refuse_value(row, text, "%s; try 0.2mm", fault_of(text, "a length of 0 to 10mm", fault));
   }
   player->eye = v.x > 0.0 ? v.x : -1.0;
   return true;
@@ -748,7 +797,7 @@ ROW(option_solver, "solver", options.solver, NULL, set_named, CAROM_WORDS_SOLVER
     "steps of equal impulse, as in the 2014 paper",
     .usual = "exact");
 ROW(option_slip, "slip", options.slip, NULL, set_named, CAROM_WORDS_SLIP, BALLS_ONLY,
-    "sign of the spin in the slip over the cloth: the 2014 paper's, or pooltool's",
+    "sign of the spin in the slip over the cloth, as in the 2014 paper or as in pooltool",
     .usual = "paper");
 ROW(option_friction, "friction", friction, "alciatore|LAW", set_law, 0, BALLS_ONLY,
     "friction between the balls, instead of the column u_b: a number; or alciatore, which falls "
@@ -759,21 +808,18 @@ ROW(option_data, "data", folder, "DIR", set_text, 0, BALLS_ONLY,
 ROW(option_steps, "steps", options.steps, "N", set_count, 1, ANY_KIND,
     "steps of Euler's method, 1 or more", .usual = "1000");
 ROW(option_threads, "threads", options.threads, "all|N", set_threads, 1, ANY_KIND,
-    "largest number of threads; all: one for each processor", .usual = "all");
+    "number of threads; all: one per processor", .usual = "all");
 ROW(option_precision, "precision", precision, "double|single", set_choice, 0, ANY_KIND,
     "precision of the results, and of the solver for two balls",
     .else_usual = "single for a float32 array, otherwise double");
 ROW(option_output, "output", output, "OUT", set_text, 0, ANY_KIND,
-    "file to write; - is standard output. OUT is never incomplete: carom writes a file "
-    "beside it, and renames it at the end. If the folder cannot be written, carom overwrites OUT "
-    "at the end",
-    .usual = "-", .letter = 'o');
+    "file to write, - for standard output; carom replaces OUT at the end", .usual = "-",
+    .letter = 'o');
 ROW(option_derived, "derived", derived, NULL, set_flag, 0, ANY_KIND,
     "more columns after the status: angles, rolling velocities, energy");
 ROW(option_strict, "strict", strict, NULL, set_flag, 0, ANY_KIND,
-    "treat warnings as errors: centres whose distance is not R1 + R2 to 1 %, more than 50 m/s or "
-    "2,000 rad/s, a radius above 0.5 m, a mass above 10 kg, a tip more than 0.5 R from the centre, "
-    "two values that look like one with a decimal comma");
+    "treat warnings as errors: unusual values (`carom resolve --help` lists them), and lists such "
+    "as 1,5");
 ROW(option_summary, "summary", summary, NULL, set_flag, 0, ANY_KIND,
     "print counts and the time on standard error at the end");
 ROW(option_cushion, "cushion", cushion, NULL, set_flag, 0, ANY_KIND,
@@ -791,29 +837,25 @@ ROW(option_law, "law", rail.law, NULL, set_named, CAROM_WORDS_CUSHION_LAW, CUSHI
 ROW(option_least_step, "least-step", rail.least_step, "P", set_amount, 0, CUSHION_ONLY,
     "smallest step of euler, N s", .usual = "0", .else_usual = "pooltool uses 0.001");
 ROW(option_with, "with", with, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
-    "numbers of the model, such as smooth_q=0.2,smooth_x=1,smooth_t=1: `carom models NAME` lists "
-    "them. Or the file of a fit, FIT.json; or, of `carom rail`, a condition of a pool table's "
-    "cushions, such as old_cushion");
+    "parameters of the model, such as smooth_q=0.2,smooth_x=1,smooth_t=1 (`carom models NAME` "
+    "lists them), or the file of a fit, FIT.json",
+    .example = "restitution_cushion=0.9");
 
 ROW(option_player, "player", player, "RATING", set_player, 0, ANY_KIND,
-    "a player with this Fargo rating, 200 to 850, such as 500; or FIT.json, the player of a film, "
-    "whom `python -m carom.fit --player` writes");
+    "a player with this Fargo rating, 200 to 850, or FIT.json, a player measured by `python -m "
+    "carom.fit --player`");
 ROW(option_player_errors, "errors", player, "SCALE", set_errors, 0, ANY_KIND,
-    "a player with these errors of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees and 0.003 radii, times "
-    "SCALE; they grow with the speed",
-    .else_usual = "1, if there is no --player");
+    "a player with SCALE times the errors 0.1 m/s, 0.1 degrees and 0.003 radii at 2 m/s",
+    .else_usual = "1 without --player");
 ROW(option_player_eye, "eye", player, "LENGTH", set_eye, 0, ANY_KIND,
-    "how exactly the player sees where balls lie: the standard deviation of each place, each way, "
-    "which every stroke with errors draws anew; 0: exactly",
-    .else_usual = "0.2mm, or exactly with --errors 0");
+    "standard deviation with which the player sees each ball",
+    .else_usual = "0.2mm, or 0 with --errors 0");
 
 /* Of whole shots: rows without a name stand for those of rows_of(). */
 ROW(options_of_shots, NULL, shot, NULL, set_option, CAROM_READ_TO_STOP, ANY_KIND, NULL);
 ROW(options_of_motion, NULL, shot, NULL, set_option, CAROM_READ_ALWAYS, ANY_KIND, NULL);
 ROW(option_with_of_shots, "with", with, "NAME=X,...", set_numbers, 0, ANY_KIND,
-    "numbers of all balls, their cushions and the cue, instead of those of IN, such as "
-    "mu_slide=0.15,mass=6oz,end_mass=0.01: `carom models` lists them. M is the cue's mass. Several "
-    "values, end_mass=0.003,0.007, give several shots of `carom shoot` by options. Or the file "
-    "of a fit, FIT.json; or conditions of a pool table, such as fast_cloth,old_cushion; "
-    "slow_cloth,fast_cloth "
-    "are two shots");
+    "parameters of all balls, their cushions and the cue (`carom models` lists them), such as "
+    "mu_slide=0.15,mass=6oz,end_mass=0.01; conditions of a pool table, such as "
+    "fast_cloth,old_cushion; or the file of a fit, FIT.json",
+    .example = "mass=6oz");

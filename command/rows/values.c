@@ -31,6 +31,8 @@ enum {
   SPINS = OF(MEASURE_SPIN) | SIDES
 };
 
+const char part_of_ball[] = "part of the ball that is hit";
+
 /* Every unit of the program. The first one of a measure is that of a bare number; a spin has
  * none. */
 static const struct {
@@ -47,7 +49,7 @@ static const struct {
     {OF(MEASURE_SPEED), "mph", "mph", mph, FIXED},
     {OF(MEASURE_SPEED), "km/h", "km/h", 1.0 / 3.6, FIXED},
     {ANGLES, "deg", "degrees", 1.0, FIXED},
-    {OF(MEASURE_CUT), "ball", "part of the ball that is hit", BALL_FRACTION, FIXED},
+    {OF(MEASURE_CUT), "ball", part_of_ball, BALL_FRACTION, FIXED},
     {ANGLES, "\u00b0", "degrees", 1.0, FIXED},
     {ANGLES, "rad", "rad", 1.0 / degree, FIXED},
     {LENGTHS, "m", "m", 1.0, FIXED},
@@ -159,20 +161,6 @@ static bool split(const char *text, double *number, const char **unit) {
   return isfinite(*number);
 }
 
-/* "m/s, mph or km/h", and the words. */
-static void list_units(int measure, char *text, size_t room) {
-  for (int k = 0; k < WORDS; k++)
-    if ((words[k].measures & OF(measure)) != 0)
-      append(text, room, ", ", "%s", words[k].name);
-  append(text, room, ", or ", "a number");
-  const char *separator = measure >= MEASURE_SPIN ? " with a unit: " : ", with a unit or without: ";
-  for (int k = 0; k < UNITS; k++)
-    if ((units[k].measures & OF(measure)) != 0 && units[k].name[0] != '\0') {
-      append(text, room, separator, "%s", units[k].name);
-      separator = ", ";
-    }
-}
-
 /* A word, of parts of a ball also as half-ball. */
 static bool set_word(const char *text, int measure, value *v) {
   const char *end = strstr(text, "-ball");
@@ -189,32 +177,90 @@ static bool set_word(const char *text, int measure, value *v) {
   return false;
 }
 
-/* Where the word of one spin is given for the other one. */
+/* The option that has a word, where it is given for the spin of the other kind; NULL: neither. */
 static const char *other_spin(int measure, const char *text) {
   value v;
-  if (measure == MEASURE_SPIN)
-    return text_if(set_word(text, MEASURE_SIDE, &v) || set_word(text, MEASURE_SIDE_RAIL, &v),
-                   "; --side has it");
-  return text_if((OF(measure) & SIDES) != 0 && set_word(text, MEASURE_SPIN, &v), "; --spin has it");
+  if (measure == MEASURE_SPIN &&
+      (set_word(text, MEASURE_SIDE, &v) || set_word(text, MEASURE_SIDE_RAIL, &v)))
+    return "--side";
+  if ((OF(measure) & SIDES) != 0 && set_word(text, MEASURE_SPIN, &v))
+    return "--spin";
+  return NULL;
 }
 
-static bool refuse(const option_row *row, const char *text) {
-  char list[MOST_TEXT] = "", known[MOST_TEXT] = "", hint[HINT_TEXT];
-  const char *word = text + strspn(text, "+-.0123456789");
-  list_units(row->least, list, sizeof list);
+/* What a measure is called, and values to try. */
+static const struct {
+  const char *noun, *example, *range;
+} measures[] = {[MEASURE_NUMBER] = {"a number", "0.2", "0.1:0.3:0.1"},
+                [MEASURE_SPEED] = {"a speed", "2, 5mph or fast", "1:3:0.5"},
+                [MEASURE_CUT] = {"a cut", "30 or half", "0:60:5"},
+                [MEASURE_ANGLE] = {"an angle", "45 or 0.8rad", "0:90:5"},
+                [MEASURE_ELEVATION] = {"an elevation", "5 or least", "0:10:2"},
+                [MEASURE_LENGTH] = {"a length", "0.03, 30mm or 1.2in", "10:30:5mm"},
+                [MEASURE_PLACE] = {"a position", "0.6 or 2d", "0.5:1:0.1"},
+                [MEASURE_TIME] = {"a time", "0.001 or 1ms", "1:3:1ms"},
+                [MEASURE_MASS] = {"a mass", "0.17, 170g or 6oz", "150:180:10g"},
+                [MEASURE_OBJECT_MASS] = {"a mass", "same, 0.17 or 6oz", "150:180:10g"},
+                [MEASURE_FRICTION] = {"a friction", "alciatore or 0.06", "0:0.1:0.01"},
+                [MEASURE_MODEL] = {"a model", "smooth", "smooth"},
+                [MEASURE_TIP] = {"an offset of the tip", "0.2, 1tip or 10mm", "0:0.5:0.1"},
+                [MEASURE_SHARE] = {"a share", "1%", "1:3:1%"},
+                [MEASURE_SPIN] = {"a spin", "draw, 50% or 20rad/s", "-50:50%"},
+                [MEASURE_SIDE] = {"a side spin", "right, 50% or 20rad/s", "-50:50%"},
+                [MEASURE_SIDE_RAIL] = {"a side spin", "running, 50% or 20rad/s", "-50:50%"}};
+
+/* The names of the words of a measure, or of its units, with bars between them. */
+static void list_words(int measure, char *text, size_t room) {
   for (int k = 0; k < WORDS; k++)
-    if ((words[k].measures & OF(row->least)) != 0)
-      append(known, sizeof known, "|", "%s", words[k].name);
+    if ((words[k].measures & OF(measure)) != 0)
+      append(text, room, "|", "%s", words[k].name);
+}
+
+static void list_units(int measure, char *text, size_t room) {
   for (int k = 0; k < UNITS; k++)
-    if ((units[k].measures & OF(row->least)) != 0)
-      append(known, sizeof known, "|", "%s", units[k].name);
-  complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'%s", row->name,
-           list, text, text_or(other_spin(row->least, text), did_you_mean(word, known, hint)));
-  return false;
+    if ((units[k].measures & OF(measure)) != 0 && units[k].name[0] != '\0')
+      append(text, room, "|", "%s", units[k].name);
+}
+
+bool is_unit(const char *text) {
+  for (int k = 0; k < UNITS; k++)
+    if (units[k].name[0] != '\0' && same_text(units[k].name, text))
+      return true;
+  return same_text(text, "tips");
+}
+
+/* Complains of a value that cannot be read. */
+static bool refuse(const option_row *row, const char *text) {
+  char known[MOST_TEXT] = "", of_units[MOST_TEXT] = "", list[HINT_TEXT];
+  const char *noun = measures[row->least].noun, *example = measures[row->least].example;
+  const int digits = (int)strspn(text, "+-.0123456789");
+  const char *unit = text + digits + strspn(text + digits, " ");
+  const char *spin = other_spin(row->least, text);
+  list_words(row->least, known, sizeof known);
+  list_units(row->least, of_units, sizeof of_units);
+  if (row->least == MEASURE_NUMBER)
+    example = text_or(row->example, text_or(row->usual, example));
+  if (spin != NULL)
+    return refuse_value(row, text, "a word of %s; try %s %s", spin, spin, text);
+  if (strchr(text, ':') != NULL || strstr(text, "..") != NULL)
+    return refuse_value(row, text, "not a range A:B or A:B:STEP; try %s",
+                        measures[row->least].range);
+  if (strchr(text, ',') != NULL)
+    return refuse_value(row, text, "not %s or a list; try %s", noun, example);
+  if (digits > 0 && unit[0] != '\0' && of_units[0] != '\0') {
+    if (!is_nearly(unit, of_units)) /* the first unit */
+      of_units[strcspn(of_units, "|")] = '\0';
+    return refuse_value(row, text, "no such unit; try %.*s%s", digits, text,
+                        words_to_try(unit, of_units, list));
+  }
+  if (known[0] != '\0' && is_nearly(text, known))
+    return refuse_value(row, text, "not %s; try %s", noun, words_to_try(text, known, list));
+  return refuse_value(row, text, "not %s; try %s", noun, example);
 }
 
 bool too_many(const option_row *row, double count, int most) {
-  complain("--%s: these are %.0f values; at most %d", row->name, count, most);
+  complain("--%s: %.0f values are too many; give at most %d, or a longer step", row->name, count,
+           most);
   return false;
 }
 
@@ -295,9 +341,8 @@ static bool set_one(const option_row *row, const char *text, int common, value *
     const char *share = " of english";
     if (measure == MEASURE_SPIN)
       share = " of rolling";
-    complain("--%s %s needs a unit: %srad/s, %s%%%s or %stip", row->name, text, text, text, share,
-             text);
-    return false;
+    return refuse_value(row, text, "a spin needs a unit; try %s%%%s, %srad/s or %stip", text, share,
+                        text, text);
   }
   if (found == NO_UNIT || !set_value(v, number, found))
     return refuse(row, text);
@@ -367,8 +412,8 @@ static bool warn_of_comma(const option_row *row, const char *text) {
       unit[0] == 'E' || (angle && part > 1) ||
       (whole > 1 && text[0] != '0' && part > 1 && second[0] != '0' && second[part - 1] == '0'))
     return false;
-  complain("--%s %s is two values, %.*s and %s; decimals have a point: %.*s.%s. Two values that "
-           "are meant: %.*s.0,%.*s.0%s",
+  complain("--%s '%s': read as two values, %.*s and %s; try %.*s.%s for one with decimals, or "
+           "%.*s.0,%.*s.0%s for two",
            row->name, text, whole, text, second, whole, text, second, whole, text, part, second,
            unit);
   return true;

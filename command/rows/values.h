@@ -61,11 +61,17 @@ typedef struct values {
  * 1,5, unless it is for another kind of option. */
 OPTION_SET(set_values);
 
+/* Whether a text is the name of a unit, such as m/s. */
+bool is_unit(const char *text);
+
 /* Says how many values an option has, and the most it takes; returns false. */
 bool too_many(const option_row *row, double count, int most);
 
 /* Reads what set_values() would, for defaults; `text` is not changed. */
 void values_default(values *list, int measure, const char *text);
+
+/* The unit of a cut that is a part of the ball, as an axis says it. */
+extern const char part_of_ball[];
 
 /* The measure of the library's numbers that have a unit, "m"; MEASURE_NUMBER where no other unit is
  * read. */

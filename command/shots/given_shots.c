@@ -42,9 +42,8 @@ static bool aim_to(const given_place *target, const layout *l, carom_cue *cue) {
   const double ahead[2] = {place[0] - start[0], place[1] - start[1]};
   carom_motion motion;
   if ((target->touches[0] != '\0' && !at_rail) || plane_size(ahead) < l->ball[0].kind.radius) {
-    complain(
-        "--to is a place away from the cue ball: X,Y, or of a rail right,3d, or one that has a "
-        "name");
+    complain("--to: the position is at the cue ball, or touches a ball; give one away from it, as "
+             "in 0.6,1.5 or right,3d");
     return false;
   }
   cue->phi = 0.0;
@@ -122,11 +121,12 @@ static bool strike_of(const shoot_flags *f, const layout *l, const combination *
   cue->a = -tip_of(&f->tip.place[c->tip].x, R);
   cue->b = tip_of(&f->tip.place[c->tip].y, R);
   if (!(cue->speed > 0.0)) {
-    complain("--%s is above 0", f->ball_speed.count > 0 ? "ball-speed" : "speed");
+    complain("--%s '%s': nothing moves; give a speed above 0",
+             f->ball_speed.count > 0 ? "ball-speed" : "speed", c->speeds->item[c->speed].name);
     return false;
   }
   if (least && f->pocket == NULL) {
-    complain("--elevation least needs a pot to aim: give --pocket");
+    complain("--elevation least: there is no pot to aim; give --pocket");
     return false;
   }
   const carom_status status = carom_strike(cue, &l->ball[0].kind, &motion);
@@ -251,11 +251,11 @@ static int combinations_of(const shoot_flags *f, int most) {
   if (total <= most)
     return (int)total;
   if (most == 1)
-    complain("these are %.0f layouts, and a plan takes one; `carom shoot --json` writes them as a "
+    complain("%.0f layouts are given, and a plan takes one; `carom shoot --json` writes them as a "
              "file of shots",
              total);
   else
-    complain("these are %.0f shots; at most %d are described and drawn at once, and %d with --csv",
+    complain("%.0f shots are too many; give at most %d to describe and draw, or %d with --csv",
              total, MOST_SHOTS, MOST_ROWS);
   return 0;
 }

@@ -125,9 +125,42 @@ static bool tip_named(const char *text, value *x, value *y) {
          value_in_unit(MEASURE_TIP, round(above * scale * digits) / digits, "R", y);
 }
 
+/* Whether a text has two numbers' characters, units included, and a comma. */
+static bool looks_like_pair(const char *text) {
+  return strspn(text, "+-.,:0123456789/ eEacdfhimnprstR%\"\1") == strlen(text) &&
+         strchr(text, ',') != NULL;
+}
+
+/* What a text with blanks or semicolons may mean: commas and colons. False: it has none. */
+static bool respell(const char *text, char *spelt, size_t room) {
+  size_t size = 0;
+  bool changed = false;
+  for (; *text != '\0' && size + 1 < room; text++) {
+    if (*text == ' ' && size > 0 && spelt[size - 1] == ',')
+      continue;
+    spelt[size] = *text;
+    if (*text == ' ')
+      spelt[size] = ',';
+    if (*text == ';')
+      spelt[size] = ':';
+    changed |= spelt[size] != *text;
+    size++;
+  }
+  spelt[size] = '\0';
+  return changed;
+}
+
+/* Complains of positions, or offsets of the tip, that cannot be read. */
 static bool refuse(const option_row *row, const char *text) {
-  char hint[HINT_TEXT] = "", racks[MOST_WORDS] = "", known[2 * MOST_WORDS];
-  const bool tip = row->least == MEASURE_TIP;
+  char racks[MOST_WORDS] = "", known[2 * MOST_WORDS], list[HINT_TEXT], spelt[PLACE_TEXT];
+  const bool has_digits = strpbrk(text, "0123456789") != NULL;
+  const char *nouns = "position";
+  if (row->words != 0)
+    nouns = "position or rack";
+  if (has_digits && respell(text, spelt, sizeof spelt) && looks_like_pair(spelt))
+    return refuse_value(row, text, "no such %s; try %s", nouns, spelt);
+  if (row->least == MEASURE_TIP)
+    return refuse_value(row, text, "not an offset RIGHT,ABOVE; try 0.2,-0.3, 1,0.5tip or low-left");
   if (row->words != 0)
     words_of(row->words, true, racks);
   snprintf(known, sizeof known, "%s", racks);
@@ -135,17 +168,13 @@ static bool refuse(const option_row *row, const char *text) {
     append(known, sizeof known, "|", "%s", places[k].name);
   for (int k = 0; k < COLOURS; k++)
     append(known, sizeof known, "|", "%s", colours_of_snooker[k]);
-  complain(
-      "--%s is %s%s%s; not '%.60s'%s", row->name,
-      tip ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
-            "or a word: centre, left, right, high, low, low-left; several with colons: "
-            "0,0:0.2,0, or a range of either: 0,-0.4:0.4:0.2"
-          : "X,Y in m, or with a unit: 2,3ft, or 2,3d in diamonds, or a place: " PLACES
-            "; or left,4d, which touches a rail, or frozen-1,90, which touches a ball; several "
-            "with colons: 0.6,1.5:foot-spot",
-      text_if(row->words != 0, "; or a rack: "), racks, text,
-      tip ? hint : did_you_mean(text, known, hint));
-  return false;
+  if (strncmp(text, frozen, strlen(frozen)) == 0)
+    return refuse_value(row, text, "not frozen-RAIL,Y or frozen-BALL,DEGREES; try frozen-left,4d");
+  if (!has_digits && is_nearly(text, known))
+    return refuse_value(row, text, "no such %s; try %s", nouns, words_to_try(text, known, list));
+  if (row->words != 0)
+    return refuse_value(row, text, "no such position or rack; try 0.8,1.9 or nineball");
+  return refuse_value(row, text, "no such position; try 0.6,0.8, 2d,4d or foot-spot");
 }
 
 /* Copies pairs, in which ranges get RANGE for ":" or "..". A colon parts two pairs where commas
@@ -254,12 +283,6 @@ static bool name_is_valid(const option_row *row, const place_entry *entry) {
   return true;
 }
 
-/* Whether a text has two numbers' characters, units included, and a comma. */
-static bool looks_like_pair(const char *text) {
-  return strspn(text, "+-.,0123456789/ eEacdfhimnprstR%\"\1") == strlen(text) &&
-         strchr(text, ',') != NULL;
-}
-
 /* Reads the numbers of an entry into its place; false where they are none. */
 static bool read_numbers(const option_row *row, const place_entry *entry, given_place *place) {
   static values pair;
@@ -331,6 +354,20 @@ OPTION_SET(set_places) {
       return false;
   }
   return list->rack > 0 || list->count > 0 || refuse(row, text);
+}
+
+bool read_disc(const char *text, const char *usual_radius, value *x, value *y, value *radius) {
+  char copy[PLACE_TEXT], *rest = NULL;
+  value *part[] = {x, y, radius};
+  bool good = strlen(text) < sizeof copy;
+  const char *numbers = place_named(text, x, y);
+  int parts = numbers == text ? 0 : 2;
+  snprintf(copy, sizeof copy, "%s", numbers);
+  value_of(MEASURE_LENGTH, usual_radius, radius);
+  for (char *token = strtok_r(copy, ",", &rest); token != NULL && good;
+       token = strtok_r(NULL, ",", &rest), parts++)
+    good = parts < 3 && value_of(MEASURE_PLACE, token, part[parts]);
+  return good && parts >= 2 && radius->x > 0.0;
 }
 
 double place_along(const value *v, double diamond) {

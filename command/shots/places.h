@@ -48,6 +48,10 @@ extern const char *const colours_of_snooker[COLOURS];
  * follows, or `text` where it begins with neither. */
 const char *place_named(const char *text, value *x, value *y);
 
+/* Reads a position and a radius, X,Y, X,Y,R, PLACE or PLACE,R, without which the radius is the
+ * usual one. False where the text is none of these, or the radius is not above 0. */
+bool read_disc(const char *text, const char *usual_radius, value *x, value *y, value *radius);
+
 /* A place, m: `diamond` is the distance of two diamonds. */
 double place_along(const value *v, double diamond);
 

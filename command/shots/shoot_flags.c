@@ -14,10 +14,7 @@ static OPTION_SET(set_table) {
   char list[MOST_WORDS], name[MOST_WORDS];
   json_fault fault;
   if (strstr(text, ".json") != NULL) {
-    complain("--%s is the name of a table, not a file: --with %.80s takes what `carom calibrate` "
-             "or a fit wrote",
-             row->name, text);
-    return false;
+    return refuse_value(row, text, "a file, not a table; try --with for a fit or a calibration");
   }
   text = table_spelt(text);
   snprintf(name, sizeof name, "%.*s", (int)strcspn(text, ","), text);
@@ -27,10 +24,9 @@ static OPTION_SET(set_table) {
   table->text = text;
   named_table *built_in = built_in_table(text, &fault);
   if (built_in == NULL)
-    complain("--%s %.80s: %s", row->name, text, fault.text);
-  else
-    free_table(built_in);
-  return built_in != NULL;
+    return refuse_value(row, text, "%s", fault.text);
+  free_table(built_in);
+  return true;
 }
 
 #define ROW(row, name, member, argument, set, least, ...) \
@@ -38,105 +34,87 @@ static OPTION_SET(set_table) {
 
 const option_row option_table = {
     .name = "table",
-    .help = "play one shot on this table, instead of those of a file. x runs across the "
-            "table, y along it. Measures change it: 9ft,corner=4.25in,side_cut=104; `carom "
-            "models` lists them. 10ft is threecushion, 12ft is snooker. A table of your own "
-            "stands in a file of shots",
-    .else_usual = "that of the rack, or 9ft",
+    .help = "the table; x runs across it, y along it. Measures change it, 9ft,corner=4.25in "
+            "(`carom models` lists them)",
+    .else_usual = "the rack's table, or 9ft",
     .set = set_table,
     .field = offsetof(shoot_flags, table),
-    .words = CAROM_WORDS_TABLE};
+    .words = CAROM_WORDS_TABLE,
+    .noun = "table"};
 ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_PLACE,
-    "place of the cue ball, m, or with a unit: 2,3ft, or 2,3d in diamonds from the left and the "
-    "head; or a place: " PLACES
-    ". At left,4d, and at corners and sides, the ball touches the rail; at frozen-1,90 "
-    "it touches ball 1 in that direction, degrees, and at frozen-1,90,0.5in it lies that far from "
-    "it; with a name, white=0.6,0.8",
-    .else_usual = "head-spot, or the place in the rack", .is_list = true);
+    "position of the cue ball: 0.6,0.8 in m; 2,3ft; 2,3d, in diamonds from the left and head "
+    "rails; left,4d, at a rail; frozen-1,90, touching ball 1 in this direction, degrees, or "
+    "frozen-1,90,0.5in, with a gap; or " PLACES ". white=0.6,0.8 names the ball",
+    .else_usual = "head-spot, or the rack's", .is_list = true);
 const option_row option_balls = {
     .name = "balls",
     .argument = "X,Y:...",
-    .help = "places of the other balls, as in --cue, with colons between them: 0.6,1.5:foot-spot. "
-            "Their names are 1, 2, ..., those of their spots of snooker, or given, as in "
-            "8=0.6,1.5. A word is a rack, or a game that has one; straight:1=3d,5.5d is a break "
-            "ball beside it",
+    .help = "positions of the other balls, written as for --cue, with colons between: "
+            "0.6,1.5:foot-spot. They are named 1, 2, ..., or after spots of snooker, or as in "
+            "8=0.6,1.5. Or a rack, or a game that has one; straight:1=3d,5.5d adds a break ball",
     .set = set_places,
     .field = offsetof(shoot_flags, balls),
     .least = MEASURE_PLACE,
-    .words = CAROM_WORDS_RACK};
+    .words = CAROM_WORDS_RACK,
+    .example = "0.8,1.9"};
 const option_row option_cue_ball = {
     .name = "cue-ball",
     .argument = "NAME=X,...",
-    .help = "numbers of the cue ball alone, as in --with: mass=6.5oz,radius=30mm. Several values "
-            "give several shots of `carom shoot`",
+    .help = "parameters of the cue ball only, as for --with: mass=6.5oz,radius=30mm",
     .set = set_numbers,
     .field = offsetof(shoot_flags, cue_numbers),
-    .part = CAROM_PART_BALL};
+    .part = CAROM_PART_BALL,
+    .is_physics = true,
+    .example = "mass=6.5oz"};
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
-    "direction of the cue, counterclockwise from +x; 90 is along the table. With side spin the "
-    "ball leaves a little beside it, because of squirt",
-    .usual = "90", .is_list = true);
+    "direction of the cue, counterclockwise from +x; 90 is along the table", .usual = "90",
+    .is_list = true);
 ROW(option_to, "to", target, "X,Y", set_places, MEASURE_PLACE,
-    "instead of --aim: the cue ball leaves towards this place, because carom corrects for squirt. "
-    "The place is written as in --cue, 4d,6d or foot-right; several with colons, 4d,6d:4d,7d. Spin "
-    "may bend the path after that");
+    "instead of --aim: send the cue ball towards this position, corrected for squirt; several with "
+    "colons");
 ROW(option_at_ball, "at-ball", at_ball, "NAME", set_text, 0,
-    "aim at this ball instead, so that the cue ball meets it first and at --cut, whatever squirt, "
-    "swerve and hops do; an error where no direction does");
+    "aim so that the cue ball meets this ball first and at --cut, corrected for squirt, swerve and "
+    "hops",
+    .example = "1");
 ROW(option_pocket, "pocket", pocket, "BALL:POCKET", set_text, 0,
-    "aim so that this ball falls into this pocket: 1:foot-left, 1:side-right, or with the id of "
-    "the pocket, 1:lt. carom corrects for squirt and throw. It reports the cut, how far the path "
-    "of the ball may turn to either jaw, and with which directions and speeds of the cue the ball "
-    "falls; or why there is no such aim");
+    "aim so that this ball falls into this pocket, corrected for squirt and throw: 1:foot-left, "
+    "or with its id, 1:lt. Pockets are head-, side- and foot-left and -right. carom reports "
+    "margins, directions and speeds",
+    .example = "1:foot-left");
 ROW(option_via, "via", via, "BALL|RAIL,...", set_text, 0,
-    "with --pocket: the rails and balls on the way, in their order. left: a bank of the ball off "
-    "this rail; 2: a combination with ball 2; 2,left: both; head,1: a kick of the cue ball off "
-    "this rail at ball 1, the ball of --pocket. Rails are head, foot, left and right");
+    "with --pocket: the rails and balls on the path, in order. left: a bank off this rail; 2: a "
+    "combination with ball 2; 2,left: both; head,1: a kick at ball 1, the ball of --pocket. Rails "
+    "are head, foot, left and right",
+    .example = "left");
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|thin|DEGREES", set_values,
-    MEASURE_CUT,
-    "cut angle, as in `carom hit`: above 0 the ball goes to the left. Of a rack, without "
-    "--at-ball, the "
-    "cue ball meets the ball in front",
+    MEASURE_CUT, "cut angle; above 0 the object ball goes left. In a rack it is the ball in front",
     .usual = "0", .else_usual = "only with --at-ball", .is_list = true);
 ROW(option_shot_speed, "speed", speed, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
-    "speed of the cue just before the strike, m/s, or with a unit: mph, km/h, ft/s, in/s. A "
-    "word is the speed of the ball after the strike: " SPEEDS,
-    .usual = "2",
-    .else_usual = "with --pocket the least of 2, 3, 4.5 and 6.5 with which the ball falls",
+    "speed of the cue, m/s, mph, km/h, ft/s or in/s; or of the ball after the strike: " SPEEDS,
+    .usual = "2", .else_usual = "with --pocket the lowest of 2, 3, 4.5 and 6.5 that pots it",
     .is_list = true);
 ROW(option_ball_speed, "ball-speed", ball_speed, "V", set_values, MEASURE_SPEED,
-    "instead of --speed: speed of the cue ball just after the strike of a level cue; a raised cue "
-    "strikes as fast as the level one would");
+    "instead of --speed: of the cue ball after a level strike");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
-    "where the tip touches, from the centre, in radii of the ball, or with a unit: 1,0.5tip, "
-    "12mm,0 or 50%,0 of english; or in words: centre, left, right, high, low, low-left, at 0.5 R; "
-    "several with colons, or ranges: 0,-0.4:0.4:0.2. Right is positive, as it is for "
-    "english everywhere in "
-    "this command. Beyond 0.5 R a chalked tip slips off the ball, and carom warns",
+    "where the tip hits the ball, right of and above its centre: radii, or 1,0.5tip, "
+    "12mm,0, 50%,0 of english; or centre, left, right, high, low, low-left, at 0.5 R. Several with "
+    "colons, or ranges: 0,-0.4:0.4:0.2",
     .usual = "0,0.25", .is_list = true);
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELEVATION,
-    "elevation of the butt of the cue. `carom shoot --pocket` also takes least: as little as the "
-    "stick "
-    "needs to clear the cushions and balls behind the cue ball",
-    .usual = "0", .is_list = true);
+    "elevation of the butt of the cue", .usual = "0", .is_list = true);
 ROW(option_tip_time, "tip-time", cue_numbers, "SECONDS", set_cue_number, 0,
-    "how long the tip of a raised cue presses the ball on the slate, at most 0.01: 0.001 for "
-    "leather, 0.0008 for hard resin, with which balls jump. -1: no time",
-    .else_usual = "0.001");
+    "how long the tip of a raised cue presses the ball onto the slate, at most 0.01: 0.001 for "
+    "leather; 0.0008 for hard resin, which makes balls jump; -1 for no time",
+    .else_usual = "0.001", .is_physics = true);
 ROW(option_tip_restitution, "tip-restitution", cue_numbers, "E", set_cue_number, 0,
-    "restitution of the tip and the ball, above 0 to 1: the speed of the ball is proportional to 1 "
-    "+ E: 0.73 for leather, 0.85 for phenolic resin, 1 in pooltool",
-    .else_usual = "0.73");
+    "restitution of the tip and the ball, above 0 to 1; the ball's speed is proportional to 1 + E. "
+    "Leather has 0.73, phenolic resin 0.85, pooltool 1",
+    .else_usual = "0.73", .is_physics = true);
 ROW(option_json, "json", json, NULL, set_flag, 0,
-    "print the shot as a line of JSON for a file, instead of playing it. The line has pooltool's "
-    "sign: a > 0 is left");
+    "print the shot as a line of JSON, without playing it");
 
-#define GAP_HELP                                                                               \
-  "gap between neighbours of a rack, m, or with a unit; 0 is a frozen rack", .usual = "0.1mm", \
-                                                                             .is_list = true
-#define SEED_HELP                                                                     \
-  "seed of the random numbers that move and place the balls of a rack", .usual = "1", \
-                                                                        .is_list = true
+#define GAP_HELP "gap between balls of a rack; 0: frozen", .usual = "0.1mm", .is_list = true
+#define SEED_HELP "seed of the gaps and the order of a rack", .usual = "1", .is_list = true
 ROW(option_gap, "gap", gap, "G", set_values, MEASURE_LENGTH, GAP_HELP);
 ROW(option_seed, "seed", seed, "N", set_values, MEASURE_NUMBER, SEED_HELP);
 /* Where the balls lie once, or a seed is that of the first rack of many. */
@@ -144,9 +122,10 @@ static OPTION_SET(set_single) {
   values *list = field;
   if (!set_values(row, text, list))
     return false;
-  if (list->count > 1)
-    complain("--%s takes one value here, not '%s'; `carom shoot` takes a list", row->name, text);
-  return list->count == 1;
+  if (list->count == 1)
+    return true;
+  return refuse_value(row, text, "it takes one value; try %s, or `carom shoot`, which takes a list",
+                      list->item[0].name);
 }
 ROW(option_one_gap, "gap", gap, "G", set_single, MEASURE_LENGTH, GAP_HELP);
 ROW(option_one_seed, "seed", seed, "N", set_single, MEASURE_NUMBER, SEED_HELP);
@@ -181,21 +160,19 @@ static bool options_agree(shoot_flags *f) {
     bool broken;
     const char *why;
   } rules[] = {
-      {aim && at_ball,
-       "--aim is a direction, --at-ball and --cut aim at a ball: give only one of them"},
+      {aim && at_ball, "--aim is a direction, --at-ball and --cut aim at a ball; give one of them"},
       {f->pocket != NULL && (aim || at_ball),
-       "--pocket says the direction, and so do --aim, --at-ball and --cut: give one of them"},
+       "--pocket sets the direction, and so do --aim, --at-ball and --cut; give one of them"},
       {f->target.count > 0 && (aim || at_ball || f->pocket != NULL),
-       "--to says the direction, and so do --aim, --at-ball, --cut and --pocket: give one of them"},
+       "--to sets the direction, and so do --aim, --at-ball, --cut and --pocket; give one of them"},
       {f->via != NULL && f->pocket == NULL,
-       "--via is the way of a ball to its pocket: give --pocket too"},
+       "--via is the path of a ball to its pocket; give --pocket too"},
       {f->speed.count > 0 && f->ball_speed.count > 0,
-       "--speed is that of the cue, --ball-speed that of the ball: give only one of them"},
+       "--speed is the cue's speed, --ball-speed the ball's; give one of them"},
       {(f->gap.count > 0 || f->seed.count > 0) && f->balls.rack == 0,
-       "--gap and --seed are of a rack: give --balls nineball or the like; 1=frozen-cue,90,0.5in "
-       "is "
-       "a ball half an inch from the cue ball"},
-      {f->cue.count > 1, "--cue is one place"}};
+       "--gap and --seed need a rack; give --balls nineball, or 1=frozen-cue,90,0.5in for a ball "
+       "half an inch from the cue ball"},
+      {f->cue.count > 1, "--cue takes one position; give the other balls with --balls"}};
   for (size_t k = 0; k < COUNT_OF(rules); k++)
     if (rules[k].broken) {
       complain("%s", rules[k].why);
@@ -238,7 +215,8 @@ static bool racks_are_valid(const shoot_flags *f) {
   for (int k = 0; k < f->seed.count; k++)
     valid &= seed_is_valid(f->seed.item[k].x);
   if (!valid)
-    complain("--gap is 0 to %g m, and --seed a whole number, 1 to %d", GAP_MOST, INT_MAX);
+    complain("--gap or --seed is out of range; give a gap of 0 to %g m, a whole seed of 1 to %d",
+             GAP_MOST, INT_MAX);
   return valid;
 }
 

@@ -119,14 +119,13 @@ static bool give_measures(char *keys, carom_measures *m, json_fault *f) {
       k++;
     json_keys_of(CAROM_PART_MEASURES, "", known);
     if (n == NULL)
-      return json_wrong(f, "%.40s is no measure; there are%s%s", key, known,
-                        did_you_mean(key, known, hint));
+      return json_wrong(f, "no measure '%.40s'; try %s, as `carom models` lists them", key,
+                        words_to_try(key, known + 1, hint));
     carom_number_range(n, range, sizeof range);
     const int measure = measure_of_unit(n->unit);
     if (!value_of(measure, text, &v))
-      return json_wrong(f, "%s is a number%s, and must be %s; not '%.40s'", key,
-                        text_if(measure == MEASURE_LENGTH, ", with a unit or without, 4.25in"),
-                        range, text);
+      return json_wrong(f, "%s '%.40s' must be %s; try %s", key, text, range,
+                        measure == MEASURE_LENGTH ? "0.1 or 4.25in" : "a number in this range");
     memcpy((char *)m + n->offset, &v.x, sizeof v.x);
   }
   return true;

@@ -39,10 +39,10 @@ OPTION_SET(set_player_error) {
     error->deviation[count++] = error->deviation[ERROR_RIGHT];
   if (good && count == ERRORS && !all_zero)
     return true;
-  complain("--%s is SPEED,AIM,RIGHT,ABOVE, standard deviations in %%, degrees and radii of the "
-           "ball (or tips), such as 1%%,0.05,0.01,0.01; not '%.60s'",
-           row->name, text);
-  return false;
+  return refuse_value(
+      row, text,
+      "not the errors SPEED,AIM,RIGHT,ABOVE; try 1%%,0.05,0.01,0.01, in %%, degrees "
+      "and radii");
 }
 
 /* ---- Bands */

@@ -7,9 +7,9 @@
 
 bool with_fits_file(const given_numbers *with) {
   if (with->lists > 0)
-    complain("--with: several values of a number are for shots by options, not for a file");
+    complain("--with: several values of a parameter need a shot by options; give one for a file");
   else if (with->slope[0] != 0.0 || with->slope[1] != 0.0)
-    complain("--with: the fit has a slope, which a table of the file takes: slope_x %g, slope_y %g",
+    complain("--with: the fit has a slope; give slope_x %g, slope_y %g to a table of the file",
              with->slope[0], with->slope[1]);
   else
     return true;
@@ -28,9 +28,9 @@ static bool set_layout(const option_row *row, char *text, void *field) {
 const option_row option_layout = {
     .name = "from",
     .argument = "start|final",
-    .help = "with a file of shots: take the balls as they lay before each shot, or its final "
-            "states, in which they came to rest",
-    .else_usual = "start where carom plays shots again; else a line with final states is an error",
+    .help = "with a file of shots: start from the balls before each shot, or from its recorded "
+            "final states",
+    .else_usual = "start, but a line with final states is an error",
     .set = set_layout,
     .field = offsetof(shared_options, layout)};
 
@@ -42,9 +42,10 @@ shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_option
                        int most) {
   const bool by_options = has_flags(f);
   if (by_options && path != NULL)
-    complain("a file has its own balls: give it, or --cue, --balls and the like");
+    complain("'%.80s': a file has its own balls; give either it or --cue and --balls",
+             name_of_file(path));
   else if (!by_options && path == NULL)
-    complain("the balls are needed: a file of shots, or --cue 0.6,0.8 --balls 0.5,1.6:0.9,1.2");
+    complain("there are no balls; give a file of shots, or --cue 0.6,0.8 --balls 0.5,1.6:0.9,1.2");
   else if (by_options)
     return flags_open(f, options, most);
   else if (with_fits_file(&f->shared.with))

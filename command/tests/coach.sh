@@ -64,7 +64,7 @@ grep -o '>red[0-9]*<' reds.svg | sort -u | wc -l
 carom shoot --table snooker --cue 1.2,2.9 --balls red3=1,2.6:red4=1.5,0.4 --at-ball red3 --plot reds.svg > reds.txt
 grep -o '>red[0-9]*<' reds.svg
 carom plan --rules snooker --table snooker --cue 1.2,2.9 --balls black:red3=0.6,2.9 --shots 100 --plot down.svg > down.txt
-sed -n '/Down:/,$p' down.svg | grep -c 'fill="#ff8d80" stroke="#111"'
+sed -n '/Down:/,$p' down.svg | grep -c 'fill="#c8102e"/>'
 echo "--- refused"
 try_rows "coach, refused"
 echo "--- of several shots those that cannot be aimed are left out"

@@ -59,7 +59,7 @@ def labels_on_rails(picture):
     noses += [
         [(0, y), (1e4, y)]
         for rect in elements(page, "rect")
-        if rect.get("fill") == "#1d4a3c"
+        if rect.get("fill") == "#073d4b"  # the cushion of data/palette.csv
         for y in range(int(float(rect.get("height"))))
     ]
 

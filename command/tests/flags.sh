@@ -182,7 +182,7 @@ print("legend:", len(set(legend)) == 3, {path.get("stroke") for path in ways} ==
 print([text.text for text in page.iter(SVG + "text") if text.get("class") == "pocket"])
 html = open("all.html", encoding="utf-8").read()
 print("needs nothing else:", set(re.findall(r"https?://[^\"' ]*", html)), "src=" in html, "href" in html)
-print("the film's colours:", re.findall("#[0-9a-f]{6}", re.search(r"const SHOTS = \[(.*?)\];", html, re.S)[1])[:3] == legend)
+print("the film's colours:", re.findall(r'path: "(#[0-9a-f]{6})"', html)[:3] == legend)
 film = json.loads(re.search(r"const film=recorded\((.*?)\);\n", html, re.S)[1])
 for part in ("words", "ball", "table", "film", "player"):
     text = open(os.path.join(os.environ["DATA"], f"../web/player/{part}.js"), encoding="utf-8").read()

@@ -17,7 +17,7 @@ rm ./*.1
 echo "--- the examples do what they show"
 cp "$DATA/collisions-204.csv" before.csv
 for command in "" resolve; do
-  example=$(carom $command --help | tail -n 1)
+  example=$(carom $command --help | sed -n '/^example:$/{n;p;q;}')
   [ "${example#  carom }" != "$example" ] && eval "$example" || echo "the example of '$command' fails"
 done
 ls

@@ -200,7 +200,7 @@ own() {
   shot own '"game": "billiard"'
 } | final || true
 echo "--- a layout on each table is read again"
-for table in $(carom shoot --table none 2>&1 | sed 's/.*--table is //; s/, not.*//; s/ or / /; s/,//g'); do
+for table in $(carom shoot --complete --table ""); do
   carom shoot --table "$table" --cue 0.5,0.6 --balls 0.5,1.1 --json > layout.jsonl
   carom shoot -o again.jsonl layout.jsonl
   echo "$table: $(grep -o '"game": "[^"]*"' layout.jsonl | sort -u), $(grep -o '"status": "[a-z]*"' again.jsonl)"

@@ -19,8 +19,8 @@ echo "--- a list and a range of every option that takes a number: played, or ref
 } > row.csv
 carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --json > two.jsonl
 for all in "resolve row.csv" hit rail "shoot --balls 0.5,1.6" "ways --balls 0.5,1.6 --ball 1 --pocket foot-left" "plan --balls 0.5,1.6 --rules potting --shots 100" "break --racks 1" "record two.jsonl"; do
-  for option in $(carom ${all%% *} --help | sed -n 's/^  *\(-., \)\{0,1\}--\([a-z-]*\) [^ ].*/\2/p'); do
-    case $option in output | id | at-ball | data | ball | pocket | via) continue ;; esac
+  for option in $(carom ${all%% *} --complete x -- | sed 's/^--//' | sort); do
+    case $option in output | id | at-ball | data | ball | pocket | via | stop) continue ;; esac
     for one in 0.5:0.6:0.1 1:2:1 0.001:0.002:0.001 500:501:1 100:200:100; do
       # shellcheck disable=SC2086
       carom $all --$option ${one%%:*} > said 2>&1 || continue
@@ -49,7 +49,7 @@ carom shoot --cue 0.6,0.8 --json > line.jsonl
 for name in $(carom models | sed -n '/^numbers of/,$s/^  \([a-z_]*[0-9]*\) .*/\1/p' | sort -u) M; do
   for command in "rail" "resolve --cushion -" "shoot --cue 0.6,0.8" "shoot line.jsonl" "ways line.jsonl"; do
     # shellcheck disable=SC2086
-    carom $command --with $name=nothing < /dev/null 2>&1 | sed -n "1{s/^.*must be .*/taken/;s/^carom: --with: $name//;p}"
+    carom $command --with $name=nothing < /dev/null 2>&1 | sed -n "1{s/^.*'$name=nothing': not a number.*/taken/;s/^carom: --with '$name'//;p}"
   done | uniq -c | tr -s ' \n' ' '
   echo "$name"
 done

@@ -39,7 +39,10 @@ for command in commands:
     text = subprocess.run(
         [program, command, "--help"], capture_output=True, text=True, check=True
     ).stdout
-    for line in text.split("\nexample:\n")[0].split("\n"):
+    usage, examples, rest = re.split(r"\nexample:\n((?:  .*\n)+)", text)
+    if not all(line.startswith("  carom") for line in examples.splitlines()):
+        print(f"{name}: the example is no command: {examples}")
+    for line in (usage + rest).split("\n"):
         if len(line) > WIDTH and " " in line.strip():
             print(f"{name}: a line of {len(line)} columns: {line}")
     options = of_help(text)

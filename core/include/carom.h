@@ -13,18 +13,17 @@
  *     if (status < 0) fprintf(stderr, "%s\n", carom_status_string(status));
  *
  * Units are SI. The table is the plane x, y, its normal is +z, and all vectors are right-handed.
- * The model is that of
- * S. Mathavan, M. R. Jackson, R. M. Parkin, "Numerical simulations of the frictional collisions
- * of solid balls on a rough surface", Sports Engineering 17 (2014) 227-237. Both balls stay on
- * the cloth. Friction acts between the balls, and between the cloth and the ball that is pressed
- * into it.
+ * The model was published by S. Mathavan, M. R. Jackson, R. M. Parkin, "Numerical simulations of
+ * the frictional collisions of solid balls on a rough surface", Sports Engineering 17 (2014)
+ * 227-237. Both balls stay on the cloth. Friction acts between the balls, and between the cloth and
+ * the ball that is pressed into it.
  *
  * Scope. A call solves one collision of two balls with the same radius at the same height, and with
  * any masses. The caller finds the contact. This header does not cover three balls that touch at
  * once, or balls that jump.
  *
  * Calls. Every function is reentrant and may be called from many threads at once. No function
- * prints, aborts or allocates memory. A batch starts threads only if options.threads asks for them.
+ * prints, aborts or allocates memory. A batch starts threads only if options.threads requests them.
  * These threads receive no signals of the process and end with the call. The only global state is
  * the instruction set in use.
  *
@@ -40,21 +39,21 @@
  *
  * Cost of the exact solver for one collision, on one core of an Intel Xeon of 2 GHz with
  * AVX-512:
- *   - A call takes 0.6 us in the mean of play: 0.3 us if the slip on the cloth is smooth, 0.4 to
- *     4 us if it turns or the balls stick. A row of a batch takes 0.3 us. With SSE2 or in plain
- *     C a call takes a third longer.
+ *   - A call takes 0.6 us on average in play: 0.3 us if the slip on the cloth is smooth, 0.4 to 4
+ *     us if it turns or the balls stick. A row of a batch takes 0.3 us. With SSE2 or in plain C a
+ *     call takes a third longer.
  *   - With CAROM_SOLVER_FAST a call takes 0.4 us, and a row of a batch 0.16 us.
  *   - Strong friction, very small restitution or very unequal masses take some microseconds.
  *   - No input takes more than 200 us: the solver ends after 400 iterations with
  *     CAROM_ERROR_UNRESOLVED, and evaluates the equations at most 3,300 times
- *     (carom_detail.evaluations). Each point of a trace may take as many again.
- * Euler's method takes about 20 ns a step.
+ *     (carom_detail.evaluations). Each point of a trace may need as many.
+ * Euler's method takes about 20 ns per step.
  *
- * Stack. In an optimised build every call fits a thread with 76 KiB of stack, part of which the
- * C library uses. On x86-64 a single call takes at most 8 KiB, a trace 10, a batch 47, and a
- * batch with threads 55 in the calling thread (core/tests/unit/stack.c measures them).
+ * Stack. In an optimised build every call fits into a thread with 76 KiB of stack, including what
+ * the C library uses. On x86-64 a single call uses at most 8 KiB, a trace 10 KiB, a batch 47 KiB,
+ * and a batch with threads 55 KiB in the calling thread (core/tests/unit/stack.c measures them).
  *
- * Determinism. These have equal bits:
+ * Determinism. The following have equal bits:
  *   - Each row of a batch and a single call on that row, for any batch size, split, neighbours
  *     and thread count.
  *   - Two runs on one processor with one instruction set.
@@ -65,10 +64,10 @@
  *     function, also with flags such as -mfma, -march=native and LTO.
  *     core/tests/platforms/bits.expected has hashes on which gcc and clang, Linux on x86-64 and
  *     arm64, Windows and WebAssembly agree.
- * Otherwise bits differ between instruction sets: those of CAROM_SOLVER_FAST, of functions in
- * single precision, of traces, and of the exact limit of a cushion. With sse2 and avx2 they also
- * differ between makes of processors, whose estimates of reciprocals differ. Results then differ
- * within the solver's errors. The bits of a NaN are not specified.
+ * The bits of all other results (CAROM_SOLVER_FAST, functions in single precision, traces, the
+ * exact limit of a cushion) differ between instruction sets. With sse2 and avx2 they also differ
+ * between makes of processors, whose estimates of reciprocals differ. The differences stay within
+ * the solver's errors. The bits of a NaN are not specified.
  *
  * Smoothness. The result of the exact solver is smooth to rounding errors, about 1e-15 of the
  * fastest speed, except for isolated jumps where a different kind or number of steps solves the
@@ -79,12 +78,12 @@
  * Floating-point environment.
  *   - The rounding mode must be to nearest. With another mode, ordinary collisions are about 1e-6
  *     less accurate and have other bits.
- *   - Exceptions must be masked, as in every C program at its start. Lanes of a batch compute on
- *     bad or missing rows too, so invalid operations, overflow and division by zero occur and
- *     are ignored. Flags may be left raised; nothing else changes.
+ *   - Exceptions must be masked, as in every C program at its start. The lanes of a batch also
+ *     compute on bad or missing rows, so invalid operations, overflow and division by zero occur
+ *     and are ignored. Exception flags may be left raised; nothing else changes.
  *   - Flushing subnormal numbers to zero makes no difference to collisions on a table.
- *   - Threads of a batch have the environment of the calling thread; on Windows that of any new
- *     thread.
+ *   - The threads of a batch inherit the environment of the calling thread; on Windows they have
+ *     the default environment of a new thread.
  * The library refuses to be compiled with flags that change results, such as -ffast-math or
  * -fno-signed-zeros (docs/using/building.md).
  */
@@ -99,8 +98,8 @@
 #define CAROM_VERSION_MINOR 4
 #define CAROM_VERSION_PATCH 0
 
-/* Marks an exported function. On Windows define CAROM_DLL to use it as a DLL; CAROM_BUILD is
- * for its own build. */
+/* Marks an exported function. On Windows, define CAROM_DLL to use the library as a DLL; only the
+ * library's own build defines CAROM_BUILD. */
 #if defined(_WIN32) && defined(CAROM_BUILD)
 #define CAROM_API __declspec(dllexport)
 #elif defined(_WIN32) && defined(CAROM_DLL)
@@ -119,24 +118,24 @@ extern "C" {
 
 /* One ball just before the collision. */
 typedef struct carom_ball {
-  double r[3];     /* centre, m. Both balls of a pair lie at the same height r[2]. */
+  double r[3];     /* centre, m. Both balls of a pair are at the same height r[2]. */
   double v[3];     /* velocity, m/s. v[2] must be 0: the model keeps both balls on the table. */
   double w[3];     /* angular velocity, rad/s. */
-  double radius;   /* m, > 0, the same for both balls of a pair within 1e-9 of it. The computation
-                      uses that of ball a. */
-  double mass;     /* kg, > 0, may differ between the balls. The moment of inertia is that of a
-                      solid ball, 2/5 M R^2. */
+  double radius;   /* m, > 0, equal for both balls of a pair within a relative 1e-9. The computation
+                      uses the radius of ball a. */
+  double mass;     /* kg, > 0, may differ between the balls. The moment of inertia is 2/5 M R^2, as
+                      for a solid ball. */
   double mu_slide; /* coefficient of sliding friction between this ball and the cloth, 0 to 1. */
 } carom_ball;
 
-/* Two balls at the instant of contact. The distance of the centres is not checked: the caller
- * has found the contact. The struct is 26 doubles without gaps, so an array of n is also an (n,
- * 26) array of doubles in row order. */
+/* Two balls at the instant of contact. The distance between the centres is not checked, because the
+ * caller has found the contact. The struct is 26 doubles without gaps, so an array of n is also an
+ * (n, 26) array of doubles in row order. */
 typedef struct carom_impact {
   carom_ball a, b;    /* the first and the second ball: the line of centres goes from a to b. */
   double mu_ball;     /* coefficient of sliding friction between the balls, 0 to 1. */
-  double restitution; /* e, 0 to 1: the collision ends once e^2 of the work of compression has
-                         been given back. */
+  double restitution; /* e, 0 to 1: the collision ends once e^2 of the work of compression has been
+                         returned. */
 } carom_impact;
 
 /* The motion of a ball. */
@@ -152,17 +151,17 @@ typedef struct carom_result {
 
 /* ---- How a call ended ------------------------------------------------------------------------ */
 
-/* 0 is success, a positive value is a valid outcome of another kind, and a negative value is an
- * error. Values are never renumbered or used again. -30 to -39 are reserved for cushions, -40 to
- * -109 for shots. carom_status_string() describes each value. */
+/* 0 is success, a positive value is another valid outcome, and a negative value is an error. Values
+ * are never renumbered or reused. -30 to -39 are reserved for cushions, -40 to -109 for shots.
+ * carom_status_string() describes each value. */
 typedef enum carom_status {
   CAROM_OK = 0,                      /* resolved. */
   CAROM_SEPARATING = 1,              /* the balls do not approach each other; their state is
                                         returned unchanged. */
-  CAROM_STOPPED_AT_TIME = 2,         /* a shot was stopped at options.time_most, as asked; balls
-                                        still move. */
+  CAROM_STOPPED_AT_TIME = 2,         /* a shot was stopped at options.time_most, as requested; balls
+                                        are still moving. */
   CAROM_STOPPED_AT_EVENT = 3,        /* a shot was stopped after an event of options.stop_at, as
-                                        asked. */
+                                        requested. */
   CAROM_ERROR_NULL = -1,             /* a required pointer is NULL. */
   CAROM_ERROR_SOLVER = -2,           /* options.solver is not one of carom_solver. */
   CAROM_ERROR_SLIP = -3,             /* options.slip is not one of carom_slip. */
@@ -175,7 +174,8 @@ typedef enum carom_status {
   CAROM_ERROR_MU_SLIDE = -10,        /* the friction of ball and cloth is not in [0, 1]. */
   CAROM_ERROR_MU_BALL = -11,         /* the friction of ball and ball is not in [0, 1]. */
   CAROM_ERROR_RESTITUTION = -12,     /* the restitution is not in [0, 1]. */
-  CAROM_ERROR_RADII_DIFFER = -13,    /* the radii of the balls differ by more than 1e-9 of them. */
+  CAROM_ERROR_RADII_DIFFER = -13,    /* the radii of the balls differ by more than a relative
+                                        1e-9. */
   CAROM_ERROR_HEIGHTS_DIFFER = -14,  /* the centres are at different heights. */
   CAROM_ERROR_VERTICAL = -15,        /* a vertical velocity is not 0: both balls stay on the
                                         table. */
@@ -189,8 +189,8 @@ typedef enum carom_status {
   CAROM_ERROR_THREADS = -20,         /* options.threads is neither CAROM_ALL_THREADS nor 0 or
                                         more. */
   CAROM_ERROR_POINTS = -21,          /* a trace needs at least 2 points. */
-  CAROM_ERROR_UNRESOLVED = -22,      /* the result depends on rounding errors, or takes more work
-                                        than a call may cost. */
+  CAROM_ERROR_UNRESOLVED = -22,      /* the result depends on rounding errors, or needs more work
+                                        than a call may do. */
   CAROM_ERROR_OPTIONS = -23,         /* a reserved or unused field of the options is not 0. */
   CAROM_ERROR_CUSHION_MODEL = -30,   /* options.model of carom_shot.h is not one of
                                         carom_cushion_model. */
@@ -205,9 +205,9 @@ typedef enum carom_status {
   CAROM_ERROR_LEAST_STEP = -38,      /* options.least_step is negative or not finite. */
   CAROM_ERROR_OMEGA_RATIO = -39,     /* omega_ratio of options or of a ball is neither 0 nor
                                         between 1 and 2. */
-  CAROM_ERROR_SPEED_LOG = -24,       /* restitution_log, restitution_log2 or mu_log of options or
-                                        of a ball, or its roll_loss_log, is not -1 to 1. */
-  CAROM_ERROR_SMOOTH = -25,          /* a number of options or of a ball whose name begins with
+  CAROM_ERROR_SPEED_LOG = -24,       /* restitution_log, restitution_log2 or mu_log of options or of
+                                        a ball, or roll_loss_log of a ball, is not -1 to 1. */
+  CAROM_ERROR_SMOOTH = -25,          /* a member of options or of a ball whose name begins with
                                         smooth_ is out of its range. */
   CAROM_ERROR_TOO_MANY_EVENTS = -40, /* a shot has more than options.events_most events. */
   CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than 1000 s, and options.time_most is
@@ -225,41 +225,42 @@ typedef enum carom_status {
                                         and at most 1. */
   CAROM_ERROR_GRAVITY = -49,         /* gravity is not above 0 and at most 1e6 m/s^2. */
   CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below miscue^2. */
-  CAROM_ERROR_TABLE = -52,           /* there is no part; or a part is not finite, has no length, or
-                              has a bad mu or e; or rail_width is too small. */
+  CAROM_ERROR_TABLE = -52,           /* the table has no part; or a part is not finite, has no
+                                        length, or has an invalid friction or restitution; or
+                                        rail_width is too small. */
   CAROM_ERROR_RACK = -53,            /* there is no such rack, the gap is not between 0 and R, or
                                         there is too little room. */
-  CAROM_ERROR_EVENTS_LOST = -54,     /* carom_shot_at(), carom_shot_continue(): not all events so
-                                        far are in shot.events. */
+  CAROM_ERROR_EVENTS_LOST = -54,     /* carom_shot_at(), carom_shot_continue(): shot.events does not
+                                        contain all events so far. */
   CAROM_ERROR_TIME = -55,            /* carom_shot_at(): the time is below 0, not a number, or after
                                         the end of a shot that stopped while balls moved. */
   CAROM_ERROR_DRAG = -56,            /* the drag of a rolling ball is not in [0, 1] 1/m. */
-  CAROM_ERROR_BALL_CUSHION = -57,    /* roll_loss of a ball is not 0 to 1, or its nose_height not 0
-                                        to below 2 R. */
+  CAROM_ERROR_BALL_CUSHION = -57,    /* roll_loss of a ball is not 0 to 1, or its nose_height is
+                                        negative or not below 2 R. */
   CAROM_ERROR_MODULUS = -58,         /* a ball's modulus is neither 0 nor 1e6 to 1e15 Pa. */
   CAROM_ERROR_STATE = -60,           /* carom_shot_continue(): shot.state is damaged, or belongs to
-                                        no shot that can go on. carom_plan_continue(): the memory of
-                                        the plan is damaged, or belongs to no plan. */
+                                        no shot that can be continued. carom_plan_continue(): the
+                                        memory of the plan is damaged, or belongs to no plan. */
   CAROM_ERROR_STATE_TABLE = -64,     /* carom_shot_continue(): shot.state belongs to a shot on
                                         another table. */
   CAROM_ERROR_STATE_BALLS = -65,     /* carom_shot_continue(): shot.state belongs to a shot with
                                         other balls, or from another layout. */
   CAROM_ERROR_STATE_OPTIONS = -66,   /* carom_shot_continue(): shot.state belongs to a shot with
-                                        other options, apart from those that say when to stop. */
-  CAROM_ERROR_ROOM = -67,            /* shot.room is negative, or is not 0 where shot.events and
+                                        other options, apart from the stopping options. */
+  CAROM_ERROR_ROOM = -67,            /* shot.room is negative, or is not 0 although shot.events and
                                         shot.brief are both NULL. */
-  CAROM_ERROR_TABLE_OPEN = -61,      /* carom_table_check(): a ball can leave the table, or has no
-                                        place on it. */
-  CAROM_ERROR_RAIL_SIDE = -62,       /* carom_table_check(): the played side of a rail is turned
-                                        away from the table. */
+  CAROM_ERROR_TABLE_OPEN = -61,      /* carom_table_check(): a ball can leave the table, or there is
+                                        no room for a ball on it. */
+  CAROM_ERROR_RAIL_SIDE = -62,       /* carom_table_check(): the played side of a rail faces away
+                                        from the table. */
   CAROM_ERROR_RAIL_LINE = -63,       /* carom_table_check(): the line of a rail does not pass
                                         through both of its ends. */
-  CAROM_ERROR_TANGENT = -70,         /* carom_tangent.h: derivatives are not known for this world or
-                                        model. */
+  CAROM_ERROR_TANGENT = -70,         /* carom_tangent.h: derivatives are not available for these
+                                        rules of contact or this model. */
   CAROM_ERROR_DIRECTIONS = -71,      /* carom_tangent.h: the number of directions is not 1 to
                                         CAROM_DIRECTIONS_MOST. */
   CAROM_ERROR_NO_TANGENTS = -72,     /* carom_tangent.h: this library was built without derivatives,
-                                        as it is without C++. */
+                                        which need a C++ compiler. */
 
   CAROM_ERROR_CUE_SPEED = -80,           /* cue.speed is not 0 to 1000 m/s. */
   CAROM_ERROR_CUE_PHI = -81,             /* cue.phi is not -1e9 to 1e9 degrees. */
@@ -272,45 +273,46 @@ typedef enum carom_status {
   CAROM_ERROR_CUE_TIP_TIME = -88,        /* cue.tip_time is neither 0 to 0.01 s nor -1. */
   CAROM_ERROR_CUE_TIP_RESTITUTION = -89, /* cue.tip_restitution is not 0 to 1. */
 
-  CAROM_ERROR_WORLD = -90,              /* options.world is not one of carom_world, or not
-                                           CAROM_WORLD_CAROM for a cluster. */
-  CAROM_ERROR_BALL_MODEL = -91,         /* options.ball_model is not one of carom_ball_model, or
-                                           none for a cluster. */
+  CAROM_ERROR_WORLD = -90,              /* options.world is not one of carom_world, or, for a
+                                           cluster, not CAROM_WORLD_CAROM. */
+  CAROM_ERROR_BALL_MODEL = -91,         /* options.ball_model is not one of carom_ball_model, or is
+                                           not supported for a cluster. */
   CAROM_ERROR_SHOT_CUSHION_MODEL = -92, /* options.cushion_model is not one of
                                            carom_shot_cushion. */
   CAROM_ERROR_FRICTION = -93,           /* options.friction is not one of carom_ball_friction. */
   CAROM_ERROR_SPACE = -94,              /* options.space is not one of carom_space. */
   CAROM_ERROR_EVENTS_MOST = -95,        /* options.events_most is negative. */
   CAROM_ERROR_TIME_MOST = -96,          /* options.time_most is negative, not finite, or before the
-                                           time of a shot that goes on. */
-  CAROM_ERROR_STOP_AT = -97,            /* options.stop_at has a bit that stands for no event. */
+                                           time of the shot to continue. */
+  CAROM_ERROR_STOP_AT = -97,            /* options.stop_at has a bit that represents no event. */
   CAROM_ERROR_PLAIN = -98,              /* options.plain is neither 0 nor 1. */
   CAROM_ERROR_SIMULTANEOUS = -99,       /* options.simultaneous is not one of carom_simultaneous. */
   CAROM_ERROR_CLUSTER_STEPS = -100,     /* options.cluster_steps is not 0 to 10000. */
-  CAROM_ERROR_RECORD = -101,            /* carom_record.h: record.fault says what is wrong. */
-  CAROM_ERROR_REVISION = -102,          /* carom_record.h: the recording is of another revision of
-                                           the physics. */
-  CAROM_ERROR_IN_MOTION = -103,         /* carom_plan.h: a ball of the layout moves. */
-  CAROM_ERROR_GAME_OVER = -104,         /* carom_plan.h: the rules have no ball to play. */
+  CAROM_ERROR_RECORD = -101,            /* carom_record.h: record.fault describes the error. */
+  CAROM_ERROR_REVISION = -102,          /* carom_record.h: the recording was made with another
+                                           revision of the physics. */
+  CAROM_ERROR_IN_MOTION = -103,         /* carom_plan.h: a ball of the layout is moving. */
+  CAROM_ERROR_GAME_OVER = -104,         /* carom_plan.h: the rules name no ball to play. */
   CAROM_ERROR_FAST = -105,              /* options.fast is neither 0 nor 1. */
   CAROM_ERROR_CORNERS = -106,           /* a polygon has fewer than 3 or more than 32 corners. */
   CAROM_ERROR_SIDES_CROSS = -107,       /* two sides of a polygon that are not neighbours meet. */
   CAROM_ERROR_CUE_FOLLOW = -108,        /* cue.follow is not 0 to 1 m. */
-  CAROM_ERROR_SCORE = -109,             /* carom_plan.h: a score of games is wrong. */
+  CAROM_ERROR_SCORE = -109,             /* carom_plan.h: a score of games is out of range. */
   CAROM_ERROR_CUE_TIP_RADIUS = -110,    /* cue.tip_radius is negative or not finite. */
   CAROM_ERROR_TABLE_KIND = -111,        /* not one of carom_table_kind. */
-  CAROM_ERROR_CORNER = -112,            /* a corner of a polygon has a number that is not finite, a
-                                           place above 1e6 m, or a mouth below 0. */
-  CAROM_ERROR_CORNERS_MEET = -113,      /* two corners that follow each other are at one place. */
-  CAROM_ERROR_CORNERS_IN_LINE = -114,   /* all corners lie on one line. */
-  CAROM_ERROR_MOUTHS = -115,            /* the mouths at its ends leave nothing of a side. */
+  CAROM_ERROR_CORNER = -112,            /* a corner of a polygon is not finite, is more than 1e6 m
+                                           from 0, or has a negative mouth. */
+  CAROM_ERROR_CORNERS_MEET = -113,      /* two successive corners coincide. */
+  CAROM_ERROR_CORNERS_IN_LINE = -114,   /* all corners are on one line. */
+  CAROM_ERROR_MOUTHS = -115,            /* the mouths at the ends of a side leave no rail between
+                                           them. */
   CAROM_ERROR_POCKETS = -116,           /* a table has more than CAROM_POCKETS_MOST pockets. */
   CAROM_ERROR_JAWS = -117,              /* a table has more than CAROM_JAWS_MOST jaws. */
   CAROM_ERROR_RAILS = -118,             /* a table has more than CAROM_RAILS_MOST rails. */
-  CAROM_ERROR_ACT = -119,               /* carom_match.h: match.fault says what the rules do not
-                                           allow, and what would be right. */
+  CAROM_ERROR_ACT = -119,               /* carom_match.h: the rules do not allow the act;
+                                           match.fault says why, and what would be right. */
   CAROM_ERROR_SLOPE = -120              /* the slope of a table is not below mu_roll and mu_slide of
-                                           every ball, or a number of it is not -1 to 1. */
+                                           every ball, or slope_x or slope_y is not -1 to 1. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output; "unknown" for a value not
@@ -329,10 +331,10 @@ typedef enum carom_solver {
                              the model. Smooth, and with the same bits on all machines. */
   CAROM_SOLVER_EULER = 1, /* Mathavan's N steps of equal normal impulse. With the slip of
                              pooltool the result has pooltool's bits. */
-  CAROM_SOLVER_FAST = 2,  /* EXACT with single precision inside. It takes two thirds of the time of
-                             a call and half of that of a batch, with the same bounds of the error.
-                             Its result jumps by 1e-9 to 1e-7 m/s, so differences need steps of 1e-4
-                             or more. The functions _f32 compute EXACT in this way too. */
+  CAROM_SOLVER_FAST = 2,  /* EXACT with single precision inside. A call takes two thirds of the time
+                             and a batch half, with the same error bounds. Its result jumps by 1e-9
+                             to 1e-7 m/s, so finite differences need steps of 1e-4 or more. The
+                             functions _f32 also compute EXACT in this way. */
 } carom_solver;
 
 /* How the slip on the cloth is computed. */
@@ -340,7 +342,7 @@ typedef enum carom_slip {
   CAROM_SLIP_PAPER = 0,    /* v_x - R w_y, v_y + R w_x, as in the 2014 paper. A rolling ball does
                               not slip. */
   CAROM_SLIP_POOLTOOL = 1, /* v_x + R w_y, v_y - R w_x, as in the simulator pooltool, with the
-                              opposite sign of the spin. It only serves parity with pooltool. */
+                              opposite sign of the spin. Only for parity with pooltool. */
 } carom_slip;
 
 /* The names of these values ("euler", "paper"), or NULL for a value not listed. */
@@ -360,30 +362,29 @@ typedef struct carom_options {
   int steps;            /* Euler's N, the approximate number of steps; the error falls like 1/N.
                            0: CAROM_DEFAULT_STEPS. */
   int threads;          /* largest number of threads that a batch may use, including the calling
-                           one. 0, the default: only that one. CAROM_ALL_THREADS: one for each
-                           processor that the process may use, according to its affinity and the
-                           limit of its control group. Results do not depend on it. Small batches,
-                           single calls, and libraries built without threads start none. */
+                           one. 0, the default: only the calling one. CAROM_ALL_THREADS: one for
+                           each processor that the process may use, according to its affinity and
+                           the limit of its control group. Results do not depend on it. Small
+                           batches, single calls, and libraries built without threads start none. */
   int plain;            /* 1: this call computes with CAROM_ISA_PLAIN instead of the instruction set
-                           in use, so it has the bits that all machines share. 0, the default: it
-                           computes with the one in use. */
+                           in use, so its bits are the same on all machines. 0, the default: it uses
+                           the instruction set in use. */
   int unused;           /* must be 0. */
   uint64_t reserved[5]; /* must be 0. Room for future options, for which 0 will mean the default. */
 } carom_options;
 
-/* Resolves one collision. `opt` may be NULL for the defaults; `out` may not overlap `in`.
- * CAROM_OK: `*out` is the state after the collision. CAROM_SEPARATING: `*out` is the state
- * before it. An error: every number of `*out` is NaN (but `*out` is untouched when a pointer is
- * NULL). */
+/* Resolves one collision. `opt` may be NULL for the defaults; `out` may not overlap `in`. CAROM_OK:
+ * `*out` is the state after the collision. CAROM_SEPARATING: `*out` is the state before it. An
+ * error: every number of `*out` is NaN (but `*out` is untouched when a pointer is NULL). */
 CAROM_API carom_status carom_collide(const carom_impact *in, const carom_options *opt,
                                      carom_result *out);
 
 /* Resolves `n` collisions, in[0..n-1] to out[0..n-1], with the bits of carom_collide(). A bad pair
- * gets NaN and its own status, and does not change the other pairs. `status` takes the n statuses;
- * it may be NULL. `in`, `out` and `status` may not overlap; with n = 0 they may be NULL. A caller
- * with its own threads may split a batch in any way. Returns CAROM_OK if no pair is in error, and
- * otherwise the status of the first pair in error. If a pointer is NULL or an option is bad, the
- * call returns that error and writes nothing. */
+ * gets NaN and its own status, and does not change the other pairs. `status` receives the n
+ * statuses; it may be NULL. `in`, `out` and `status` may not overlap; with n = 0 they may be NULL.
+ * A caller with its own threads may split a batch in any way. Returns CAROM_OK if no pair is in
+ * error, and otherwise the status of the first pair in error. If a pointer is NULL or an option is
+ * bad, the call returns that error and writes nothing. */
 CAROM_API carom_status carom_collide_batch(const carom_impact *in, size_t n,
                                            const carom_options *opt, carom_result *out,
                                            int8_t *status);
@@ -396,13 +397,13 @@ typedef struct carom_speed_law {
   double a, b, c; /* -, -, s/m */
 } carom_speed_law;
 
-/* The usual fit for pool balls, a = 0.009951, b = 0.108, c = 1.088: by D. Alciatore, TP A-14, to
- * measurements of W. C. Marlow. */
+/* The usual fit for pool balls, a = 0.009951, b = 0.108, c = 1.088: D. Alciatore, TP A-14, fitted
+ * to measurements by W. C. Marlow. */
 CAROM_API carom_speed_law carom_alciatore(void);
 
 /* The friction between the balls of `*in` according to the law, where |u| is the slip just before
  * the collision. in->mu_ball is not read; assign the result to it. If the law leaves [0, 1] or the
- * motion is not finite, carom_collide() refuses the result. NaN if `in` is NULL. */
+ * motion is not finite, carom_collide() rejects the result. NaN if `in` is NULL. */
 CAROM_API double carom_mu_ball(const carom_impact *in, carom_speed_law law);
 
 /* ---- After the collision --------------------------------------------------------------------- */
@@ -416,9 +417,9 @@ CAROM_API void carom_rolling_velocity(const double v[3], const double w[3], doub
 
 /* ---- Single precision ------------------------------------------------------------------------ */
 
-/* The same in single precision, with the suffix _f32: half the memory, twice the lanes. Results
- * of the exact solver for collisions of play are within 2e-5 of the exact result for the rounded
- * numbers. */
+/* The same structs in single precision, with the suffix _f32: half the memory, twice the lanes.
+ * Results of the exact solver for collisions of play are within 2e-5 of the exact result for the
+ * rounded inputs. */
 typedef struct carom_ball_f32 {
   float r[3], v[3], w[3];       /* centre, velocity and angular velocity, as of a carom_ball. */
   float radius, mass, mu_slide; /* radius, mass and sliding friction on the cloth, as of a
@@ -442,7 +443,7 @@ typedef struct carom_result_f32 {
   carom_motion_f32 a, b; /* the motion of the first and of the second ball. */
 } carom_result_f32;
 
-/* carom_collide_batch() in single precision. Each row is bit-identical to the same row alone.
+/* carom_collide_batch() in single precision. Each row is bit-identical to a batch of only that row.
  * Euler's method is computed in double precision and rounded. */
 CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n,
                                                const carom_options *opt, carom_result_f32 *out,
@@ -451,14 +452,14 @@ CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_
 /* ---- Instruction sets ------------------------------------------------------------------------ */
 
 /* Instruction sets of batches and of single calls of the exact solver, from low to high. The
- * highest that the processor has is used. Results differ within the solver's errors from one to
- * another. The environment variable CAROM_ISA, set to one of the names ("plain", "sse2", "neon",
- * "avx2", "avx512") before the first call, limits it for the whole process; other values are
- * ignored. A single call uses plain if options.plain is 1, and a shot uses it unless
+ * library uses the highest one that the processor has. Results of different sets differ within the
+ * solver's errors. The environment variable CAROM_ISA, set to one of the names ("plain", "sse2",
+ * "neon", "avx2", "avx512") before the first call, limits it for the whole process; other values
+ * are ignored. A single call uses plain if options.plain is 1, and a shot uses it unless
  * carom_shot_options.fast is 1. */
 typedef enum carom_isa {
   CAROM_ISA_ANY = -1,   /* no limit: for carom_isa_limit(). */
-  CAROM_ISA_PLAIN = 0,  /* what every processor has; its bits are the same on all machines. */
+  CAROM_ISA_PLAIN = 0,  /* available on every processor; its bits are the same on all machines. */
   CAROM_ISA_SSE2 = 1,   /* x86-64: 2 doubles at a time. */
   CAROM_ISA_NEON = 2,   /* arm64: 2 doubles at a time. */
   CAROM_ISA_AVX2 = 3,   /* x86-64: 4 doubles at a time. */
@@ -474,9 +475,9 @@ CAROM_API int carom_isa_available(carom_isa isa);
 /* The instruction set in use. */
 CAROM_API carom_isa carom_isa_in_force(void);
 
-/* Limits the whole process to `isa` and lower ones. CAROM_ISA_ANY lifts this limit, but not that
- * of the environment variable. Returns the instruction set then in use. Call it while no batch
- * runs. */
+/* Limits the whole process to `isa` and lower ones. CAROM_ISA_ANY lifts this limit, but not the
+ * limit set by the environment variable. Returns the instruction set then in use. Call it while no
+ * batch runs. */
 CAROM_API carom_isa carom_isa_limit(carom_isa isa);
 
 /* ---- Details and traces ---------------------------------------------------------------------- */
@@ -512,8 +513,8 @@ typedef struct carom_detail {
   double reserved[4];      /* 0; room for future fields. */
 } carom_detail;
 
-/* carom_collide() with details. `*detail` is filled for every status, with 0 and NaN where
- * nothing was solved. `detail` may be NULL. Works overflow to infinity above 1e150 m/s. */
+/* carom_collide() with details. `*detail` is filled for every status, with 0 and NaN where nothing
+ * was solved. `detail` may be NULL. Works are infinite above 1e150 m/s. */
 CAROM_API carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt,
                                             carom_result *out, carom_detail *detail);
 
@@ -544,18 +545,18 @@ typedef struct carom_trace_point {
 /* Follows one collision through `n` >= 2 points at equal steps of normal impulse, from 0 at
  * points[0] to the end, which is the result of carom_collide() (with the exact solver within about
  * 1e-6, because the precise solver computes the trace). Euler's method gives the nearest whole
- * steps. `opt` may be NULL; `points` may not overlap `in`. The call is not made for speed: it takes
- * about a millisecond with the exact solver, and n/2 times as long as a collision with Euler's
- * method. Returns the status of carom_collide(). CAROM_SEPARATING: every point is the state before,
- * with impulse 0. An error: every number is NaN (but nothing is written when a pointer is NULL or n
- * < 2). */
+ * steps. `opt` may be NULL; `points` may not overlap `in`. The call is slow: it takes about a
+ * millisecond with the exact solver, and with Euler's method n/2 times as long as a collision.
+ * Returns the status of carom_collide(). CAROM_SEPARATING: every point is the state before, with
+ * impulse 0. An error: every number is NaN (but nothing is written when a pointer is NULL or n <
+ * 2). */
 CAROM_API carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_t n,
                                    carom_trace_point *points);
 
-/* Checks the arguments of a collision and solves nothing. Returns CAROM_OK or an error that
- * depends on single fields (CAROM_SEPARATING, TOO_SLOW and OVERFLOW come only from solving). If
- * `field` is not NULL, `*field` becomes the index of the bad number among the 26 doubles of
- * `*in`, or -1 if the error is in no single number. */
+/* Checks the arguments of a collision and solves nothing. Returns CAROM_OK or an error that depends
+ * on single fields (only solving finds CAROM_SEPARATING, TOO_SLOW and OVERFLOW). If `field` is not
+ * NULL, `*field` becomes the index of the invalid number among the 26 doubles of `*in`, or -1 if
+ * the error is not in a single number. */
 CAROM_API carom_status carom_check(const carom_impact *in, const carom_options *opt, int *field);
 
 /* The C name of number `field` of a carom_impact, 0 to 25: "a.r[0]" ... "restitution". NULL
@@ -572,12 +573,12 @@ CAROM_API const char *carom_field_name(int field);
 CAROM_API const char *carom_version(void);
 CAROM_API int carom_version_number(void);
 
-/* The revision of the physics: a number that changes whenever a result of any call or model has
- * other bits than before. Recordings play back bit for bit, and players in lockstep agree, only
- * with the same number. */
+/* The revision of the physics: a number that changes whenever the bits of a result of any call or
+ * model change. Recordings play back bit for bit, and players in lockstep agree, only with the same
+ * revision. */
 CAROM_API int carom_physics_revision(void);
 
-/* Whether a caller that was compiled with the header of this version can use this library, 1 or 0:
+/* 1 if a caller that was compiled with a header of this version can use this library, otherwise 0:
  * call carom_serves(CAROM_VERSION_NUMBER). Before 1.0 the minor version must be equal. From 1.0 on,
  * the major version must be equal, and the minor one must not be above the library's. */
 CAROM_API int carom_serves(int header_version_number);

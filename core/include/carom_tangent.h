@@ -1,11 +1,11 @@
 /* carom_tangent.h: derivatives of collisions, of impacts on cushions and of whole shots, in up
  * to 64 directions at once.
  *
- * A direction says how all inputs change together: numbers of the cue, constants of the balls,
+ * A direction describes how all inputs change together: numbers of the cue, constants of the balls,
  * their states, noses and cushions of the table. A tangent is the derivative of a result in a
  * direction: its change, per unit of the direction, while the events and their order stay as they
- * are. It is exact for infinitesimal changes and says nothing about large ones. With table, balls,
- * cue and shot of the sample of whole shots in carom_shot.h:
+ * are. It is exact for infinitesimal changes and not valid for large ones. With table, balls, cue
+ * and shot of the sample of whole shots in carom_shot.h:
  *
  *     static double seed[CAROM_CUE_NUMBERS][2];                // two directions; all else is zero:
  *     seed[0][0] = 1.0;                                        // 0: the speed of the cue, per m/s
@@ -27,8 +27,8 @@
  * docs/using/derivatives.md explains the meaning and the limits of tangents, and has the equations
  * and the measured errors.
  *
- * Units are those of carom_shot.h; the angles phi and theta are in degrees. Arrays are in row
- * order, with the directions last. */
+ * Units are as in carom_shot.h; the angles phi and theta are in degrees. Arrays are in row order,
+ * with the directions last. */
 #ifndef CAROM_TANGENT_H
 #define CAROM_TANGENT_H
 
@@ -56,39 +56,41 @@ typedef enum carom_tangent_flag {
   CAROM_TANGENT_GRAZING = 1,      /* the contact closes at less than 1 % of the speed, or it is the
                                      last hop of a ball on the slate, or nearly the last.
                                      Derivatives grow without bound there. Or it is a strike whose
-                                     hop comes or goes if its speed changes by 1 %. */
+                                     hop appears or disappears if its speed changes by 1 %. */
   CAROM_TANGENT_SLOW = 2,         /* a slow contact, for which docs/using/shots.md has the rule. */
   CAROM_TANGENT_SIMULTANEOUS = 4, /* a ball of the contact was in another contact less than 1e-9 s
                                      before, or it is a contact at the start whose gap changes. A
                                      small change may reverse the order of the contacts, or separate
-                                     them, so the derivative holds to one side at most. */
+                                     them, so the derivative is valid on one side at most. */
   CAROM_TANGENT_KINK = 8,         /* the model has no derivative here, or it was not found to 1e-4.
                                      An example is the derivative with respect to theta at theta = 0
-                                     if balls can leave the cloth: it is the one upward. */
-  CAROM_TANGENT_EULER = 16,       /* the cushion was resolved in steps, and the derivative is that
-                                     of the steps, by differences. */
-  CAROM_TANGENT_DIFFERENCES = 32, /* the derivative of this contact comes from central differences
-                                     of the one contact. This happens for exact models if the motion
-                                     is planar or a ball jams, and for Euler's steps. */
-  CAROM_TANGENT_DRAG = 64,        /* no longer set: derivatives of a roll with drag are those of the
-                                     pieces that shots follow. */
+                                     if balls can leave the cloth: the call returns the upward
+                                     derivative. */
+  CAROM_TANGENT_EULER = 16,       /* the cushion was resolved in steps, and the derivative is the
+                                     derivative of the steps, by differences. */
+  CAROM_TANGENT_DIFFERENCES = 32, /* the derivative of this contact was computed by central
+                                     differences of this contact only. This happens for exact models
+                                     if the motion is planar or a ball jams, and for Euler's
+                                     steps. */
+  CAROM_TANGENT_DRAG = 64,        /* no longer set: the derivatives of a roll with drag follow the
+                                     pieces in which shots compute it. */
   CAROM_TANGENT_CLUSTER = 128     /* a contact of a cluster, a further touch of the tip, or a single
-                                     contact with a third ball within 1 mm. The reach does not count
-                                     touches of balls that come or go there, nor their order. It
-                                     ends where the velocity of a ball behind the contact changes by
-                                     as much as itself. */
+                                     contact with a third ball within 1 mm. The reach does not
+                                     include touches of balls that appear or disappear there, nor
+                                     their order. It ends where the velocity of a ball after the
+                                     contact changes by 100 %. */
 } carom_tangent_flag;
 
 /* The changes in each direction; `directions` is their number m, 1 to 64. NULL stands for zeros.
- * Numbers that a shot does not use are not read: nose heights and cushions of the table count if
- * the ball, or the part, has none of its own. */
+ * Numbers that a shot does not use are not read: nose heights and cushions of the table are read if
+ * neither the ball nor the part sets them. */
 typedef struct carom_tangent_seeds {
   int64_t directions;   /* number of directions, 1 to CAROM_DIRECTIONS_MOST. */
   const double *cue;    /* [8][m] */
   const double *kind;   /* [balls][CAROM_KIND_NUMBERS][m]; balls of the same radius must change it
                            together. */
-  const double *state;  /* [balls][9][m]: states at the start. Of the ball that the cue strikes,
-                           only x and y count. */
+  const double *state;  /* [balls][9][m]: states at the start. For the ball that the cue strikes,
+                           only x and y are read. */
   const double *table;  /* [3][m]: numbers of all rails and jaws together */
   const double *slope;  /* [2][m]: slope_x and slope_y of the table */
   uint64_t reserved[3]; /* must be 0. */
@@ -97,8 +99,8 @@ typedef struct carom_tangent_seeds {
 /* Results, per unit of the seeds. `final` is needed; each of the others may be NULL. */
 typedef struct carom_tangent {
   double *final;        /* [balls][9][m]: derivatives of the states at the end of the shot. 0 for a
-                           pocketed ball; for a ball that left the table, those of the place where
-                           it left. */
+                           pocketed ball; for a ball that left the table, the derivatives of the
+                           position where it left. */
   double *time;         /* [events][m], s: derivatives of the times of the events. */
   double *before;       /* [events][2][9][m]: derivatives of the states of the balls just before
                            each event, whose time changes too. */
@@ -121,24 +123,24 @@ typedef struct carom_tangent {
   uint64_t reserved[4]; /* not read or written yet. */
 } carom_tangent;
 
-/* Derivatives of a shot that carom_shoot() has played: table, balls, cue and options are those of
- * that call, and shot->events holds all of its events. Tangents follow each ball from event to
- * event, on the cloth and in flight. Only clusters are played again, once for each direction. All
- * events of a cluster have the flags and the tangent of the time of its first one, and
- * CAROM_TANGENT_CLUSTER. A touch inside it that begins to stick has no flag. Nothing is allocated.
- * Stack: 65 KiB; a batch 68. Cost: docs/using/derivatives.md.
+/* Derivatives of a shot that carom_shoot() has played: table, balls, cue and options are the same
+ * as in that call, and shot->events contains all of its events. Tangents follow each ball from
+ * event to event, on the cloth and in flight. Only clusters are played again, once for each
+ * direction. All events of a cluster have the flags and the time derivative of its first event, and
+ * CAROM_TANGENT_CLUSTER. A touch inside a cluster that begins to stick has no flag. Nothing is
+ * allocated. Stack: 65 KiB; a batch 68 KiB. Cost: docs/using/derivatives.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS;
  * CAROM_ERROR_DIRECTIONS if there are not 1 to 64; CAROM_ERROR_EVENTS_LOST if shot->room was too
  * small or events is NULL; CAROM_ERROR_STATE if an event cannot be one of this shot, and for a shot
- * that was refused or never played; CAROM_ERROR_TIME for times below 0, not finite or not
+ * that was rejected or never played; CAROM_ERROR_TIME for times below 0, not finite or not
  * ascending; CAROM_ERROR_SHOT_OPTIONS for a reserved field; or an error of the table or of an
  * option. CAROM_ERROR_NO_TANGENTS from a library that was built without derivatives.
- * CAROM_ERROR_TANGENT if derivatives are not known: in CAROM_WORLD_POOLTOOL, whose spacers are not
- * differentiable, with CAROM_BALL_MODEL_EULER, and through clusters that are not those of the
- * events, or have more than 38 contacts. Three errors set every number of `final` to NaN, and may
- * write others: CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved,
- * CAROM_ERROR_OVERFLOW if a number of `final` is not finite, and an error of a collision. */
+ * CAROM_ERROR_TANGENT if derivatives are not available: in CAROM_WORLD_POOLTOOL, whose spacers are
+ * not differentiable, with CAROM_BALL_MODEL_EULER, and through clusters that do not match the
+ * events or have more than 38 contacts. Three errors set every number of `final` to NaN, and may
+ * write other results: CAROM_ERROR_TIME for a time after the end of a shot that ended while balls
+ * moved, CAROM_ERROR_OVERFLOW if a number of `final` is not finite, and an error of a collision. */
 CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls,
                                           int count, const carom_cue *cue,
                                           const carom_shot_options *opt, const carom_shot *shot,
@@ -146,18 +148,18 @@ CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_
 
 /* Derivatives of all shots of a job that carom_shoot_batch() has played. */
 typedef struct carom_tangent_job {
-  const carom_shot_job *played;     /* the job with its shots; its options say how many threads to
-                                       use. */
+  const carom_shot_job *played;     /* the job with its shots; its options set the number of
+                                       threads. */
   const carom_tangent_seeds *seeds; /* the seeds of shot k are seeds[k * seeds_stride]. */
-  uint64_t seeds_stride;            /* 0: all shots have the first; otherwise usually 1. */
+  uint64_t seeds_stride;            /* 0: all shots use the first; otherwise usually 1. */
   carom_tangent *tangents;          /* n results. */
-  int8_t *status;                   /* n statuses; may be NULL. Shots in error (played->status) are
-                                       skipped and keep their status. */
+  int8_t *status;                   /* n statuses; may be NULL. Shots with an error in
+                                       played->status are skipped and keep their status. */
   uint64_t reserved[4];             /* must be 0. */
 } carom_tangent_job;
 
 /* Each shot has the bits and the status of carom_shot_tangent(), for any number of threads. Returns
- * CAROM_OK, or the status of the first shot in error. Errors of the call are those of
+ * CAROM_OK, or the status of the first shot in error. Errors of the call are as for
  * carom_shoot_batch(), with nothing written. */
 CAROM_API carom_status carom_shot_tangent_batch(const carom_tangent_job *job);
 
@@ -165,12 +167,12 @@ CAROM_API carom_status carom_shot_tangent_batch(const carom_tangent_job *job);
  * order of the doubles of carom_result and carom_impact. Only the seeds of r[0] and r[1], v[0] and
  * v[1], w, radius of a, mass, mu_slide, mu_ball and restitution are read. There is no derivative
  * with respect to the slip of a ball that rolls and is pressed into the cloth. The call assumes
- * that this ball goes on rolling in every direction, and directions in which it would slide set
+ * that this ball continues to roll in every direction, and directions in which it would slide set
  * CAROM_TANGENT_KINK. A ball rolls if its slip is at most 1e-12 of its speeds. *flags (may be NULL)
  * becomes a sum of CAROM_TANGENT_KINK and CAROM_TANGENT_DIFFERENCES. Returns the status of
- * carom_collide(): after CAROM_SEPARATING the tangents are those of the motion before, and after an
- * error all are NaN. Also returns CAROM_ERROR_DIRECTIONS, and CAROM_ERROR_TANGENT for options other
- * than the exact solver and the slip of the paper. */
+ * carom_collide(): after CAROM_SEPARATING the tangents are derivatives of the motion before, and
+ * after an error all are NaN. Also returns CAROM_ERROR_DIRECTIONS, and CAROM_ERROR_TANGENT for
+ * options other than the exact solver and the slip of the paper. */
 CAROM_API carom_status carom_collide_tangent(const carom_impact *in, const carom_options *opt,
                                              int64_t directions, const double *seeds,
                                              double *tangent, int32_t *flags);
@@ -178,7 +180,7 @@ CAROM_API carom_status carom_collide_tangent(const carom_impact *in, const carom
 /* Derivatives of carom_cushion(): tangent[6][m] = J seeds[15][m], in the order of the doubles of
  * carom_motion and carom_cushion_impact; v[2] and jaw_radius are not read. Otherwise the call is
  * like carom_collide_tangent(). CAROM_ERROR_TANGENT for the convention of pooltool, and if Euler's
- * steps give up for an input next to this one, which the differences need. */
+ * steps fail for a neighbouring input, which the differences need. */
 CAROM_API carom_status carom_cushion_tangent(const carom_cushion_impact *in,
                                              const carom_cushion_options *opt, int64_t directions,
                                              const double *seeds, double *tangent, int32_t *flags);

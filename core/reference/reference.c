@@ -24,7 +24,7 @@
  * accepted if the highest two Legendre coefficients of the frictions over the step are small,
  * and their polynomials are right at its start. Three events are located by repeating a step
  * with other lengths: the end of compression, v = 0; the end of the impact, where e^2 of the
- * work of compression is given back; and a load that passes zero.
+ * work of compression is returned; and a load that passes zero.
  *
  * CHECKS. Each impact is integrated with tolerances and eps that tighten until two solutions in
  * a row agree, and again with initial slips and approach changed by about one rounding error of

@@ -120,7 +120,7 @@ static double restitution_at_corner(lab_random *r) {
   return one_in(r, 2) ? lab_log_uniform(r, 1e-9, 0.1) : U(0, 1);
 }
 
-/* What a draw begins with: the regime, the first ball's speed, direction, share of rolling and
+/* What a draw begins with: the regime, the first ball's speed, direction, fraction of rolling and
  * surface speed of side spin; impulses about at the end of compression and of the impact. */
 typedef struct first_shot {
   const char *regime;

@@ -1,5 +1,5 @@
-/* What there is, for programs that ask: the rows of schema/ at run time. Nothing here is on the
- * path of an impact. */
+/* The rows of schema/ at run time, for programs that request them. Nothing here is on the path of
+ * an impact. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
@@ -7,6 +7,7 @@
 #include "friction/laws.h"
 #include "schema/options.h"
 #include "schema/rows.h"
+#include "schema/synonyms.h"
 #include "schema/words.h"
 
 #include <math.h>
@@ -100,7 +101,7 @@ const carom_number *carom_number_of(carom_part_kind part, int k) {
 
 /* ---- Ranges in words */
 
-/* Text that is cut at the end of its room; `length` goes on. */
+/* Text that is cut at the end of its room; `length` continues. */
 typedef struct words {
   char *text;
   size_t room, length;
@@ -176,7 +177,7 @@ static bool add_short(words *w, double x) {
 /* How a range ends on one side: nowhere, at the largest double, before a number, or at it. */
 typedef enum range_end { END_NOWHERE, END_FINITE, END_EXCLUDED, END_INCLUDED } range_end;
 
-/* What stands before the low end of a range, and what between its low and its high end. */
+/* What is before the low end of a range, and what between its low and its high end. */
 typedef struct range_phrase {
   const char *before_low, *before_high;
 } range_phrase;
@@ -197,8 +198,8 @@ static const range_phrase range_phrases[][4] = {
                       [END_INCLUDED] = {"", " to "}},
 };
 
-/* Writes an end of a range, and says whether it belongs to the range. The next double to a short
- * number stands for an end that does not. */
+/* Writes an end of a range, and reports whether it belongs to the range. The next double to a short
+ * number represents an end that does not. */
 static range_end add_end(words *w, double x, double outwards) {
   if (add_short(w, x))
     return END_INCLUDED;
@@ -212,7 +213,7 @@ static range_end add_low_end(words *w, const carom_number *n) {
   return add_end(w, n->low, -INFINITY);
 }
 
-/* A whole number that may be as large as its type allows has no end. */
+/* An integer that may be as large as its type allows has no end. */
 static range_end add_high_end(words *w, const carom_number *n) {
   if (n->high == DBL_MAX)
     return END_FINITE;
@@ -260,7 +261,7 @@ static void add_choices(words *w, carom_words kind) {
   }
 }
 
-/* The number that is right beside a range, where there is one; the interval; the unit. */
+/* The number that is right next to a range, where there is one; the interval; the unit. */
 static void add_measure(words *w, const carom_number *n) {
   const bool has_other = add_short(w, n->other); /* it is NAN where there is none */
   if (has_other)
@@ -272,7 +273,7 @@ static void add_measure(words *w, const carom_number *n) {
   }
 }
 
-/* Words that are to go into text[room], of which NULL takes none. */
+/* Text for text[room]; NULL receives none. */
 static words words_in(char *text, size_t room) {
   if (text == NULL)
     room = 0;
@@ -393,4 +394,87 @@ const char *carom_word_text(carom_words kind, int value) {
   if (found == NULL)
     return NULL;
   return found->text;
+}
+
+/* ---- Words as people write them */
+
+enum { LONGEST_WORD = 24 };
+
+/* The letters of a word in lower case, without hyphens, underscores and blanks. Writes at most
+ * LONGEST_WORD of them and returns how many there are. */
+static size_t letters_of(const char *word, const char *end, char letters[LONGEST_WORD + 1]) {
+  size_t count = 0;
+  for (; word < end; word++) {
+    char letter = *word;
+    if (letter == '-' || letter == '_' || letter == ' ')
+      continue;
+    if (letter >= 'A' && letter <= 'Z')
+      letter = (char)(letter - 'A' + 'a');
+    if (count < LONGEST_WORD)
+      letters[count] = letter;
+    count++;
+  }
+  letters[count < LONGEST_WORD ? count : LONGEST_WORD] = '\0';
+  return count;
+}
+
+/* Whether two words have the same letters, or the parts at a hyphen of `word` in the other order:
+ * "left side" is "side-left". */
+static int has_same_letters(const char *text, const char *word) {
+  char text_letters[LONGEST_WORD + 1], word_letters[LONGEST_WORD + 1], turned[LONGEST_WORD + 1];
+  const char *end = word + strlen(word), *hyphen = strchr(word, '-');
+  const size_t count = letters_of(text, text + strlen(text), text_letters);
+  if (count == 0 || count > LONGEST_WORD || count != letters_of(word, end, word_letters))
+    return 0;
+  if (strcmp(text_letters, word_letters) == 0)
+    return 1;
+  if (hyphen == NULL)
+    return 0;
+  const size_t second = letters_of(hyphen, end, turned);
+  letters_of(word, hyphen, turned + second);
+  return strcmp(text_letters, turned) == 0;
+}
+
+static const struct {
+  const char *name, *word;
+} synonyms[] = {
+#define SYNONYM(name, word) {name, word},
+    CAROM_SYNONYM_ROWS(SYNONYM)
+#undef SYNONYM
+};
+enum { SYNONYMS = sizeof synonyms / sizeof synonyms[0] };
+
+const char *carom_word_synonym(const char *word, int k) {
+  if (word == NULL || k < 0)
+    return NULL;
+  for (int row = 0; row < SYNONYMS; row++)
+    if (strcmp(synonyms[row].word, word) == 0 && k-- == 0)
+      return synonyms[row].name;
+  return NULL;
+}
+
+int carom_word_means(const char *text, const char *word) {
+  if (text == NULL || word == NULL)
+    return 0;
+  if (has_same_letters(text, word))
+    return 1;
+  for (int k = 0; k < SYNONYMS; k++)
+    if (has_same_letters(synonyms[k].word, word) && has_same_letters(text, synonyms[k].name))
+      return 1;
+  return 0;
+}
+
+int carom_word_value(carom_words kind, const char *text) {
+  enum { VALUES_MOST = 64 }; /* more than any enumeration has; events begin at 1 */
+  int found = -1;
+  if (text == NULL)
+    return -1;
+  for (int value = 0; value < VALUES_MOST; value++) {
+    const char *word = carom_word(kind, value);
+    if (word != NULL && strcmp(text, word) == 0)
+      return value;
+    if (found < 0 && carom_word_means(text, word))
+      found = value;
+  }
+  return found;
 }

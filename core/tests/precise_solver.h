@@ -1,4 +1,4 @@
-/* The precise solver in place of the fast one, whose rounding in single precision spoils
+/* The precise solver instead of the fast one, whose rounding in single precision spoils
  * differences: while `precisely` is set, in programs that are linked with --wrap=carom_collide
  * and --wrap=carom_cushion_solve. */
 #ifndef CAROM_TESTS_PRECISE_SOLVER_H

@@ -78,7 +78,7 @@ static inline void skip_spaces(void) {
   cursor += strspn(cursor, " ");
 }
 
-/* Whether the line goes on with a word or a sign, which is then skipped. */
+/* Whether the line continues with a word or a sign, which is then skipped. */
 static inline bool skip(const char *expected) {
   const size_t length = strlen(expected);
   skip_spaces();

@@ -1,4 +1,4 @@
-/* What tests of whole shots share: playing one with room for its events, a large empty table, a
+/* What tests of complete shots share: playing one with room for its events, a large empty table, a
  * ball on it. */
 #ifndef CAROM_TESTS_SHOT_SUPPORT_H
 #define CAROM_TESTS_SHOT_SUPPORT_H

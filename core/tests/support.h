@@ -53,7 +53,7 @@ typedef struct random_source {
   uint64_t state;
 } random_source;
 
-/* Of two places in the plane, m. */
+/* Of two positions in the plane, m. */
 static inline double distance(const double a[2], const double b[2]) {
   return hypot(a[0] - b[0], a[1] - b[1]);
 }
@@ -98,7 +98,7 @@ int by_size(const void *a, const void *b);
 double result_distance(const carom_result *a, const carom_result *b, double radius);
 
 /* Memory that ends exactly: so that reading or writing past it is seen. With `odd` it is a block
- * of the exact size at a place that is aligned for double, not for a vector: the address
+ * of the exact size at a position that is aligned for double, not for a vector: the address
  * sanitizer sees what is beyond it. Else it ends at a page which may not be touched, so every
  * build does. */
 typedef struct edge {
@@ -138,7 +138,7 @@ int run_looped(const char *name, const looped_test *tests, size_t count);
 /* Runs one test case and returns main's exit code. */
 int run_tests(const char *name, const TTest *const *tests, size_t count);
 
-/* Goes on with an FNV-1a hash, h, over bytes. */
+/* Continues an FNV-1a hash, h, over bytes. */
 uint64_t hash_of(uint64_t h, const void *bytes, size_t size);
 
 /* Sets a number, or one of an array, just beyond its range, in way 0, 1, ...; false where there is

@@ -1,4 +1,4 @@
-/* What tests of derivatives of whole shots share: a layout, its numbers as directions, and
+/* What tests of derivatives of complete shots share: a layout, its numbers as directions, and
  * differences of shots.
  *
  * Differences are of order 4, by 15 steps from 1e-9 to 1e-2 of each number. Of adjacent steps at
@@ -41,7 +41,7 @@ static inline void numbers_of(const carom_ball_state *s, double to[NUMBERS]) {
     to[k] = ((const double *)s)[number_at[k]];
 }
 
-/* The table of a layout, which stands until the next call: of 9 ft with pooltool's pockets, where
+/* The table of a layout, which is valid until the next call: of 9 ft with pooltool's pockets, where
  * the edges of these tests are. */
 static inline const carom_table *table_of(const layout *l) {
   static carom_table table, nine_feet;
@@ -87,7 +87,7 @@ static inline void change(layout *l, const direction *d, double by) {
     }
 }
 
-/* Seeds of m directions, which stand until the next call. */
+/* Seeds of m directions, which are valid until the next call. */
 static inline carom_tangent_seeds seeds_of(const direction *d, int m) {
   static double cue[CAROM_CUE_NUMBERS * LAYOUT_DIRECTIONS],
       state[LAYOUT_BALLS * NUMBERS * LAYOUT_DIRECTIONS],
@@ -160,7 +160,8 @@ static inline int64_t differentiate(const layout *l, const direction *by, int m)
   return derive(l, by, m);
 }
 
-/* Plays a layout of which a number is changed; its events and its end stand until the next call. */
+/* Plays a layout of which a number is changed; its events and its end are valid until the next
+ * call. */
 static inline carom_status shoot_changed(const layout *l, const direction *by, double change_of,
                                          carom_shot *s) {
   static carom_event other[ROOM];
@@ -194,7 +195,7 @@ static inline double slope_of_four(double f_2, double f_1, double f1, double f2,
 static double least_error; /* of the last comparison, by any of its steps */
 
 /* Largest difference of the tangents in column j of m from the best plateau, and by how much
- * that itself disagrees; false if there is none. Beside a kink there are two plateaus, of which
+ * that itself disagrees; false if there is none. Next to a kink there are two plateaus, of which
  * the better one may be that of larger steps. */
 static inline bool compare(const layout *l, const direction *by, const double *tangent, int j,
                            int m, double *error, double *plateau) {

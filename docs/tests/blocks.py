@@ -79,6 +79,7 @@ ELSEWHERE = {
     "docs/start/player.md": 2,
     "docs/start/python.md": 2,
     "docs/contributing/extending.md": 1,
+    "examples/server/README.md": 1,
 }
 
 # The programs whose output a test compares.
@@ -96,6 +97,7 @@ def pages(source):
         "docs/README.md",
         *sorted(str(page.relative_to(source)) for page in Path(source, "docs").glob("*/*.md")),
         "examples/README.md",
+        "examples/server/README.md",
         "python/README.md",
         "study/README.md",
         "web/README.md",

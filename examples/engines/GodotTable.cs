@@ -65,7 +65,7 @@ public partial class GodotTable : Node3D {
   public void Receive(string line, int sender) {
     long shots = match.Shots;
     try {
-      match.Read(line, sender);
+      match.Receive(line, sender);
     } catch (CaromException refused) {
       EmitSignal(SignalName.Cheated, refused.Message);
     }

@@ -56,7 +56,7 @@ int main(int count, char **arguments) {
     keep(carom_match_begin(&match, CAROM_RULES_EIGHTBALL, &table, 5, 0));
   }
   for (int k = atoi(arguments[2]); k > 0 && match.phase != CAROM_MATCH_OVER; k--) {
-    const int me = (int)match.record.player;
+    const int me = (int)match.seat;
     carom_plan_stroke best;
     int found;
     job.player = &players[me];

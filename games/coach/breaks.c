@@ -1,4 +1,4 @@
-/* Breaks of a rack: each has a rack of its own, and the errors of a player. */
+/* Breaks of a rack: each has its own rack, and the errors of a player. */
 #include "carom_coach.h"
 #include "coach.h"
 #include "platform/ranges.h"
@@ -78,7 +78,7 @@ carom_status carom_break_stroke(const carom_break_job *job, int64_t number, caro
   balls[0].state = job->balls[0].state;
   *cue = *job->cue;
 
-  /* A cut is that in the job's own rack; others have the cue as far beside the ball in front. */
+  /* A cut is that in the job's own rack; others have the cue as far off the ball in front. */
   if (job->aim != CAROM_BREAK_DIRECTION)
     cue->phi = direction_of_front(balls, job->count);
   if (job->aim == CAROM_BREAK_CUT)
@@ -100,7 +100,7 @@ static uint32_t wings_of(const carom_table *table, const carom_shot_ball *balls,
   return wings;
 }
 
-/* Adds what break k of a batch comes to by the rules of its game, and what it is worth. */
+/* Adds the result of break k of a batch by the rules of its game, and its value. */
 static void count_ruling(const carom_break_job *job, const carom_plan_rules *rules, int k,
                          carom_break_counts *counts) {
   workspace *w = job->memory;
@@ -187,7 +187,7 @@ static carom_status play(const carom_break_job *job, int64_t first, int n,
   return CAROM_OK;
 }
 
-/* The same breaks, whose errors are those of job->player, of another player who plays on. */
+/* The same breaks, with the errors of job->player, for another player who plays on. */
 static carom_status play_all(const carom_break_job *job, const carom_player *valued, int64_t first,
                              int64_t n, carom_break_counts *counts) {
   if (job == NULL || counts == NULL || job->memory == NULL || job->memory_size < sizeof(workspace))
@@ -234,7 +234,7 @@ static double even_number(int k, int dimension) {
   return x - floor(x);
 }
 
-/* The job's balls, with the cue ball on the place of a choice. */
+/* The job's balls, with the cue ball on the position of a choice. */
 static const carom_shot_ball *place_balls(const carom_break_job *job,
                                           const carom_break_choice *choice) {
   carom_shot_ball *balls = ((workspace *)job->memory)->placed;
@@ -245,7 +245,7 @@ static const carom_shot_ball *place_balls(const carom_break_job *job,
   return balls;
 }
 
-/* Candidate k: a place behind the head string, a speed and a height of the tip; every other one
+/* Candidate k: a position behind the head string, a speed and a height of the tip; every other one
  * cuts the ball in front. The first candidate is the stroke of the job. Apart, so that shots have
  * its stack. */
 __attribute__((noinline)) static void make_candidate(const carom_break_job *job, int k,
@@ -265,7 +265,7 @@ __attribute__((noinline)) static void make_candidate(const carom_break_job *job,
   choice->cue.phi = direction_of_front(balls, job->count);
   choice->aim = CAROM_BREAK_FULL;
   if (k % 2 == 1) {
-    /* beside the middle of the ball by up to a radius, a length of a table's half away */
+    /* off the middle of the ball by up to a radius, a length of a table's half away */
     const double most_beside = carom_asin(2.0 * radius / job->table->length) / degree;
     choice->cue.phi += most_beside * (2.0 * even_number(k, 4) - 1.0);
     choice->aim = CAROM_BREAK_CUT;
@@ -351,7 +351,7 @@ carom_status carom_break_best(const carom_break_job *job, int64_t breaks,
     sort_choices(candidate, count);
   }
 
-  /* the breaks that choose are partly lucky for the best: others are told */
+  /* the breaks that choose are partly lucky for the best: others are reported */
   for (int k = 0; k < room && status == CAROM_OK; k++) {
     choices[k] = candidate[k];
     choices[k].counts = (carom_break_counts){0};

@@ -6,8 +6,8 @@
  *
  *     V - W = (p - k) (U - L) + (k U + (1 - k) L - W),
  *
- * the first of which is the cost of the miss, and the second that of the place of the balls. Both
- * have the mean 0 for a player with these errors. */
+ * the first of which is the cost of the miss, and the second the cost of the position of the balls.
+ * Both have the mean 0 for a player with these errors. */
 #include "carom_coach.h"
 #include "coach.h"
 #include "player.h"
@@ -70,7 +70,7 @@ const char *carom_practice_name(carom_practice group) {
   return names[group];
 }
 
-/* The costs of a stroke, beside those of the meant one with the player's errors. */
+/* The costs of a stroke, compared with the intended one with the player's errors. */
 static void find_costs(const carom_plan_job *job, carom_call call, carom_ruling *ruling,
                        carom_review *review) {
   const uint64_t seed = job->options != NULL ? job->options->seed : 0;
@@ -145,7 +145,7 @@ carom_status carom_review_of(const carom_plan_job *job, const carom_cue *played,
 }
 
 /* Whether the stroke of a drill by a player, or without errors, pots its ball; end[] becomes the
- * place of the cue ball. */
+ * position of the cue ball. */
 static bool makes_pot(const carom_plan_job *job, const carom_drill *drill,
                       const carom_player *player, uint64_t n, double end[2]) {
   carom_ball_state final[CAROM_BALLS_MOST];
@@ -160,7 +160,7 @@ static bool makes_pot(const carom_plan_job *job, const carom_drill *drill,
          (facts.down & carom_only((int)stroke.ball)) == 0;
 }
 
-/* The share of strokes of a player that make a drill. */
+/* The fraction of strokes of a player that make a drill. */
 static double share_made(const carom_plan_job *job, const carom_drill *drill,
                          const carom_player *player) {
   int made = 0;
@@ -172,7 +172,7 @@ static double share_made(const carom_plan_job *job, const carom_drill *drill,
   return (double)made / (double)STROKES;
 }
 
-/* The radius around the place of a drill within which half of the player's pots leave the cue
+/* The radius around the position of a drill within which half of the player's pots leave the cue
  * ball. */
 static double median_radius(const carom_plan_job *job, const carom_drill *drill) {
   double far[STROKES], end[2];

@@ -1,17 +1,17 @@
 /* A run-out as one answer: each stroke is planned from what the one before leaves without errors.
  *
- * A landing zone is star-shaped about the place of the cue ball. Along each of CAROM_ZONE_CORNERS
- * rays, the value of the layout is asked every STEP metres until it has fallen too far or a ball or
- * cushion is in the way; the last step is halved. The tolerance of a stroke is found likewise:
- * strokes without errors, every step of speed and of direction until one misses its pot or its
- * zone. How often strokes with errors do so is played; and some of those that play on outside the
- * zone are planned on, which shows where the plan turns.
+ * A landing zone is star-shaped about the position of the cue ball. Along each of
+ * CAROM_ZONE_CORNERS rays, the value of the layout is evaluated every STEP metres until it has
+ * fallen too far or a ball or cushion is in the way; the last step is halved. The tolerance of a
+ * stroke is found likewise: strokes without errors, every step of speed and of direction until one
+ * misses its pot or its zone. How often strokes with errors do so is played; and some of those that
+ * play on outside the zone are planned on, which shows where the plan turns.
  *
- * The stages of a stroke come in pieces: a slice of a plan, a value, or a shot. Between two pieces
- * all of the run-out is in the caller's memory, so slices change no bit.
+ * The stages of a stroke are divided into pieces: a slice of a plan, a value, or a shot. Between
+ * two pieces all of the run-out is in the caller's memory, so slices change no bit.
  *
- * The chance of the whole is no product of these: it comes from whole run-outs with errors, in
- * which each stroke is planned anew. */
+ * The chance of the run-out is not a product of these: it is counted in complete run-outs with
+ * errors, in which each stroke is planned again. */
 #include "carom_coach.h"
 #include "coach.h"
 #include "platform/elementary.h"
@@ -31,14 +31,14 @@ static const double STEP = 0.04; /* m, along a ray */
 /* The stages of a stroke, in their order. */
 typedef enum stage { PLAN, TURN, LEAVE, ZONE, TOLERANCE, SHARES, END } stage;
 
-/* A search along a line: whole steps while they are good, then half ones. */
+/* A search along a line: full steps while they are good, then half ones. */
 typedef struct probe {
-  double reach, step;  /* the last good place, and how far beyond it the next one is */
+  double reach, step;  /* the last good position, and how far beyond it the next one is */
   int tries, halvings; /* that are left */
 } probe;
 
 /* A run-out in the job's memory, before its plans: the layout that is played, all that its plan
- * needs, and how far the stages have come. */
+ * needs, and the progress of the stages. */
 typedef struct run_out {
   carom_plan_options options, stray_options;
   carom_plan_rules rules, stray_rules;
@@ -52,7 +52,7 @@ typedef struct run_out {
   int strays, good; /* how many of them, and of those that succeed */
 
   /* for the next slice */
-  uint64_t fingerprint; /* of the caller's job; 0: none goes on */
+  uint64_t fingerprint; /* of the caller's job; 0: none continues */
   carom_sequence_stroke *strokes;
   int strokes_most, stroke; /* room for them, and which one it is now */
   double within;
@@ -112,7 +112,7 @@ static carom_status begin(const carom_plan_job *job, int in_hand, run_out **made
   return CAROM_OK;
 }
 
-/* Begins the plan of a layout, or goes on with it. r->is_begun remains while it has not ended. */
+/* Begins the plan of a layout, or continues with it. r->is_begun remains while it has not ended. */
 static carom_status plan_layout(run_out *r, const carom_plan_job *job, bool hand,
                                 carom_plan_stroke *choice) {
   int found = 0;
@@ -127,7 +127,8 @@ static carom_status plan_layout(run_out *r, const carom_plan_job *job, bool hand
   return status;
 }
 
-/* The same of the layout that is played. At the end, the cue ball in hand is put on its place. */
+/* The same of the layout that is played. At the end, the cue ball in hand is put on its
+ * position. */
 static carom_status plan_stroke(run_out *r, carom_plan_stroke *choice) {
   const carom_status status = plan_layout(r, &r->job, r->hand, choice);
   if (status != CAROM_OK || r->is_begun || !r->hand)
@@ -136,7 +137,7 @@ static carom_status plan_stroke(run_out *r, carom_plan_stroke *choice) {
                           choice->place[0], choice->place[1], NULL);
 }
 
-/* Goes on with the layout and the state that a stroke leaves. */
+/* Continues the layout and the state that a stroke leaves. */
 static void go_on(run_out *r, const carom_ruling *ruling) {
   memcpy(r->balls, ruling->balls, (size_t)r->job.count * sizeof *ruling->balls);
   r->rules.state = ruling->state;
@@ -158,7 +159,7 @@ static int64_t play(run_out *r, const carom_cue *cue, const carom_plan_stroke *c
   return shot.count + 1;
 }
 
-/* Takes the result of a probe at reach + step. Returns whether the search goes on. */
+/* Takes the result of a probe at reach + step. Returns whether the search continues. */
 static bool advance(probe *p, bool is_good) {
   p->tries--;
   if (is_good) {
@@ -172,7 +173,7 @@ static bool advance(probe *p, bool is_good) {
 
 /* ---- Landing zones */
 
-/* The estimated value of what a stroke leaves, with the cue ball at a place; -1 where it cannot
+/* The estimated value of what a stroke leaves, with the cue ball at a position; -1 where it cannot
  * lie there. */
 static double value_at(const run_out *r, carom_ruling *ruling, const double place[2]) {
   carom_plan_rules rules;
@@ -186,8 +187,8 @@ static double value_at(const run_out *r, carom_ruling *ruling, const double plac
   return value;
 }
 
-/* The next value of a zone: that of the leave, then those along the rays. Returns whether there are
- * more. */
+/* The next value of a zone: of the leave, then of positions along the rays. Returns whether there
+ * are more. */
 static bool probe_zone(run_out *r, carom_sequence_stroke *s) {
   carom_ruling *ruling = &s->ruling;
   const double *middle = ruling->balls[r->job.cue->ball].state.r;
@@ -203,7 +204,7 @@ static bool probe_zone(run_out *r, carom_sequence_stroke *s) {
     return true;
   }
 
-  /* the next place along the ray */
+  /* the next position along the ray */
   double sine, cosine;
   carom_sincos(2.0 * pi * r->done / (double)CAROM_ZONE_CORNERS, &sine, &cosine);
   const double far = r->probe.reach + r->probe.step;
@@ -221,7 +222,7 @@ static bool probe_zone(run_out *r, carom_sequence_stroke *s) {
   return r->is_begun;
 }
 
-/* Whether a place is in the zone: a ray from it crosses the border an odd number of times. */
+/* Whether a position is in the zone: a ray from it crosses the border an odd number of times. */
 static bool is_in_zone(const carom_sequence_stroke *s, const double place[2]) {
   bool inside = false;
   for (int k = 0; k < CAROM_ZONE_CORNERS; k++) {
@@ -244,12 +245,12 @@ static bool succeeds(const run_out *r, const carom_sequence_stroke *s, const car
   return ruling->hand || is_in_zone(s, ruling->balls[r->job.cue->ball].state.r);
 }
 
-/* ---- What strokes with errors come to */
+/* ---- Results of strokes with errors */
 
 /* The next shot of a tolerance: how far the speed, then the direction may change to either side.
  * Returns its events. */
 static int64_t probe_tolerance(run_out *r, carom_sequence_stroke *s) {
-  static const double speed_step = 0.04, phi_step = 0.1; /* share of the speed; degrees */
+  static const double speed_step = 0.04, phi_step = 0.1; /* fraction of the speed; degrees */
   enum { STEPS = 60 };
   const int side = r->done / 2;
   const bool is_speed = r->done % 2 == 0;
@@ -315,7 +316,7 @@ static bool plan_stray(run_out *r) {
   return r->done < kept;
 }
 
-/* Finds the most frequent pot from the strays but that of the next stroke. */
+/* Finds the most frequent pot from the strays except the pot of the next stroke. */
 static void find_turn(const run_out *r, const carom_plan_stroke *next, carom_sequence_stroke *s) {
   const carom_plan_stroke *choice = r->stray_choice;
   const int strays = (int)carom_min(r->strays, STRAYS);
@@ -341,7 +342,7 @@ static bool is_pot(const carom_plan_stroke *choice) {
 }
 
 /* Plays the stroke without errors; where a pot misses, the first one with errors that plays on
- * stands for it. Returns the events of the stroke. */
+ * represents it. Returns the events of the stroke. */
 static int64_t play_leave(run_out *r, carom_sequence_stroke *s) {
   carom_cue cue = s->choice.cue;
   if (r->done > 0)
@@ -467,7 +468,7 @@ carom_status carom_sequence_continue(const carom_plan_job *job, int *found) {
   return play_slice(r, found);
 }
 
-/* Plays one run-out; its strokes have errors and plans of their own. */
+/* Plays one run-out; its strokes have their own errors and plans. */
 static carom_status play_run(run_out *r, uint64_t number, carom_sequence_counts *counts) {
   enum { STROKES_MOST = 200 };
   const uint64_t seed = r->options.seed;

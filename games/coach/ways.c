@@ -17,7 +17,7 @@
 
 typedef carom_shot_way way;
 
-/* strokes with errors for a chance; those of one batch */
+/* strokes with errors for a chance; strokes of one batch */
 enum { TRIES = 400, BLOCK = 256, HALVINGS = 10, FINE = 18000 };
 /* m/s, of the cue; and degrees, of a pot */
 static const double speed_least = 0.05, speed_most = 15.0, window_least = 0.02;
@@ -111,7 +111,7 @@ int carom_way_succeeds(const carom_ways_job *job, const carom_shot *shot, const 
 }
 
 /* Sets the chance of a way, by strokes in batches, each of which draws the errors of the stroke and
- * of the places of balls, as plans do; false after an error. */
+ * of the positions of balls, as plans do; false after an error. */
 static bool find_chance(ways_search *s, way *w) {
   workspace *work = s->work;
   const double eye = carom_player_bounded(s->job->player, &w->cue).eye;
@@ -144,7 +144,7 @@ static bool find_chance(ways_search *s, way *w) {
   return true;
 }
 
-/* ---- What a shot tells */
+/* ---- Results of a shot */
 
 /* The first rail of a name, or -1. */
 static int first_rail(const carom_table *t, const char *name) {
@@ -179,7 +179,7 @@ static bool is_of(const carom_event *e, int type, int ball) {
   return e->type == type && (e->a == ball || (type == CAROM_EVENT_BALL_BALL && e->b == ball));
 }
 
-/* The first contact of a ball; of those of one instant that with the cue ball. */
+/* The first contact of a ball; among contacts of one instant, the one with the cue ball. */
 static const carom_event *first_contact(const carom_shot *shot, int ball, int cue) {
   const carom_event *first = NULL;
   for (int64_t k = 0; k < shot->count; k++) {
@@ -226,7 +226,7 @@ static bool is_neighbour(const pot_chain *chain, int n, int ball) {
   return false;
 }
 
-/* Rails of a way, and the last ones of them, beside the pocket, that the ball touches as it
+/* Rails of a way, and the last ones of them, next to the pocket, that the ball touches as it
  * falls. */
 typedef struct rail_count {
   int total, at_pocket;
@@ -282,7 +282,8 @@ static bool read_pot(const ways_search *s, const carom_shot *shot, way *w) {
   return w->kind >= 0 && rails.total - rails.at_pocket <= s->job->rails;
 }
 
-/* The way of a point or to a place: what the cue ball meets, of a point up to the second ball. */
+/* The way of a point or to a position: what the cue ball meets, of a point up to the second
+ * ball. */
 static bool read_point(const ways_search *s, const carom_shot *shot, way *w) {
   const int cue = cue_ball_of(s);
   int balls = 0, rails = 0, hit_balls[2] = {-1, -1};
@@ -316,7 +317,7 @@ static double cut_of(const carom_shot *shot, int cue) {
   return (double)NAN;
 }
 
-/* Plays a stroke, and reads its way, of which kind, ball and pocket are given. What comes of it: */
+/* Plays a stroke, and reads its way, of which kind, ball and pocket are given. Its results: */
 typedef enum stroke_read { NO_WAY, NO_ROOM, A_WAY } stroke_read;
 static stroke_read read_stroke(const ways_search *s, const carom_cue *cue, way *w) {
   workspace *work = s->work;
@@ -378,8 +379,8 @@ static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, do
   }
 }
 
-/* Counts the way of the ball, -1 of points and places, by a stroke whose shot is good, or that
- * there was no room for it. */
+/* Counts the way of the ball, -1 for points and positions, for a stroke whose shot is good, or
+ * counts that there was no room for it. */
 static void read_shot(ways_search *s, const carom_shot *shot, const carom_cue *cue, int ball,
                       int stroke, int64_t k) {
   way seen = {.kind = -1, .ball = ball, .pocket = -1};
@@ -400,7 +401,7 @@ static void read_shot(ways_search *s, const carom_shot *shot, const carom_cue *c
   }
 }
 
-/* Whether the way is that of its stroke with another value of *field, of its cue. */
+/* Whether its stroke takes the same way with another value of *field, of its cue. */
 static bool holds(const ways_search *s, way *w, double *field, double number) {
   way seen = {.kind = -1, .ball = w->ball, .pocket = w->pocket};
   const double original = *field;
@@ -459,8 +460,8 @@ static bool is_better(const way *a, const way *b) {
   return a->phi[1] - a->phi[0] > b->phi[1] - b->phi[0];
 }
 
-/* Of the ways of pots those that are wide enough stay, each once where directions end; and of those
- * that differ by the stroke alone, unless each is asked for, that with the best chance. */
+/* Of the ways of pots those that are wide enough stay, each once where directions end; and among
+ * ways that differ only by the stroke, unless each is requested, the one with the best chance. */
 static void keep_best(ways_search *s, double step) {
   int64_t retained = 0;
   for (int64_t k = 0; k < s->result.ways; k++) {
@@ -478,7 +479,7 @@ static void keep_best(ways_search *s, double step) {
   s->result.ways = retained;
 }
 
-/* Whether a shot pots a ball that is asked for into a pocket that is. */
+/* Whether a shot pots a ball that is requested into a pocket that is. */
 static bool is_asked(const ways_search *s, const carom_facts *facts, int ball) {
   return ball != cue_ball_of(s) && (s->job->ball < 0 || ball == s->job->ball) &&
          (s->job->pocket < 0 || facts->pocket[ball] == s->job->pocket);
@@ -552,7 +553,7 @@ static bool scan(ways_search *s) {
 
 /* ---- The calls */
 
-/* Whether way k comes before way n: a better chance, then a wider window, then the earlier find. */
+/* Whether way k precedes way n: a better chance, then a wider window, then the earlier find. */
 static bool is_before(const ways_search *s, int64_t k, int64_t n) {
   const way *a = &s->found[k], *b = &s->found[n];
   if (is_better(a, b) || is_better(b, a))
@@ -569,7 +570,7 @@ static void exchange(ways_search *s, int64_t k, int64_t n) {
   s->run[n].number = number;
 }
 
-/* Lets a way sink in the heap of the first `end`, whose root comes last. */
+/* Lets a way sink in the heap of the first `end`, whose root is the last in the order. */
 static void sink(ways_search *s, int64_t root, int64_t end) {
   for (int64_t child = 2 * root + 1; child < end; child = 2 * root + 1) {
     if (child + 1 < end && is_before(s, child, child + 1))
@@ -581,7 +582,7 @@ static void sink(ways_search *s, int64_t root, int64_t end) {
   }
 }
 
-/* Sorts the ways in their place, as a heap. */
+/* Sorts the ways in place, as a heap. */
 static void sort(ways_search *s) {
   const int64_t n = s->result.ways;
   for (int64_t k = 0; k < n; k++)
@@ -605,7 +606,7 @@ static bool has_pointers(const carom_ways_job *job) {
          job->player != NULL && job->memory != NULL;
 }
 
-/* Whether all numbers of a job are in their ranges, except those of its cues. */
+/* Whether all numbers of a job are in their ranges, except the numbers of its cues. */
 static bool has_good_numbers(const carom_ways_job *job) {
   const bool counts = job->count >= 1 && job->count <= CAROM_BALLS_MOST && job->strokes >= 1 &&
                       job->scan >= job->strokes && job->rails >= 0 && job->reserved == 0;

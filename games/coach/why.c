@@ -1,10 +1,10 @@
 /* Why a choice of a plan is good: its stroke without errors is played and ruled, and rows of the
- * plan play it with errors, so that chances and values are those of the plan's own estimator.
+ * plan play it with errors, so that chances and values come from the plan's own estimator.
  *
  * Let V(S) be the value with the errors of a set S. All errors together cost V({}) - V(all). An
- * error that is added to others costs V(others) - V(others with it); each error gets the mean of
- * what it costs where the errors are added in the order of carom_why_error, and in the reverse one,
- * so the costs add up to that of all. */
+ * error that is added to others costs V(others) - V(others with it); the cost of each error is the
+ * mean over adding the errors in the order of carom_why_error and in the reverse one, so the sum of
+ * the costs is the cost of all. */
 #include "carom_coach.h"
 #include "coach.h"
 #include "goals.h"
@@ -47,7 +47,7 @@ static carom_status plan_next(const carom_plan_job *job, const carom_ruling *rul
 
 /* ---- Rows of a choice */
 
-/* The layout of a choice: that of the job, with the cue ball on the choice's place. */
+/* The layout of a choice: the layout of the job, with the cue ball at the choice's position. */
 static carom_status place_choice(const carom_plan_job *job, const carom_plan_stroke *choice,
                                  carom_shot_ball balls[CAROM_BALLS_MOST], carom_plan_job *placed) {
   *placed = *job;
@@ -97,7 +97,7 @@ static void play_choice(void *context, carom_crew *crew) {
 }
 
 /* Plays the choice with some errors of the player, a set of carom_why_error. All sets have the same
- * luck. Without errors one stroke tells all where the table is known. */
+ * luck. Without errors one stroke is enough if the table is known. */
 static carom_tally repeat(carom_search *search, uint32_t errors) {
   const carom_player player = search->player;
   int64_t strokes = CAROM_WHY_STROKES;
@@ -168,7 +168,7 @@ static void find_aim(const carom_plan_job *job, const carom_cue *cue, const caro
   why->speed = sqrt(struck.v[0] * struck.v[0] + struck.v[1] * struck.v[1]);
 }
 
-/* What strokes with errors come to. Returns the row of the one that passes the turn and leaves what
+/* Results of strokes with errors. Returns the row of the one that passes the turn and leaves what
  * those that do leave on average; -1: none does. */
 static int64_t find_chances(carom_search *search, carom_why *why) {
   const carom_tally all = repeat(search, ALL_ERRORS);

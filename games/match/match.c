@@ -1,11 +1,11 @@
 /* A match: acts, rulings and lines of a recording.
  *
- * An act is checked against the phase, the player and the choices, and refused with nothing
+ * An act is checked against the phase, the player and the choices, and rejected with nothing
  * changed; else it is applied to the record, and its line is written to match->text. A stroke that
  * ends, a choice that is played instead of one, and a clock that ran out are ruled by
- * carom_referee(); the ruling makes further lines: "balls" where balls lie elsewhere than the shot
- * left them, "place" where the cue ball comes in hand, and "game" with the standing. match_read.c
- * reads them back. */
+ * carom_referee(); the ruling makes further lines: "balls" if balls are not where the shot left
+ * them, "place" if the cue ball is taken in hand, and "game" with the score. match_read.c reads
+ * them back. */
 #include "match.h"
 #include "games.h"
 #include "rules.h"
@@ -58,7 +58,7 @@ static const char *list_choices(int32_t choices, char text[128]) {
   return text;
 }
 
-/* Whether a match goes on, and this player may act. */
+/* Whether a match continues, and this player may act. */
 static carom_status check_player(carom_match *match, int player, const char *act) {
   if (match->phase == CAROM_MATCH_NONE)
     return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, act, "the match has not begun");
@@ -105,7 +105,8 @@ static void put_act(carom_match *match, carom_act act, int player, int32_t choic
   put_line(match, CAROM_RECORD_ACT);
 }
 
-/* When the next shot stops. */
+/* When the next shot stops: of the options only those that divide a shot without changing it. A
+ * shot that reaches events_most ends in an error, which would be ruled as if no ball had moved. */
 static void set_stops(carom_shot_options *options, const carom_shot_options *stop) {
   static const carom_shot_options none = {0};
   if (stop == NULL)
@@ -113,7 +114,7 @@ static void set_stops(carom_shot_options *options, const carom_shot_options *sto
   options->time_most = stop->time_most;
   options->stop_at = stop->stop_at;
   options->first_of = stop->first_of;
-  options->events_most = stop->events_most;
+  options->events_most = 0;
 }
 
 /* ---- How a match stands */
@@ -126,7 +127,7 @@ int carom_match_cue_ball(const carom_match *match) {
   const uint32_t balls = in_play(&match->record);
   int ball = carom_cue_ball_of(&match->rules);
 
-  /* that of an opening is in hand, which is as if it had fallen */
+  /* the cue ball of an opening is in hand, as if it had fallen */
   const bool any = match->rules.any_cue_ball != 0 && match->rules.state.opening == 0;
   while (any && balls >> ball > 1 && !(balls >> ball & 1))
     ball++;
@@ -171,7 +172,7 @@ void carom_match_look(carom_match *match) {
   }
 }
 
-/* The cue ball comes in hand. */
+/* Takes the cue ball in hand. */
 static void give_hand(carom_match *match, int32_t leave) {
   carom_record *record = &match->record;
   const int cue_ball = carom_match_cue_ball(match);
@@ -187,7 +188,7 @@ static void give_hand(carom_match *match, int32_t leave) {
 
 /* ---- Beginning */
 
-/* Refuses to begin, with the match all zero but for the fault. */
+/* Rejects the beginning, with the match all zero except for the fault. */
 static carom_status refuse_beginning(carom_match *match, const char *right) {
   memset(match, 0, sizeof *match);
   return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin", right);
@@ -202,7 +203,7 @@ static carom_status begin_state(carom_match *match, const carom_match_setup *set
   const bool of_seats = carom_plan_rules_of(setup->rules).race == CAROM_RACE_SEATS;
   if (!of_seats || carom_begin_seats(setup->rules, seats, state) == CAROM_OK)
     return CAROM_OK;
-  return refuse_beginning(match, "this game is not played by so many seats");
+  return refuse_beginning(match, "this game cannot have so many seats");
 }
 
 /* The rules, which may be the caller's, and their state. */
@@ -272,6 +273,7 @@ static carom_status begin_layout(carom_match *match, const carom_match_setup *se
   if (count < 2 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
   record->match = 1;
+  record->actor = -1;
   record->table = *setup->table;
   if (setup->options != NULL)
     record->options = *setup->options;
@@ -371,7 +373,7 @@ static carom_status begin_rack(carom_match *match, const carom_match_setup *setu
     return CAROM_ERROR_ACT;
   if (setup->table->pockets == 0)
     rules.state.group = 1 + (int32_t)setup->side;
-  if (carom_cue_ball_of(&rules) == 1) { /* the white spot is that of who opens */
+  if (carom_cue_ball_of(&rules) == 1) { /* the player who opens plays from the white spot */
     const carom_ball_state white = balls[0].state;
     balls[0].state = balls[1].state;
     balls[1].state = white;
@@ -499,7 +501,7 @@ carom_status carom_match_next(carom_match *match) {
 /* ---- Rulings */
 
 /* A cue ball that was in hand and was not placed, as when the clock ran out, stays in hand within
- * the same bounds, and no player may leave it where it lies. */
+ * the same bounds, and no player may leave it where it is. */
 static void keep_in_hand(carom_match *match) {
   carom_ruling *ruling = &match->ruling;
   const int64_t label = match->record.balls[carom_match_cue_ball(match)].state.label;
@@ -516,13 +518,13 @@ static void keep_in_hand(carom_match *match) {
   ruling->hand = 1;
 }
 
-/* Takes the ruling over: the layout, who plays and how the game stands. `struck`: of a stroke, or
- * of one for which the time was over. */
+/* Adopts the ruling: the layout, the next player and the score. `struck`: of a stroke, or of one
+ * for which the time was over. */
 static void apply(carom_match *match, bool struck) {
   carom_record *record = &match->record;
   carom_ruling *ruling = &match->ruling;
 
-  /* where any ball may be struck, one that was in hand and was not placed comes back */
+  /* where any ball may be struck, one that was in hand and was not placed returns */
   if (record->hand != 0 && match->rules.any_cue_ball != 0)
     carom_spot_ball_of((carom_rack_kind)match->rules.rack, &record->table, ruling->balls,
                        (int)record->count, match->cue_ball);
@@ -548,7 +550,7 @@ static void apply(carom_match *match, bool struck) {
   case CAROM_TURN_KEEP:
     break;
   case CAROM_TURN_PASS:
-    record->player = 1 - player; /* of seats that play each for itself, the state says it */
+    record->player = 1 - player; /* for seats that play each for itself, the state has it */
     break;
   case CAROM_TURN_WIN:
     record->winner = 1 + player;
@@ -586,7 +588,7 @@ static void rule(carom_match *match, bool none, carom_call call) {
 
 /* ---- Strokes */
 
-/* Plays a shot or a part of one, of this cue, and rules where it has ended. */
+/* Plays a shot of this cue, or a section of one, and judges it if it has ended. */
 static carom_status play(carom_match *match, carom_record_kind kind, const carom_cue *cue,
                          const carom_shot_options *stop, carom_shot *shot, const char *act) {
   carom_record *record = &match->record;
@@ -608,6 +610,7 @@ static carom_status play(carom_match *match, carom_record_kind kind, const carom
   if (kind == CAROM_RECORD_SHOT) {
     memcpy(match->before, record->balls, sizeof match->before);
     match->stroke = *cue;
+    record->actor = match->seat;
   }
   match->cue_ball = (int32_t)cue->ball;
   put_line(match, kind);
@@ -675,7 +678,7 @@ carom_status carom_match_replay(carom_match *match, carom_shot *shot) {
                      shot);
 }
 
-/* ---- Places, calls and choices */
+/* ---- Placing, calls and choices */
 
 static carom_status place_cue_ball(carom_match *match, int player, double x, double y) {
   const carom_status error = check_turn(match, player, "place");
@@ -707,8 +710,9 @@ static carom_status place_cue_ball(carom_match *match, int player, double x, dou
     return carom_match_refuse(match, CAROM_REFUSED_OCCUPIED, "place", right);
   }
   put_line(match, CAROM_RECORD_PLACE);
+  record->actor = player;
   match->phase = CAROM_MATCH_STROKE;
-  match->may &= ~CAROM_CHOICE_STAY; /* it lies elsewhere now */
+  match->may &= ~CAROM_CHOICE_STAY; /* it has moved */
   match->touching = carom_touching(record->balls, (int)record->count, match->cue_ball);
   return CAROM_OK;
 }
@@ -817,7 +821,7 @@ carom_status carom_match_choose(carom_match *match, int player, carom_choice cho
   return take_choice(match, player, choice);
 }
 
-/* The acts before the stroke, up to one that is refused. */
+/* The acts before the stroke, up to one that is rejected. */
 static carom_status prepare(carom_match *match, int player, const carom_plan_stroke *stroke) {
   if (stroke->kind == CAROM_PLAN_PASS)
     return take_choice(match, player, CAROM_CHOICE_PASS);
@@ -934,8 +938,7 @@ carom_status carom_match_end(carom_match *match) {
     return CAROM_ERROR_NULL;
   begin_act(match);
   if (match->phase == CAROM_MATCH_NONE || match->record.kind == CAROM_RECORD_END)
-    return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, "end",
-                              "there is no match to be ended");
+    return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, "end", "there is no match to end");
   put_line(match, CAROM_RECORD_END);
   match->phase = CAROM_MATCH_OVER;
   return CAROM_OK;

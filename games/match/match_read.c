@@ -1,12 +1,19 @@
-/* Lines of a match, read back and judged.
+/* Lines of a match, read back and judged: those of a file, in order, and those of a peer, in any.
  *
- * A line that says what a player did is done again, as a call of his would be: the rules refuse it,
- * or make its line and those of the ruling, which wait in match->text. The lines of the file must
- * be these, byte for byte. */
+ * The line of an act is done again, as a call by the player would be: the rules refuse it, or make
+ * its line and the lines of the ruling, in match->text. The line read must equal the first of them,
+ * byte for byte.
+ *
+ * In a file the lines of the ruling must follow: match->text has those that are still due. A peer
+ * need not send them, because the match has them already; a line that equals one of match->text is
+ * known and changes nothing. A peer's act is done on a copy of the match, which replaces the match
+ * only where the whole line is right. So whatever a peer sends, a refused line leaves the match as
+ * it was. */
 #include "match.h"
 #include "rules.h"
 #include "seats.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,7 +25,7 @@ static size_t line_due(const carom_match *match) {
   return (size_t)(end - match->text) + 1;
 }
 
-/* The line that was due has come. */
+/* The line that was due was read. */
 static void take_line(carom_match *match, size_t length) {
   match->size = match->due -= (int64_t)length;
   memmove(match->text, match->text + length, (size_t)match->size);
@@ -68,14 +75,15 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
   const int64_t kind = record->kind;
   if (kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE || kind == CAROM_RECORD_ACT ||
       kind == CAROM_RECORD_END)
-    return refuse_line(match, record->line, "a line \"game\" must come before it");
+    return refuse_line(match, record->line, "a line \"game\" must precede it");
   if (kind == CAROM_RECORD_HEAD && record->match != 1)
     return refuse_line(match, record->line,
-                       "this is a recording of format 2, and no match: replay it");
+                       "this is a recording of format 2, not a match; replay it");
   if (kind != CAROM_RECORD_GAME)
     return CAROM_OK;
 
   /* how the game stands at its beginning */
+  record->actor = -1;
   const char *range = "";
   if (match->rules.judge == NULL) {
     if (carom_rules_about_of((carom_rules_kind)record->rules) == NULL)
@@ -114,66 +122,78 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
   return CAROM_OK;
 }
 
-/* Does what a line says, as the player would; its own line is then due. `read` is the record behind
- * it. */
-static carom_status do_line(carom_match *match, const carom_record *read) {
-  const int player = (int)match->seat;
-  const carom_call call = {(int32_t)read->call[0], (int32_t)read->call[1]};
-  switch (read->kind) {
+/* What the line of an act says. */
+typedef struct act_of_line {
+  int64_t kind; /* a carom_record_kind */
+  int64_t act, actor, choice;
+  carom_call call;
+  double place[2];
+  carom_cue cue;
+  carom_shot_options options;
+} act_of_line;
+
+static act_of_line act_in(const carom_record *read) {
+  return (act_of_line){.kind = read->kind,
+                       .act = read->act,
+                       .actor = read->actor,
+                       .choice = read->choice,
+                       .call = {(int32_t)read->call[0], (int32_t)read->call[1]},
+                       .place = {read->place[0], read->place[1]},
+                       .cue = read->cue,
+                       .options = read->options};
+}
+
+/* Does what a line says, as the player would; match->text then begins with the act's own line. */
+static carom_status do_act(carom_match *match, const act_of_line *line) {
+  const int player = (int)match->seat, actor = (int)line->actor;
+  switch (line->kind) {
   case CAROM_RECORD_SHOT:
-    return carom_match_stroke(match, player, &read->cue, &read->options, NULL);
+    return carom_match_stroke(match, player, &line->cue, &line->options, NULL);
   case CAROM_RECORD_CONTINUE:
-    return carom_match_continue(match, &read->options, NULL);
+    return carom_match_continue(match, &line->options, NULL);
   case CAROM_RECORD_PLACE:
-    return carom_match_place(match, player, read->place[0], read->place[1]);
+    return carom_match_place(match, player, line->place[0], line->place[1]);
   case CAROM_RECORD_END:
     return carom_match_end(match);
   case CAROM_RECORD_ACT:
     break;
   default:
     return carom_match_refuse(match, CAROM_REFUSED_LINE, "line",
-                              "by the rules nothing of this kind follows");
+                              "the rules allow no line of this kind here");
   }
-  switch (read->act) {
+  switch (line->act) {
   case CAROM_ACT_CHOOSE:
-    return carom_match_choose(match, (int)read->actor, (carom_choice)read->choice);
+    return carom_match_choose(match, actor, (carom_choice)line->choice);
   case CAROM_ACT_CALL:
-    return carom_match_call(match, (int)read->actor, call);
+    return carom_match_call(match, actor, line->call);
   case CAROM_ACT_CONCEDE:
-    return carom_match_concede(match, (int)read->actor);
+    return carom_match_concede(match, actor);
   case CAROM_ACT_CLOCK:
-    return carom_match_clock(match, (int)read->actor);
+    return carom_match_clock(match, actor);
   case CAROM_ACT_EXTEND:
-    return carom_match_extend(match, (int)read->actor);
+    return carom_match_extend(match, actor);
   case CAROM_ACT_TIMEOUT:
-    return carom_match_timeout(match, (int)read->actor);
+    return carom_match_timeout(match, actor);
   default:
     return carom_match_refuse(match, CAROM_REFUSED_LINE, "act", "must be a carom_act");
   }
 }
 
-/* Whether a seat may have sent the line of an act, of which `read` is the record. */
-static bool may_send(carom_match *match, const carom_record *read, int seat) {
-  int64_t acts = match->seat;
-  if (read->kind == CAROM_RECORD_ACT)
-    acts = read->actor;
-  if (seat < 0 || seat == acts || read->kind == CAROM_RECORD_END)
-    return true;
-  char act[40], right[80];
-  snprintf(act, sizeof act, "line %lld", (long long)match->record.line + 1);
-  snprintf(right, sizeof right, "seat %d has sent an act of seat %d", seat, (int)acts);
-  carom_match_refuse(match, CAROM_REFUSED_TURN, act, right);
-  return false;
+/* Whether the head of the next match of a set is due, and this line begins it. */
+static bool begins_next(const carom_match *match, const char *line, size_t size) {
+  return match->record.kind == CAROM_RECORD_END && is_kind(line, size, "recording");
 }
+
+/* ---- A file */
 
 /* The line of an act, or the head of the next match of a set: it is done again, and its lines are
  * due. */
 static carom_status read_act(carom_match *match, carom_record *scratch, const char *line,
-                             size_t size, int seat) {
+                             size_t size) {
   carom_record *record = &match->record;
   const int64_t number = record->line + 1;
   carom_status status;
-  if (record->kind == CAROM_RECORD_END && is_kind(line, size, "recording"))
+  if (begins_next(match, line, size))
     status = carom_match_next(match);
   else {
     *scratch = *record;
@@ -185,9 +205,8 @@ static carom_status read_act(carom_match *match, carom_record *scratch, const ch
       record->kind = CAROM_RECORD_WRONG;
       return status;
     }
-    if (!may_send(match, scratch, seat))
-      return CAROM_ERROR_ACT;
-    status = do_line(match, scratch);
+    const act_of_line act = act_in(scratch);
+    status = do_act(match, &act);
   }
   if (status < 0) {
     char why[200];
@@ -198,8 +217,8 @@ static carom_status read_act(carom_match *match, carom_record *scratch, const ch
   return CAROM_OK;
 }
 
-carom_status carom_match_read_from(carom_match *match, carom_record *scratch, const char *line,
-                                   size_t size, int seat) {
+carom_status carom_match_read(carom_match *match, carom_record *scratch, const char *line,
+                              size_t size) {
   if (match == NULL || scratch == NULL || line == NULL)
     return CAROM_ERROR_NULL;
   line = trimmed(line, &size);
@@ -211,12 +230,12 @@ carom_status carom_match_read_from(carom_match *match, carom_record *scratch, co
     return read_beginning(match, line, size);
   }
   if (is_kind(line, size, "event") && record->kind != CAROM_RECORD_WRONG)
-    return CAROM_OK; /* the shot tells its events */
+    return CAROM_OK; /* the shot reports its events */
 
   /* a line that the rules have made already, or an act */
   const int64_t number = record->line + 1;
   if (line_due(match) == 0) {
-    const carom_status status = read_act(match, scratch, line, size, seat);
+    const carom_status status = read_act(match, scratch, line, size);
     if (status != CAROM_OK)
       return status;
   }
@@ -230,14 +249,121 @@ carom_status carom_match_read_from(carom_match *match, carom_record *scratch, co
   return CAROM_OK;
 }
 
-carom_status carom_match_read(carom_match *match, carom_record *scratch, const char *line,
-                              size_t size) {
-  return carom_match_read_from(match, scratch, line, size, -1);
+/* ---- A peer */
+
+/* Everything of a match but the part of its text that has no lines. */
+static void copy_match(carom_match *target, const carom_match *source) {
+  memcpy(target, source, offsetof(carom_match, text) + (size_t)source->size);
+}
+
+/* Whether match->text has this line: the act was taken before, or the line is of its ruling. */
+static bool is_known(const carom_match *match, const char *line, size_t size) {
+  const char *start = match->text, *const end = match->text + match->size;
+  while (start < end) {
+    const char *next = memchr(start, '\n', (size_t)(end - start));
+    if (next == NULL)
+      return false;
+    if ((size_t)(next - start) == size && memcmp(start, line, size) == 0)
+      return true;
+    start = next + 1;
+  }
+  return false;
+}
+
+/* What refuses the line of a peer: which line, and why. */
+static carom_status refuse_peer(carom_match *match, carom_refusal refusal, int64_t line,
+                                const char *why) {
+  char act[40];
+  snprintf(act, sizeof act, "line %lld", (long long)line);
+  return carom_match_refuse(match, refusal, act, why);
+}
+
+/* Whether `seat` may send this act. A shot that was stopped may be continued by any seat, and the
+ * recording may be ended by any seat once the match is over. */
+static bool may_send(const carom_match *match, const act_of_line *line, int seat, char right[80]) {
+  int64_t acts = match->seat;
+  switch (line->kind) {
+  case CAROM_RECORD_CONTINUE:
+    return true;
+  case CAROM_RECORD_END:
+    snprintf(right, 80, "seat %d has sent the end, but the match is not over", seat);
+    return match->phase == CAROM_MATCH_OVER;
+  case CAROM_RECORD_ACT:
+    acts = line->actor;
+    break;
+  default:
+    break;
+  }
+  snprintf(right, 80, "seat %d has sent an act of seat %d", seat, (int)acts);
+  return seat == acts;
+}
+
+/* Reads an act into a match that may be spoilt, because the caller has another. */
+static carom_status receive_act(carom_match *match, const carom_match *original, const char *line,
+                                size_t size, int seat) {
+  const int64_t number = original->record.line + 1;
+  match->size = match->due = 0;
+  carom_status status;
+  char right[200];
+  if (begins_next(match, line, size))
+    status = carom_match_next(match);
+  else {
+    status = carom_record_read(&match->record, line, size);
+    if (status != CAROM_OK) {
+      snprintf(right, sizeof right, "%.199s", match->record.fault);
+      refuse_peer(match, CAROM_REFUSED_LINE, number, right);
+      return status;
+    }
+    const act_of_line act = act_in(&match->record);
+    match->record = original->record;
+    if (seat >= 0 && !may_send(match, &act, seat, right))
+      return refuse_peer(match, CAROM_REFUSED_TURN, number, right);
+    status = do_act(match, &act);
+  }
+  if (status < 0) {
+    snprintf(right, sizeof right, "%.199s", match->fault);
+    return refuse_peer(match, CAROM_REFUSED_LINE, number, right);
+  }
+  const char *end = memchr(match->text, '\n', (size_t)match->size);
+  if (end != NULL && (size_t)(end - match->text) == size && memcmp(line, match->text, size) == 0)
+    return CAROM_OK;
+  snprintf(right, sizeof right, "the line has other values; due is %.*s",
+           end == NULL ? 0 : (int)carom_min(end - match->text, 120), match->text);
+  return refuse_peer(match, CAROM_REFUSED_LINE, number, right);
+}
+
+carom_status carom_match_receive(carom_match *match, carom_match *scratch, const char *line,
+                                 size_t size, int seat) {
+  if (match == NULL || scratch == NULL || line == NULL)
+    return CAROM_ERROR_NULL;
+  line = trimmed(line, &size);
+  const bool has_begun = match->phase != CAROM_MATCH_NONE;
+  if (size == 0)
+    return CAROM_OK;
+  if (!has_begun && seat >= 0)
+    return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, "line",
+                              "the match has not begun, and no seat may begin it");
+  if (has_begun && (is_kind(line, size, "event") || is_known(match, line, size))) {
+    match->refusal = CAROM_REFUSED_NOT;
+    match->fault[0] = '\0';
+    return CAROM_OK;
+  }
+  copy_match(scratch, match);
+  const carom_status status = has_begun ? receive_act(scratch, match, line, size, seat)
+                                        : read_beginning(scratch, line, size);
+  if (status != CAROM_OK) {
+    match->refusal = scratch->refusal;
+    memcpy(match->fault, scratch->fault, sizeof match->fault);
+    return status;
+  }
+  copy_match(match, scratch);
+  return CAROM_OK;
 }
 
 /* ---- Undo */
 
-/* Whether a line is one that a player caused: an act. A cue ball that comes in hand is none. */
+/* Whether a line is one that a player caused: an act. A cue ball that is taken in hand is not
+ * placed. */
 static bool is_act(const char *line, size_t size) {
   static const char in_hand[] = "\"hand\":1";
   if (is_kind(line, size, "act") || is_kind(line, size, "shot") ||

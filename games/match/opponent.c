@@ -2,9 +2,10 @@
  *
  * By chances.c a player whose error of aim is e keeps the turn from a layout with the chance p(e).
  * Strokes that kept it or not make an error as likely as the product of p(e) and 1 - p(e) over
- * them. Before the first stroke, ln e is normal about that of the player who asks, with a standard
- * deviation of ln 2: a stated choice, that of ratings, in which 150 points double the error. The
- * opponent has the mean of ln e behind the strokes. It is a sum over errors in steps of sqrt(2). */
+ * them. Before the first stroke, ln e is normal about the value of the player who asks for advice,
+ * with a standard deviation of ln 2: a convention, the same as for ratings, in which 150 points
+ * double the error. The opponent has the mean of ln e behind the strokes. It is a sum over errors
+ * in steps of sqrt(2). */
 #include "match.h"
 #include "platform/elementary.h"
 #include "player.h"
@@ -22,7 +23,7 @@ static double log_error_of(int k) {
   return carom_log(least) + 0.5 * ln2 * k;
 }
 
-/* Whether chances of pots tell of the players of a game. */
+/* Whether chances of pots give information about the players of a game. */
 static bool tells_skill(const carom_match *match) {
   const carom_plan_rules *rules = &match->rules;
   return match->record.table.pockets > 0 && rules->value == NULL && rules->left != NULL &&
@@ -35,7 +36,7 @@ void carom_match_weigh(carom_match *match) {
       match->call.ball == CAROM_CALL_PUSH || outcome == CAROM_TURN_DRAW)
     return;
 
-  /* the layout before the stroke, whose rules still stand */
+  /* the layout before the stroke, whose rules still apply */
   const carom_record *record = &match->record;
   const int count = (int)record->count;
   carom_cue cue = match->stroke;
@@ -54,7 +55,7 @@ void carom_match_weigh(carom_match *match) {
   carom_view view;
   carom_view_make(&view, &job, &options);
 
-  /* how likely what came is for each error; the chances leave room for what they do not know */
+  /* the likelihood of the result for each error; the chances allow for what they do not know */
   const bool keeps = outcome == CAROM_TURN_KEEP || outcome == CAROM_TURN_WIN;
   double *likely = match->log_likelihood[match->seat];
   for (int k = 0; k < CAROM_MATCH_ERRORS; k++) {

@@ -1,4 +1,5 @@
-/* Lines of games in recordings: "game", how a game stands, and "act", what a player decided. */
+/* Lines of games in recordings: "game", the state of a game, and "act", the decision of a
+ * player. */
 #include "carom_plan.h"
 #include "platform/arithmetic.h"
 #include "record/lines.h"
@@ -41,7 +42,7 @@ static const carom_field set_fields[] = {CAROM_SET_NUMBERS(SET_FIELD) CAROM_NO_F
 
 enum { RULES_MOST = 1000 }; /* more kinds of rules than there will be */
 
-/* How the game stands: each member within its row, or 0 of a game without it. */
+/* The state of the game: each member within its row, or 0 for a game without it. */
 static const char *find_fault_of_game(const carom_record *record, const char **key) {
   const carom_rules_state *state = &record->standing;
   int32_t value[2];

@@ -1,5 +1,5 @@
-/* Seats of a match: checks, handicaps, limits of strokes, whose turn it is, and how a match stands
- * by sides. */
+/* Seats of a match: checks, handicaps, limits of strokes, whose turn it is, and the score of a
+ * match by sides. */
 #include "seats.h"
 #include "games.h"
 #include "record/lines.h"
@@ -26,7 +26,7 @@ static bool is_name(const char name[CAROM_SEAT_NAME]) {
   return size < CAROM_SEAT_NAME && name[size] == '\0';
 }
 
-/* The cue is one of which a stroke can be played, and says no stroke. */
+/* The cue is valid for strokes, and specifies no stroke. */
 static bool is_stick(const carom_cue *cue) {
   const carom_ball_kind ball = carom_ball_kind_of(CAROM_GAME_POOL);
   const bool strikes =
@@ -50,7 +50,7 @@ static const char *seat_fault(const carom_seat *seat, const char **key) {
     return "must be 0 or 200 to 850";
   *key = "M";
   if (!is_stick(&seat->cue))
-    return "and the other numbers of the stick must be those of a cue, without a stroke";
+    return "and the other members of the stick must be valid for a cue, without a stroke";
   return NULL;
 }
 
@@ -221,7 +221,7 @@ bool carom_is_beyond(const carom_match *match, const carom_cue *cue, char *text,
   if (limits->own_cue == 0 ||
       memcmp(&stick, &match->seating.seat[match->seat].cue, sizeof stick) == 0)
     return false;
-  snprintf(text, room, "the stick must be that of seat %d", (int)match->seat);
+  snprintf(text, room, "stick and tip must be the same as for seat %d", (int)match->seat);
   return true;
 }
 
@@ -278,7 +278,7 @@ carom_status carom_match_standing(const carom_match *match, carom_standing *stan
   return CAROM_OK;
 }
 
-/* A seat in words, such as "Ann (seat 0)". */
+/* The name of a seat, such as "Ann (seat 0)". */
 static void put_name(const carom_match *match, int64_t seat, char *text, size_t room) {
   const char *name = match->seating.seat[seat].name;
   if (name[0] != '\0')

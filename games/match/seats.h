@@ -35,14 +35,14 @@ const char *carom_seats_fault(const carom_plan_rules *rules, carom_rules_kind ki
 void carom_seats_begin(const carom_seating *seating, carom_rules_kind kind, int64_t side,
                        carom_plan_rules *rules);
 
-/* The limit that a stroke is beyond, in words; false: none. */
+/* A text with the limit that a stroke exceeds; false: none. */
 bool carom_is_beyond(const carom_match *match, const carom_cue *cue, char *text, size_t room);
 
 /* Whose turn of a side it is behind a ruling: of a stroke or not, which passes the table or not. */
 void carom_end_visit(carom_match *match, bool struck, bool passes);
 /* The seat of a side whose turn it is. */
 int32_t carom_seat_of_side(const carom_match *match, int64_t side);
-/* The seat whose turn it is comes to the table. */
+/* Brings the seat whose turn it is to the table. */
 void carom_take_seat(carom_match *match);
 
 /* How many sides there are. */

@@ -20,7 +20,7 @@ bool carom_is_learned(const carom_view *view) {
   return kind >= 0 && kind < games && learned_of[kind].stretch > 0.0;
 }
 
-/* Those of the game, or of one with the same race. */
+/* The chances of the game, or of one with the same race. */
 static const learned *numbers_of(const carom_view *view) {
   static const int with_race[] = {[CAROM_RACE_OWN] = CAROM_RULES_EIGHTBALL,
                                   [CAROM_RACE_SHARED] = CAROM_RULES_NINEBALL,
@@ -57,7 +57,7 @@ double carom_chance_later(const carom_view *view, int seat, double mean, int n) 
   return fmax(a, least_chance);
 }
 
-/* e_n; that of an opponent who makes every ball is 1. */
+/* e_n; for an opponent who makes every ball it is 1. */
 double carom_chance_first(const carom_view *view, int seat, int n) {
   const double x[FIRST_NUMBERS] = {1.0, view->log_miss[seat], 1.0 / n};
   if (seat == 1 && view->set_chance[1] == 1.0)
@@ -75,7 +75,7 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
   for (int k = 0; targets >> k != 0; k++) {
     if (!(targets >> k & 1))
       continue;
-    /* the likeliest pocket of ball k; others are asked only whether they are likelier */
+    /* the likeliest pocket of ball k; for others only whether they are likelier */
     double likeliest = 0.0;
     for (int p = 0; p < view->pockets; p++) {
       if (!(pockets >> p & 1))

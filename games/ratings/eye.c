@@ -1,4 +1,4 @@
-/* Places that a player cannot know exactly: each play of a stroke has balls that lie elsewhere.
+/* Positions that a player cannot know exactly: in each play of a stroke the balls are displaced.
  *
  * Every ball at rest is moved by eye z in x and in y, with z normal, including a ball that the
  * referee spotted and a cue ball that the player placed: nobody places a ball better than he sees.
@@ -10,10 +10,10 @@
  *
  * so balls that touch do so in each play, along another direction, and a rack stays as tight as it
  * is. Balls that overlap, as layouts may by 0.05 mm, keep at most half of the overlap. The referee
- * says whether a ball touches the cue ball (CAROM_RULES_TOUCH), so that stays too.
+ * reports whether a ball touches the cue ball (CAROM_RULES_TOUCH), so that stays too.
  *
- * The bounds (1) are met by projections in turn (L. M. Bregman, Doklady 162, 1965): two balls whose
- * gap is beyond a bound are moved along their line of centres, each by half, and a ball at a
+ * The bounds (1) are met by alternating projections (L. M. Bregman, Doklady 162, 1965): two balls
+ * whose gap is beyond a bound are moved along their line of centres, each by half, and a ball at a
  * cushion along its normal. The layout itself meets all bounds, so the projections converge where
  * the bounds are about linear, for errors that are small against the balls. Where they do not
  * converge, errors of half the size are tried. */
@@ -39,7 +39,8 @@ typedef struct eye_draw {
   double moved;            /* m: by the farthest projection of a sweep */
 } eye_draw;
 
-/* By how much a gap is short of its bounds, or above 0 beyond them; `gap` is that of the layout. */
+/* By how much a gap is short of its bounds, or above 0 beyond them; `gap` is the gap in the
+ * layout. */
 static double excess_of(double gap, double drawn_gap, bool of_cue_ball) {
   static const double margin = 1e-6; /* m */
   double low = fmin(0.5 * gap, 0.0), high = fmax(2.0 * gap, 0.0);
@@ -185,7 +186,7 @@ void carom_eye_draw(const carom_prepared *layout, int struck, double eye, uint64
       bounded |= UINT32_C(1) << k;
   }
 
-  /* the last size is that of the layout itself */
+  /* the last size is the layout itself */
   for (int halves = 0; halves <= HALVES; halves++) {
     double size = ldexp(eye, -halves);
     if (halves == HALVES)

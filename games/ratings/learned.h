@@ -9,11 +9,12 @@ typedef struct learned {
   double next[NEXT_NUMBERS], later[LATER_NUMBERS], first[FIRST_NUMBERS];
   double mean;    /* of x[2] */
   double width;   /* of the table of these racks, m */
-  double stretch; /* of the log-odds of a value: carom-lab plan --games tells it. It is about the */
+  double stretch; /* of the log-odds of a value: carom-lab plan --games prints it. It is about
+                     the */
   double edge;    /* difference of the players, of which this share counts: --against shows it */
 } learned;
 
-/* Of the games that were played for it; the others have those of one with the same race. */
+/* For the games that were played for it; the others use a game with the same race. */
 static const learned learned_of[] = {
     [CAROM_RULES_EIGHTBALL] =
         {/* of 23001 strokes: carom-lab learn --rules eightball --racks 6144 --shots 200 --seed 0 */

@@ -24,7 +24,7 @@ typedef struct series {
   double games[2];   /* the mean number of games where side b breaks */
 } series;
 
-/* What comes of a chain that begins with the break of one side. */
+/* The results of a chain that begins with the break of one side. */
 typedef struct series_end {
   double wins, games; /* the chance of side 0, and the mean number of games */
   double score[2][CAROM_SERIES_MOST];

@@ -27,13 +27,13 @@ carom_player carom_player_of(double scale) {
   return player;
 }
 
-/* The numbers of players by rating, in steps of 100 from 200. Between them shots and the share are
- * linear, and the error of aim is exponential, which also goes on beyond the ends where a game has
- * greater steps: a difference of 100 points in the game is one of steps[0] points of
+/* The numbers of players by rating, in steps of 100 from 200. Between them shots and the fraction
+ * are linear, and the error of aim is exponential, which also continues beyond the ends where a
+ * game has greater steps: a difference of 100 points in the game is one of steps[0] points of
  * carom_player_fargo() below a rating of 500, and of steps[1] above it. docs/understanding/plan.md
- * has the games of which they come. */
+ * has the games from which they were measured. */
 static carom_player player_stepped(double rating, const double steps[2]) {
-  /* the error of aim of a stroke of 2 m/s, degrees; shots; the share of strokes that only pot */
+  /* the error of aim of a stroke of 2 m/s, degrees; shots; the fraction of strokes that only pot */
   static const double at_rating[][3] = {
       {0.978, 146.0, 1.0},  {0.621, 163.0, 0.97}, {0.394, 183.0, 0.92}, {0.25, 205.0, 0.79},
       {0.159, 230.0, 0.57}, {0.101, 257.0, 0.31}, {0.05, 500.0, 0.0},   {0.012, 500.0, 0.0}};
@@ -44,7 +44,7 @@ static carom_player player_stepped(double rating, const double steps[2]) {
   const int k = (int)carom_max(0, carom_min((int64_t)((r - least) / step), STEPS - 1));
   const double part = (r - least) / step - k, *low = at_rating[k], *high = at_rating[k + 1];
 
-  /* the other errors of a stroke of this speed, by a power of that of aim */
+  /* the other errors of a stroke of this speed, as a power of the error of aim */
   const double aim = low[0] * carom_exp(part * carom_log(high[0] / low[0]));
   const double power = carom_exp(0.7 * carom_log(aim / 0.1));
   carom_player player = player_with(aim, 0.02 * power, carom_within(0.035 * power, 0.0, 0.25));
@@ -61,9 +61,9 @@ carom_player carom_player_fargo(double rating) {
 }
 
 /* By how many points of carom_player_fargo() players differ who differ by 100 points in a game:
- * below a rating of 500, and above it. With these, 100 points are odds of 2 to 1 in the unit of
- * the comment, as `carom-lab plan --rules GAME --players A,B` shows; with twice as many points
- * they would be odds of about 4 to 1. Games without a row have those of eight-ball. */
+ * below a rating of 500, and above it. With these, 100 points are odds of 2 to 1 in the unit of the
+ * comment, as `carom-lab plan --rules GAME --players A,B` shows; with twice as many points they
+ * would be odds of about 4 to 1. Games without a row use the steps of eight-ball. */
 static const double rating_steps[][2] = {
     [CAROM_RULES_EIGHTBALL] = {70.0, 95.0},    /* a rack */
     [CAROM_RULES_NINEBALL] = {118.0, 110.0},   /* a rack */
@@ -116,7 +116,8 @@ void carom_player_errs(const carom_player *player, const double z[6], carom_cue 
   const double speed = sqrt(player->speed * player->speed + share * share);
   double grown = 1.0, turned = 1.0;
   if (player->growth > 0.0) {
-    /* the tip errs across the stick, so a steep stick turns farther; 80 degrees are the most */
+    /* the error of the tip is across the stick, so a steep stick turns farther; 80 degrees are the
+     * most */
     double sine, cosine;
     carom_sincos(cue->theta * degree, &sine, &cosine);
     grown = carom_player_growth(player, cue->speed);

@@ -10,11 +10,11 @@
 enum { PLAYER_SHOTS_LEAST = 100, PLAYER_SHOTS_MOST = 2000 };
 /* Whether the numbers of a player are within their ranges. */
 bool carom_player_is_good(const carom_player *p);
-/* The player with his bounds: 0 becomes the value it stands for. */
+/* The player with his bounds: 0 becomes the value it represents. */
 carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue);
 /* A stroke by a player with bounds; z are his errors in standard deviations. */
 void carom_player_errs(const carom_player *player, const double z[6], carom_cue *cue);
-/* How much larger the errors of a stroke of this speed are than those of the slowest. */
+/* The ratio of the errors of a stroke of this speed to the errors of the slowest stroke. */
 double carom_player_growth(const carom_player *player, double speed);
 
 #endif

@@ -2,7 +2,7 @@
  *
  * The player at the table needs n points, the other one m. Of the balls that are on the one whose
  * pot is worth most is taken: with the chance p, as chances.c has it, it makes w points, and each
- * later pot w' with the chance a. A visit that goes on to the end, K pots, wins with the chance
+ * later pot w' with the chance a. A visit that continues to the end, K pots, wins with the chance
  * q = p a^(K - 1); in the mean a visit makes
  *
  *     u = p (w + w' (a + a^2 + ... + a^(K - 1))).
@@ -15,12 +15,12 @@
  *
  *     q + (1 - q) (1 - q') Phi((M' - N + 1/2) / sqrt(1/4 + N (1 + w' / V) + M' (1 + w' / V'))),
  *
- * Phi being the normal distribution. All of it is an estimate: a, e and w' are those of a usual
- * layout, and the number of pots K supposes w' each.
+ * Phi being the normal distribution. All of it is an estimate: a, e and w' are for a usual layout,
+ * and the number of pots K assumes w' for each.
  *
- * Where the other makes every ball, as in a plan to run out, the value is the share of the points
- * on the table, or of those needed, that the visit makes. The chance q of all points of a game is
- * too small to choose a stroke by. */
+ * Where the other makes every ball, as in a plan to run out, the value is the fraction of the
+ * points on the table, or of those needed, that the visit makes. The chance q of all points of a
+ * game is too small to choose a stroke by. */
 #include "platform/elementary.h"
 #include "platform/promise.h"
 #include "random_draws.h"
@@ -53,7 +53,7 @@ static double normal(double x) {
   return 0.5 + copysign(0.5 * carom_erf(fabs(x) / 1.4142135623730951), x);
 }
 
-/* From where the cue ball lies, or as pots.c has a cue ball in hand. */
+/* From the position of the cue ball, or as pots.c treats a cue ball in hand. */
 static double value_from(const carom_view *view, const carom_rules_state *game,
                          const carom_ball_state *balls, uint32_t in_play, int seat, bool in_hand) {
   const carom_plan_rules *rules = view->rules;
@@ -116,7 +116,7 @@ double carom_points_value(const carom_view *view, const carom_rules_state *game,
   if (!in_hand || !carom_has_d(view->rules))
     return value_from(view, game, balls, in_play, seat, in_hand);
 
-  /* in the D: the best of some places on its line */
+  /* in the D: the best of some positions on its line */
   carom_ball_state placed[CAROM_BALLS_MOST];
   memcpy(placed, balls, (size_t)view->count * sizeof *placed);
   const carom_marks marks = carom_marks_of(view->width, view->length);

@@ -1,18 +1,18 @@
 /* A direct pot: the directions in which a ball gets into a pocket, and how likely it does.
  *
- * A ball of radius R at o gets into a pocket between two directions, one at each jaw: a window
- * with the middle psi and the half width h. At a jaw of radius j the ball may come nearer than to
- * touch it, to the distance (R + j) (1 - p), because it still falls. The overlap p depends on the
- * angle of the way to the middle of the mouth. A ball that comes along a rail also gets in by the
- * rail: at an angle d to it, and from a gap g, it leaves the rail by 0.68 d, which may be as much
- * as the farther jaw lets in. The numbers come from sweeps of a ball that rolls at 1.5 m/s; the
- * test games/windows repeats them. At 1 m/s windows are 0.15 wider, at 2.5 m/s 0.05 narrower.
+ * A ball of radius R at o gets into a pocket between two directions, one at each jaw: a window with
+ * the middle psi and the half width h. At a jaw of radius j the ball may come nearer than to touch
+ * it, to the distance (R + j) (1 - p), because it still falls. The overlap p depends on the angle
+ * of the way to the middle of the mouth. A ball that moves along a rail also gets in by the rail:
+ * at an angle d to it, and from a gap g, it leaves the rail by 0.68 d, which may be as much as the
+ * farther jaw lets in. The numbers come from sweeps of a ball that rolls at 1.5 m/s; the test
+ * games/windows repeats them. At 1 m/s windows are 0.15 wider, at 2.5 m/s 0.05 narrower.
  *
- * The cue ball has to come to the ghost, g = o - (R + R') (cos psi, sin psi), over a distance d,
- * and cuts by an angle c. An error s of its direction becomes one of s d / ((R + R') cos c) of
- * the ball's, to which the uncertainty of throw adds 1.5 degrees sqrt(1.2 - cos c). With e the
- * sum of both in squares the chance is erf(h / (e sqrt 2)). It is 0 where a ball is in either
- * way, where the ghost is in a cushion, or the cut is above 80 degrees. */
+ * The cue ball has to reach the ghost, g = o - (R + R') (cos psi, sin psi), over a distance d, and
+ * cuts by an angle c. An error s of its direction becomes one of s d / ((R + R') cos c) of the
+ * ball's, to which the uncertainty of throw adds 1.5 degrees sqrt(1.2 - cos c). With e the sum of
+ * both in squares the chance is erf(h / (e sqrt 2)). It is 0 where a ball is in either way, where
+ * the ghost is in a cushion, or the cut is above 80 degrees. */
 #include "platform/elementary.h"
 #include "random_draws.h"
 #include "table/table.h"
@@ -39,8 +39,8 @@ static void find_rail(const carom_table *table, const double jaw[3], double dire
   }
 }
 
-/* Finds the middle of the mouth, its left jaw, and whether the rails beside it lead into it, as
- * those beside a side pocket do not. */
+/* Finds the middle of the mouth, its left jaw, and whether the rails next to it lead into it, as
+ * those next to a side pocket do not. */
 static void find_rails(const carom_table *table, carom_mouth *mouth) {
   double(*jaw)[3] = mouth->jaw;
   const double x = jaw[1][0] - jaw[0][0], y = jaw[1][1] - jaw[0][1];
@@ -85,7 +85,7 @@ carom_mouth carom_mouth_of(const carom_table *table, int index) {
     }
   }
 
-  /* jaws farther off than three radii are those of other pockets */
+  /* jaws farther away than three radii belong to other pockets */
   mouth.jaws = least[1] < 9.0 * pocket->radius * pocket->radius;
   for (int side = 0; side < 2 && mouth.jaws; side++) {
     const carom_jaw *jaw = &table->jaw[nearest[side]];
@@ -116,10 +116,10 @@ bool carom_is_free_way(const carom_view *view, const carom_ball_state *balls, ui
   return true;
 }
 
-/* The part of the radii of a ball and a jaw together by which a ball that gets in may come nearer
- * to the jaw than to touch it. The way in is turned by `turn`, rad, from the middle of the mouth to
- * the farther jaw; below 0 to this one. The face behind the farther jaw lets a ball in that comes
- * aslant; `roundness` is the radius of the jaw in that of the ball. */
+/* The fraction of the sum of the radii of a ball and a jaw by which a ball that gets in may be
+ * nearer to the jaw than in touch. The way in is turned by `turn`, rad, from the middle of the
+ * mouth to the farther jaw; below 0 to this one. The face behind the farther jaw lets an oblique
+ * ball in; `roundness` is the radius of the jaw over the ball's. */
 static double overlap_at(bool corner, double turn, double roundness) {
   /* of side and corner pockets: straight in; per rad; and of round jaws more */
   static const double straight[2] = {0.19, 0.11}, nearer[2] = {0.28, 0.18};
@@ -129,7 +129,7 @@ static double overlap_at(bool corner, double turn, double roundness) {
   return fmin(straight[corner] - (farther[corner] + rounder[corner] * roundness) * turn, 0.6);
 }
 
-/* How far behind the tangent to the jaw at `side` a way by the rail beside it still leads into the
+/* How far behind the tangent to the jaw at `side` a way by the rail next to it still leads into the
  * pocket, rad; `tangent` is its angle to the rail. A rail returns 0.68 of the angle to it. */
 static double by_rail(const carom_mouth *mouth, int side, const double o[2], double R,
                       double tangent) {
@@ -211,7 +211,7 @@ bool carom_way_into(const carom_view *view, const double o[2], double radius, co
   if (g[0] < edge || g[1] < edge || g[0] > view->width - edge || g[1] > view->length - edge)
     return false;
 
-  /* Distance and cut; in hand they are those of an easy shot. */
+  /* Distance and cut; in hand, of an easy shot. */
   double d = 0.3, cut = 0.97;
   if (c != NULL) {
     const double dx = g[0] - c[0], dy = g[1] - c[1];
@@ -243,7 +243,7 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
   if (!carom_way_into(view, o, view->radius[k], in_hand ? NULL : c, &window, seat, &hit))
     return way;
 
-  /* Whether something is in the way takes longest, and is asked last. */
+  /* Whether something is in the way takes longest, and is checked last. */
   if (hit.chance > least &&
       carom_is_free_way(view, balls, in_play, o, mouth->centre, view->cue_ball, k,
                         view->radius[k]) &&

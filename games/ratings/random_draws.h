@@ -14,7 +14,7 @@ double carom_erf(double x);
 enum {
   DRAW_STROKES = 1, /* the order of the strokes of pots, */
   DRAW_SCAN,        /* those of the scan, */
-  DRAW_PLACES,      /* the places of a cue ball in hand, */
+  DRAW_PLACES,      /* the positions of a cue ball in hand, */
   DRAW_PLAYED,      /* the errors of a stroke that is played, outside plans, */
   DRAW_BREAKS,      /* the order of the strokes of a break, */
   DRAW_TABLES,      /* tables that are not known, */

@@ -21,7 +21,8 @@ __attribute__((noinline)) static double likely(const carom_score *row, int64_t c
   double l = -0.5 * (r - 400.0) * (r - 400.0) / 22500.0;
   *slope = (400.0 - r) / 22500.0;
   for (int64_t k = 0; k < count; k++) {
-    /* ln sigma is taken of the worse player, that of the better one by sigma(x) = e^x sigma(-x) */
+    /* ln sigma is computed for the worse player, and for the better one by sigma(x) = e^x
+     * sigma(-x) */
     const carom_score *s = &row[k];
     const double x = 0.01 * LN2 * (r - s->against), e = carom_exp(-fabs(x));
     const double worse = -fabs(x) - carom_log(1.0 + e), better = worse + fabs(x);
@@ -52,7 +53,7 @@ __attribute__((noinline)) static double edge(const carom_score *row, int64_t cou
   return outside;
 }
 
-/* The rating below which is a share of the mass, by densities that are linear in a cell. */
+/* The rating below which is a fraction of the mass, by densities that are linear in a cell. */
 static double below(const double f[2 * CELLS + 1], double low, double cell, double mass) {
   int k = 0;
   for (double next; k < CELLS - 1; k++, mass -= next)

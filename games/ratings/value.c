@@ -111,7 +111,7 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
   carom_plan_features(view, balls, in_play, targets, pockets, seat, in_hand, NULL, x);
   const double p = carom_chance_next(view, x);
 
-  /* the visit, ball by ball: how likely it is to come so far, and what a miss there is worth */
+  /* the visit, ball by ball: how likely it is to get that far, and the value of a miss there */
   double worth = 0.0, so_far = 1.0, next = p;
   for (int n = left[0]; n > 0; n--) {
     int others = left[1];
@@ -172,8 +172,9 @@ static double share_of(const carom_view *view, const carom_rules_state *game,
   return share;
 }
 
-/* The chance of the seat that plans. The values of the games here know what each seat has left, and
- * no layout: they are asked behind the next stroke, which pots the likeliest ball or misses. */
+/* The chance of the seat that plans. The values of these games depend on what each seat has left,
+ * not on the layout: they are evaluated after the next stroke, which pots the likeliest ball or
+ * misses. */
 static double value_to_planner(const carom_view *view, const carom_rules_state *game,
                                const carom_ball_state *balls, uint32_t in_play, int seat,
                                bool in_hand) {

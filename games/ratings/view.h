@@ -94,11 +94,11 @@ carom_mouth carom_mouth_of(const carom_table *table, int pocket);
 /* Of a ball of radius R at o. */
 carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double R);
 /* The pot of ball k into a pocket by the player `seat`, 0 or 1; in_hand: the cue ball may be put
- * anywhere. A chance of at most `least` is told as 0. */
+ * anywhere. A chance of at most `least` is returned as 0. */
 carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                        int k, int pocket, int seat, bool in_hand, double least);
-/* The cue ball's contact with a ball that goes through a window: its place, half the range of its
- * directions there, rad, and the chance. */
+/* The cue ball's contact with a ball that goes through a window: its position, half the range of
+ * its directions there, rad, and the chance. */
 typedef struct carom_hit {
   double ghost[2], half, chance;
 } carom_hit;
@@ -111,11 +111,11 @@ bool carom_way_into(const carom_view *view, const double o[2], double radius, co
 bool carom_is_free_way(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                        const double p[2], const double q[2], int i, int j, double R);
 /* chances.c */
-/* What a chance to pot is made of, the numbers of learned.h: 1; view->log_error; the mean
- * of the best pots of the balls of `targets`; the best pot; that of the next best ball; whether one
+/* What a chance to pot is made of, the numbers of learned.h: 1; view->log_error; the mean of the
+ * best pots of the balls of `targets`; the best pot; the pot of the next best ball; whether one
  * ball is left; whether the cue ball is in hand. For later pots of a visit they are 1,
- * view->log_miss, 1 / the balls that are left then, and the mean; for the first after a turn of
- * the other those but the mean. each[k] becomes the best pot of ball k, where it is not NULL. */
+ * view->log_miss, 1 / the balls that are left then, and the mean; for the first after a turn of the
+ * other those but the mean. each[k] becomes the best pot of ball k, where it is not NULL. */
 enum { NEXT_NUMBERS = 7, LATER_NUMBERS = 4, FIRST_NUMBERS = 3 };
 void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                          uint32_t targets, uint32_t pockets, int seat, bool in_hand,
@@ -125,9 +125,10 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
 double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]);
 double carom_chance_later(const carom_view *view, int seat, double mean, int n);
 double carom_chance_first(const carom_view *view, int seat, int n);
-/* Whether games of these rules taught their chances, not those of others. */
+/* Whether the chances were learned from games with these rules, not from others. */
 bool carom_is_learned(const carom_view *view);
-/* The logarithm of the table's width in that of the racks that taught. */
+/* The logarithm of the table's width relative to the table of the racks from which the chances were
+ * learned. */
 double carom_log_size(const carom_view *view);
 /* The mean over the balls of a usual layout. */
 double carom_chance_usual(const carom_view *view);
@@ -151,8 +152,9 @@ static inline const carom_player *carom_opponent_of(const carom_plan_job *job,
 /* value.c */
 void carom_view_make(carom_view *view, const carom_plan_job *job,
                      const carom_plan_options *options);
-/* The chance that player `seat`, who is at the table, wins; alone: balls that he pots yet. In games
- * that each plays for itself, seat 0 is that of the view's rules, and seat 1 all others. */
+/* The chance that player `seat`, who is at the table, wins; alone: the expected number of balls
+ * that the player still pots. In games where each seat plays for itself, seat 0 is the seat of the
+ * view's rules, and seat 1 all others. */
 double carom_value_of(const carom_view *view, const carom_rules_state *game,
                       const carom_ball_state *balls, int seat, bool in_hand);
 uint32_t carom_in_play(const carom_ball_state *balls, int count);

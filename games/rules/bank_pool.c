@@ -1,12 +1,13 @@
 /* Bank pool: the rules of the BCA, under the general rules of the WPA.
  *
  * A ball counts that is called with its pocket and banked, as pot_kind.h has it: the cue ball meets
- * it first and directly, and it meets a cushion that is not beside the pocket before it falls. It
- * keeps the turn, and eight of them win. A kiss on the way does not spoil it, though most rules say
- * that it does. What falls otherwise comes back at the end of the visit, or when no other ball is
- * left. A foul costs one ball; who has none owes one; the third in a row loses. A ball that leaves
- * the table is no foul. After the break, which is called by nobody, who has potted plays on; if it
- * pots none and drives fewer than two balls to rails, the other may have it played again. */
+ * it first and directly, and it meets a cushion that is not next to the pocket before it falls. It
+ * keeps the turn, and eight of them win. A kiss on the way does not spoil it, although it does in
+ * most rules. What falls otherwise returns at the end of the visit, or when no other ball is left.
+ * A foul costs one ball; a player without a ball owes one; the third in a row loses. A ball that
+ * leaves the table is not a foul. After the break, which is called by nobody, who has potted plays
+ * on; if it pots none and drives fewer than two balls to rails, the other may have it played
+ * again. */
 #include "games.h"
 #include "pot_kind.h"
 #include "rules.h"
@@ -50,7 +51,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   turn.points = counts;
   const bool third = carom_is_third_foul(game, foul);
 
-  /* who plays, and what comes back: the ball that was made stays down */
+  /* who plays, and what returns: the ball that was made stays down */
   uint32_t stays = 0;
   if (counts)
     stays = carom_only(call.ball);

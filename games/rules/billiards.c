@@ -2,20 +2,20 @@
  * rules are from memory, as clubs tell them, and as a page of 1914 had them (Principal Rules in a
  * Nutshell, eaba.co.uk) where they have not changed since.
  *
- * Each player has a cue ball, and the red is that of both. A stroke makes 2 points by a cannon, 2
+ * Each player has a cue ball, and the red belongs to both. A stroke makes 2 points by a cannon, 2
  * or 3 by a winning hazard, of the other's ball or the red, and 2 or 3 by a losing hazard off the
  * ball that is met first; all of them add up. After a losing hazard the player is in hand, in the
  * D. The other's ball that falls stays off until its player plays it from the D, as at the
  * beginning.
  *
- * The red comes back to the Spot, else to the pyramid spot or the centre; behind two pots in a row
+ * The red returns to the Spot, else to the pyramid spot or the centre; behind two pots in a row
  * from the Spot, without another score, to the centre, else the pyramid spot or the Spot. At most
- * 15 strokes in a row score by hazards alone, and at most 75 by a cannon alone. Where the other's
- * ball was off before the first of 15, it then comes to the middle of the D, or the right corner of
- * it. A cue ball that rests against another is in hand: the red goes to the Spot, and the other's
- * ball to the centre. In hand, a ball in baulk may not be met before the cue ball has left baulk;
- * where no ball is out of baulk, a miss is no foul. A foul gives the other 2 points, and the choice
- * to have the balls placed as above.
+ * 15 strokes in a row score only by hazards, and at most 75 only by a cannon. Where the other's
+ * ball was off before the first of 15, it is then placed in the middle of the D, or at its right
+ * corner. A cue ball that rests against another is in hand: the red goes to the Spot, and the
+ * other's ball to the centre. In hand, a ball in baulk may not be met before the cue ball has left
+ * baulk; where no ball is out of baulk, a miss is not a foul. A foul gives the other 2 points, and
+ * the choice to have the balls placed as above.
  *
  * Games are played to a number of points. Left out are games by time, and the line that a break had
  * to cross every hundred points in some tournaments. A stroke counts as one hazard, also by two. */
@@ -24,8 +24,8 @@
 #include "table/marks.h"
 
 enum { RED = 2, BALLS = 3, HAZARDS_MOST = 15, CANNONS_MOST = 75, FOUL_POINTS = 2 };
-/* Words of state.user: hazards and cannons in a row; whether the red lies on the Spot, and its pots
- * from there in a row; whether the other's ball was off when the hazards began. */
+/* Integers of state.user: hazards and cannons in a row; whether the red is on the Spot, and its
+ * pots from there in a row; whether the other's ball was off when the hazards began. */
 enum { HAZARDS, CANNONS, ON_SPOT, RED_POTS, WAS_OFF };
 /* Spots of the rack of snooker. */
 enum { RIGHT_OF_D = 16, MIDDLE_OF_D = 18, CENTRE = 19, PYRAMID = 20, SPOT = 21 };
@@ -67,7 +67,7 @@ static int32_t foul_of(const carom_rules_state *game, const carom_facts *facts, 
   return (facts->jumped & 7) != 0 ? CAROM_FOUL_JUMP : CAROM_FOUL_NONE;
 }
 
-/* The score of a stroke, and the runs that it goes on with. Returns false beyond a limit. */
+/* The score of a stroke, and the runs that it continues with. Returns false beyond a limit. */
 static bool count_score(carom_rules_state *game, uint32_t in_play, const carom_facts *facts,
                         int32_t *score) {
   const uint32_t cue_ball = carom_only(cue_ball_of(game)), other = 3 & ~cue_ball;
@@ -177,7 +177,7 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
   if (turn->leave >= CAROM_LEAVE_ANYWHERE)
     balls[cue_ball].state.label = CAROM_BALL_POCKETED;
 
-  /* balls come back */
+  /* balls return */
   for (int k = 0; k < BALLS; k++)
     if (turn->spot >> k & 1)
       balls[k].state.label = CAROM_BALL_POCKETED;

@@ -3,11 +3,11 @@
  *
  * Each player has a cue ball, and the opening meets the red first (article 23). A point is a stroke
  * in which the cue ball meets both others (24): in three-cushion after three cushions (83), in
- * straight rail in any way (61). Balls that leave the table are a foul (41) and come back (28), and
+ * straight rail in any way (61). Balls that leave the table are a foul (41) and return (28), and
  * a player whose cue ball touches another ball may have balls spotted (27): in three-cushion each
  * of these balls on its spot, in straight rail all three as for the opening.
  *
- * Where the state asks for equal innings (29, as clubs tell it), a player who began and reaches the
+ * Where the state requires equal innings (29, as clubs tell it), a player who began and reaches the
  * target first gives the other one more inning, from the opening position of that player (23): who
  * reaches the target in it draws, and who misses loses. Without them the first who has the target
  * wins, as in all knock-out matches of the UMB (changes by its board, December 2019). So no match
@@ -21,8 +21,8 @@
  * agree): white and yellow are cue balls, and the opening meets the farther red first. A point is a
  * stroke that meets both reds. A stroke that meets no red or the other cue ball, a double hit and a
  * ball that leaves the table cost a point. The custom of a last point off three cushions is left
- * out. What the descriptions leave open, the place of the other cue ball at first and balls that
- * touch or come back, is as in straight rail. */
+ * out. What the descriptions leave open, the position of the other cue ball at first and balls that
+ * touch or return, is as in straight rail. */
 #include "games.h"
 #include "rules.h"
 #include "table/marks.h"
@@ -172,10 +172,10 @@ static carom_turn judge_four(carom_rules_state *game, uint32_t in_play, int cue_
   return turn;
 }
 
-/* ---- Balls that come back */
+/* ---- Balls that return */
 
-/* The spots of three-cushion: of the red the foot spot, of the cue ball of the player who comes to
- * the table the head spot, of the other one the centre. */
+/* The spots of three-cushion: for the red the foot spot, for the cue ball of the next player the
+ * head spot, for the other one the centre. */
 static void spot_of(const carom_table *table, int cue_ball, int ball, double place[2]) {
   place[0] = 0.5 * table->width;
   place[1] = 0.5 * table->length;
@@ -208,7 +208,7 @@ static int32_t may_spot(const carom_shot_ball *balls, int count, int cue_ball) {
   return CAROM_CHOICE_SPOT;
 }
 
-/* All balls go to the places of the opening of the player who comes to the table. */
+/* All balls go to the positions of the opening of the next player. */
 static void settle_rack(carom_rack_kind rack, carom_rules_state *game, const carom_table *table,
                         carom_shot_ball *balls, int count, carom_turn *turn) {
   const int cue_ball = cue_ball_of(game), count_of_balls = carom_rack_size(rack);
@@ -232,8 +232,8 @@ static void settle_rack(carom_rack_kind rack, carom_rules_state *game, const car
   game->may = may_spot(balls, count, cue_ball);
 }
 
-/* Balls that left the table come back; and where the player chose so, those that touch his cue
- * ball, with it. All come back for an equalizing inning, which alone is an opening here. */
+/* Balls that left the table return; and where the player chose so, those that touch his cue ball,
+ * with it. All return for an equalizing inning, which is the only opening here. */
 static void settle_one(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
                        int count, carom_turn *turn) {
   const int cue_ball = cue_ball_of(game);

@@ -1,16 +1,15 @@
 /* Cowboy: the rules of the BCA, as the New Mexico Billiards Association prints them, by their
  * titles; other printings agree, but for balls whose spots are taken.
  *
- * Scoring: up to 90 points, exactly, the balls 1, 3 and 5 that fall count their numbers, and two
- * or three balls that the cue ball meets count 1 or 2; from 90 to 100, exactly, only the latter.
- * The last point is the cue ball off the 1 alone into the pocket that is called with it. A
- * stroke that would pass 90 or 100 is a foul. Penalties: a foul costs the points of the visit.
- * Balls that fall or leave the table come back to their spots; a ball whose spot is taken stays
- * off until the end of a stroke that frees it. Where that is the 1, and the player has 100, all
- * stand as at first, with the cue ball in hand behind the head string. After a scratch it is
- * there too. Opening break: it meets the 3 first; else the other breaks, or has it repeated, or
- * plays on where the balls lie, as other printings have it. A stroke that scores needs no cushion:
- * the texts differ. */
+ * Scoring: up to 90 points, exactly, the balls 1, 3 and 5 that fall count their numbers, and two or
+ * three balls that the cue ball meets count 1 or 2; from 90 to 100, exactly, only the latter. The
+ * last point is made by the cue ball off only the 1 into the called pocket. A stroke that would
+ * pass 90 or 100 is a foul. Penalties: a foul costs the points of the visit. Balls that fall or
+ * leave the table return to their spots; a ball whose spot is taken stays off until the end of a
+ * stroke that frees it. If that is the 1, and the player has 100, all balls are placed as at first,
+ * with the cue ball in hand behind the head string. After a scratch it is there too. Opening break:
+ * it meets the 3 first; else the other breaks, or has it repeated, or plays on where the balls lie,
+ * as other printings have it. A stroke that scores needs no cushion: the texts differ. */
 #include "games.h"
 #include "rules.h"
 
@@ -74,7 +73,7 @@ static int32_t points_of(const carom_rules_state *game, const carom_facts *facts
   return points;
 }
 
-/* The last stroke: off the 1 alone into the pocket that is called. */
+/* The last stroke: off only the 1 into the called pocket. */
 static bool is_last(const carom_facts *facts, int cue_ball, carom_call call) {
   return facts->first[0] == ONE && count_hits(facts) == 1 && facts->off == 0 &&
          facts->down == UINT32_C(1) && call.ball == ONE && facts->pocket[cue_ball] == call.pocket &&

@@ -5,19 +5,19 @@
  * meets a ball of another seat first. A ball that falls without a foul keeps the turn, also one's
  * own, but for the last of them, behind which the turn ends. A seat without balls is out, and the
  * last one with a ball wins. A break pots a ball or drives four to cushions; else the next seat may
- * have a new rack, and break. After a foul, balls of others that fell come back, and one's own stay
+ * have a new rack, and break. After a foul, balls of others that fell return, and one's own stay
  * down. A foul also brings back a ball of each other seat, which may so be in again: that, and a
  * stroke that takes the last balls of all, are of descriptions on other pages, as of these rules
- * only the first half was at hand. A seat of which balls come back from the stroke gets no further
- * one. Where the last balls of all fall at once, each that lost its last one then gets it back,
- * and the same seat plays on. The rack is that of eight-ball; by the rules the 1 is in front, the 6
- * and the 11 in the corners, and the others anywhere. */
+ * only the first half was at hand. A seat of which balls return from the stroke gets no further
+ * one. Where the last balls of all fall at once, each that lost its last one then gets it back, and
+ * the same seat plays on. The rack is as in eight-ball; by the rules the 1 is in front, the 6 and
+ * the 11 in the corners, and the others anywhere. */
 #include "games.h"
 #include "rules.h"
 
 static const uint32_t object_balls = 0xfffe;
 
-/* The balls with which a seat begins, as target says how many; and those that it has left. */
+/* The balls with which a seat begins, as target reports how many; and those that it has left. */
 static uint32_t first_balls_of(const carom_rules_state *game, int seat) {
   const int64_t each = carom_min(carom_max(game->target, 1), 15);
   const uint64_t balls = (UINT64_C(1) << each) - 1;
@@ -49,7 +49,7 @@ static uint32_t give_back(carom_rules_state *game, uint32_t seats, uint32_t in_p
   return back;
 }
 
-/* A foul: the balls of others come back, and one more of those of whom none does. */
+/* A foul: the balls of others return, and one more for each seat without a returning ball. */
 static carom_turn judge_foul(carom_rules_state *game, uint32_t balls, const carom_facts *facts,
                              int32_t foul) {
   const int own = carom_seat_of(game);
@@ -103,7 +103,7 @@ static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed
 }
 
 /* A visit pots balls of others with a usual chance each, a guess. Behind it each seat wins by its
- * share of the balls, as if they fell in any order. */
+ * fraction of the balls, as if they fell in any order. */
 static double value(const carom_rules_state *game, const carom_ball_state *layout, int count,
                     int in_hand) {
   (void)layout, (void)count, (void)in_hand;

@@ -1,4 +1,5 @@
-/* The games by their rows, for programs that ask; and whether a state is one of a game. */
+/* The games by their rows, for programs that request them; and whether a state is valid for a
+ * game. */
 #include "games.h"
 
 #include <stddef.h>
@@ -34,7 +35,8 @@ static const struct {
 } games[] = {CAROM_GAMES(GAME)};
 #undef GAME
 
-/* Rows stand by their values, and each value has one: a value without a row does not compile. */
+/* Rows are indexed by their values, and each value has one: a value without a row does not
+ * compile. */
 #define GAME(NAME, ...) ROW_OF_##NAME,
 enum { CAROM_GAMES(GAME) };
 #undef GAME
@@ -148,8 +150,8 @@ carom_status carom_begin_seats(carom_rules_kind kind, int seats, carom_rules_sta
   return CAROM_OK;
 }
 
-/* Whether a game that has a member may stand so: carom games, and the breaks of others, may have no
- * target. */
+/* Whether this value of a member is allowed in a game: carom games, and the breaks of others, may
+ * have no target. */
 static bool may_be(carom_rules_kind kind, size_t member, int32_t value) {
   const bool optional =
       games[kind].rules->race == CAROM_RACE_ALONE || games[kind].rules->race == CAROM_RACE_SHARED;
@@ -164,7 +166,7 @@ const char *carom_rules_fault(carom_rules_kind kind, const carom_rules_state *st
                               const char **range) {
   if (!is_game(kind) || state == NULL || range == NULL)
     return NULL;
-  const int32_t *value = &state->opening; /* all members, one behind the other */
+  const int32_t *value = &state->opening; /* all members, consecutively */
   for (size_t k = 0; k < MEMBERS; k++)
     for (size_t i = 0; i < members[k].count; i++, value++) {
       const bool has = k == PLACE_OF_SEAT || (games[kind].members >> k & 1);

@@ -2,8 +2,8 @@
  * these rows.
  *
  * GAME(NAME, rules, word, text, BALLS, TABLE, RACK, last, OPENING, ANYWHERE, calls, members, may):
- * `rules` is the object that its file defines by CAROM_RULES_OBJECT, `members` are those of its
- * state, by the names of CAROM_ALL_MEMBERS of state_members.h, and carom_rules_about has the
+ * `rules` is the object that its file defines by CAROM_RULES_OBJECT, `members` are the members of
+ * its state, by the names of CAROM_ALL_MEMBERS of state_members.h, and carom_rules_about has the
  * rest. */
 #ifndef CAROM_PLAN_GAMES_H
 #define CAROM_PLAN_GAMES_H
@@ -76,7 +76,7 @@ carom_status carom_begin_seats(carom_rules_kind kind, int seats, carom_rules_sta
 
 /* Whether a game begins with a break. */
 bool carom_has_opening(carom_rules_kind kind);
-/* The largest handicap that a seat may have, and what the word of a seat counts. */
+/* The largest handicap that a seat may have, and what the integer of a seat counts. */
 int64_t carom_handicap_most(carom_rules_kind kind);
 int carom_usual_seats(carom_rules_kind kind);
 int64_t carom_seat_points(carom_rules_kind kind, uint64_t word);

@@ -1,12 +1,12 @@
 /* Killer: 2 to 8 seats, each for itself. No federation has rules of it; clubs and the descriptions
- * of their pages agree on these: each seat has three lives and plays one stroke in turn. A stroke
- * that pots no ball, or is a foul, costs a life, and the last seat with one wins. Any ball may be
- * met, and no cushion is needed. After a scratch the cue ball is in hand anywhere. A break without
- * a pot costs nothing, and the same seat plays again. When all balls are down, they are racked for
- * the next seat.
+ * of their pages agree on these: each seat has three lives and plays one stroke in rotation. A
+ * stroke that pots no ball, or is a foul, costs a life, and the last seat with one wins. Any ball
+ * may be met, and no cushion is needed. After a scratch the cue ball is in hand anywhere. A break
+ * without a pot costs nothing, and the same seat plays again. When all balls are down, they are
+ * racked for the next seat.
  *
  * Clubs differ: here a scratch costs one life, not two, and no ball gives a life back. Balls that
- * fall on a foul stay down, and those that left the table come back, on which no page speaks. */
+ * fall on a foul stay down, and those that left the table return, on which no page speaks. */
 #include "games.h"
 #include "rules.h"
 
@@ -47,7 +47,8 @@ static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed
 enum { LIVES_MOST = 16 };
 
 /* The lives that a seat has lost after some rounds, in each of which it loses one with the chance
- * `usual`, a guess. They are binomial: chance[i] is that of i lives, and of all the last. */
+ * `usual`, a guess. They are binomial: chance[i] is the chance of i lives, and the last one of
+ * all. */
 typedef struct lives_lost {
   double chance[LIVES_MOST + 1];
   int last;
@@ -69,8 +70,8 @@ static void play_round(lives_lost *lost) {
   }
 }
 
-/* The seat at the table plays first in each round, so that it wins if its last life goes in a round
- * after those of all others. */
+/* The seat at the table plays first in each round, so that it wins if it loses its last life in a
+ * later round than all others. */
 static double value(const carom_rules_state *game, const carom_ball_state *layout, int count,
                     int in_hand) {
   (void)layout, (void)count, (void)in_hand;

@@ -1,12 +1,11 @@
-/* One-pocket: the rules of OnePocket.org, which are those of the BCA, under the general rules of
- * the WPA.
+/* One-pocket: the rules of OnePocket.org, which the BCA uses, under the general rules of the WPA.
  *
  * Each player has one of the two pockets at the foot. A ball in it counts for him, whoever played,
- * and eight win. The turn goes on with a ball in one's own pocket. Balls that count for no one come
- * back at the end of the visit, or when no other is left. A foul costs one ball; who has none owes
- * one, and his next ball does not count. On a foul the own pocket does not count, nor any pocket
- * where the cue ball is gone. A third foul in a row loses; of two eighth balls that of the shooter
- * wins. */
+ * and eight win. The turn continues with a ball in one's own pocket. Balls that count for no one
+ * are spotted at the end of the visit, or when no other is left. A foul costs one ball; a player
+ * without a ball owes one, and the player's next ball does not count. On a foul the own pocket does
+ * not count, nor any pocket where the cue ball is gone. A third foul in a row loses; of two eighth
+ * balls the shooter's wins. */
 #include "games.h"
 #include "rules.h"
 

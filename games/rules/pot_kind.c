@@ -1,4 +1,4 @@
-/* What a stroke was, and the words for it: pot_kind.h has the order of precedence. */
+/* The kind of a stroke, and its name: pot_kind.h has the order of precedence. */
 #include "pot_kind.h"
 #include "platform/arithmetic.h"
 
@@ -76,7 +76,7 @@ const char *carom_plan_kind_name(carom_plan_kind kind) {
   return terms[kind].name;
 }
 
-/* ---- What a shot tells beside its pots */
+/* ---- What a shot shows in addition to its pots */
 
 bool carom_is_double_hit(const carom_facts *facts) {
   const bool is_repeated = facts->touches > 1 && (facts->pushed == 0 || facts->second_time > 0.0);

@@ -4,13 +4,13 @@
  * Any of the 16 balls may be struck, but for the opening, which strikes the yellow one from behind
  * the head string. Each ball that falls without a foul counts one and keeps the turn, also the
  * struck one after it met another (5.4, 5.5); eight win. A foul gives the other one point (6).
- * Balls that fall on a foul or leave the table come back to the foot spot, the struck one too, and
+ * Balls that fall on a foul or leave the table return to the foot spot, the struck one too, and
  * touch no other there. An opening that pots none drives two balls to cushions, else the other may
  * have the balls racked and break.
  *
  * Another stroke that pots none is legal where, behind the contact, balls meet two cushions, or one
- * and cross the middle of the table. This is the rule of two cushions, as clubs and magazines tell
- * section 20 of the General Rules; its text was not at hand. */
+ * and cross the middle of the table. This is the rule of two cushions, as clubs and magazines
+ * report section 20 of the General Rules; its text was not at hand. */
 #include "games.h"
 #include "rules.h"
 

@@ -1,9 +1,9 @@
-/* The referee: what one played stroke comes to. The shot is not played again: its facts and final
- * states are those of carom_shoot() or carom_record_play().
+/* The referee: the ruling of one played stroke. The shot is not played again: its facts and final
+ * states are from carom_shoot() or carom_record_play().
  *
  * judge() of the rules has the facts and the balls that were in play; a shot that ended in an error
- * and one that was passed have the facts of a stroke that met nothing. The layout is that of the
- * shot, or that before it where it is taken back; carom_turn_settle() then puts balls back, and may
+ * and one that was passed have the facts of a stroke that met nothing. The layout is the one after
+ * the shot, or before it if the shot is taken back; carom_turn_settle() then spots balls, and may
  * change the turn. A cue ball in hand is out of play until it is placed. */
 #include "rules.h"
 
@@ -32,7 +32,7 @@ static bool is_whole(const carom_plan_rules *rules, const carom_table *table,
   return shot == NULL || (shot->facts != NULL && shot->final != NULL);
 }
 
-/* The layout that the turn leaves, before balls come back; shot NULL: there is none. */
+/* The layout that the turn leaves, before balls return; shot NULL: there is none. */
 static void lay_out(const carom_shot_ball *balls, int count, const carom_shot *shot,
                     carom_ruling *ruling) {
   const bool taken_back = shot == NULL || ruling->turn.leave == CAROM_LEAVE_BEFORE;
@@ -56,7 +56,7 @@ static uint32_t moved_by_referee(const carom_shot_ball *balls, int count, const 
   return moved;
 }
 
-/* Whether the game goes on after a turn. */
+/* Whether the game continues after a turn. */
 static bool goes_on(const carom_turn *turn) {
   return turn->outcome < CAROM_TURN_WIN;
 }
@@ -115,7 +115,7 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
         rules->judge(&ruling->state, carom_on_table(balls, count), cue_ball, &ruling->facts, call);
   ruling->turn = carom_turn_seen(rules, &ruling->state, ruling->turn);
 
-  /* the layout, with balls that come back */
+  /* the layout, with balls that return */
   lay_out(balls, count, shot, ruling);
   carom_status status;
   if (spots)
@@ -137,8 +137,8 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
   return status;
 }
 
-/* What the next player may do besides a stroke, in words, each behind "; ". A cue ball that may be
- * placed in the D is in hand, which the leave says. */
+/* A text with what the next player may do in addition to a stroke, each after "; ". A cue ball that
+ * may be placed in the D is in hand, which the leave has. */
 static void write_choices(int32_t choices, carom_leave leave, char *text, size_t room) {
   size_t size = 0;
   text[0] = '\0';

@@ -2,7 +2,7 @@
  *
  * The cue ball meets the lowest ball first. Each ball that falls without a foul counts its number
  * and keeps the turn; 61 points win, and at 60 to 60 who potted the last ball. Balls that fall on a
- * foul or leave the table come back. A break pots a ball without a foul or drives four to cushions;
+ * foul or leave the table return. A break pots a ball without a foul or drives four to cushions;
  * else the other has the cue ball behind the head string, or a new rack. A foul ends the visit;
  * after a scratch the cue ball is behind the head string. The third foul in a row loses: of the
  * penalties the text at hand had only the summary. The two safeties in a row that it allows are not

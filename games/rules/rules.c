@@ -1,6 +1,6 @@
 /* Games as data: who may be met first, what a shot amounts to, how many balls are left. World
  * Standardized Rules of the WPA (2016), sections 2 and 3, with the simplifications that
- * carom_plan.h names. Games of points have files of their own. */
+ * carom_plan.h names. Games of points have their own files. */
 #include "rules.h"
 #include "games.h"
 
@@ -17,14 +17,14 @@ static carom_turn foul_for(int32_t why) {
 
 /* ---- Eight-ball */
 
-/* The balls of the player, of a table that is open those of both. */
+/* The balls of the player; on an open table, of both. */
 static uint32_t own_of(const carom_rules_state *game) {
   if ((uint32_t)game->group > STRIPES)
     return balls_of[OPEN];
   return balls_of[game->group];
 }
 
-/* Of a game that is not over. In blackball, free_ball says that the stroke is free. */
+/* Of a game that is not over. In blackball, free_ball means that the stroke is free. */
 static uint32_t eightball_targets(const carom_rules_state *game, uint32_t in_play) {
   const uint32_t group = in_play & own_of(game);
   if (game->opening != 0 || game->free_ball != 0)
@@ -64,15 +64,15 @@ static carom_turn give(carom_rules_state *game, carom_turn turn) {
   return carom_give(game, turn);
 }
 
-/* Whether the player may leave the cue ball where it lies: it is on the table. */
+/* Whether the player may leave the cue ball where it is: it is on the table. */
 static int32_t may_stay(const carom_facts *facts, int cue_ball) {
   if ((facts->down | facts->off) >> cue_ball & 1)
     return 0;
   return CAROM_CHOICE_STAY;
 }
 
-/* The turn after a foul in blackball: the cue ball comes in baulk or stays, balls that left the
- * table come back, and the next stroke is free. */
+/* The turn after a foul in blackball: the cue ball is placed in baulk or stays, balls that left the
+ * table return, and the next stroke is free. */
 static carom_turn free_stroke_for(carom_rules_state *game, const carom_facts *facts, int cue_ball,
                                   int32_t foul, int32_t choices) {
   game->free_ball = 1;
@@ -80,7 +80,7 @@ static carom_turn free_stroke_for(carom_rules_state *game, const carom_facts *fa
   return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_BAULK, foul, facts->off & 0xfffe, 0.0};
 }
 
-/* The break, by the WPA, 3.3: nothing is called, the eight comes back, and the table is open. */
+/* The break, by the WPA, 3.3: nothing is called, the eight returns, and the table is open. */
 static carom_turn eightball_break(carom_rules_state *game, const carom_facts *facts, int cue_ball,
                                   int32_t foul) {
   const uint32_t eight_gone = (facts->down | facts->off) & eight;
@@ -99,7 +99,7 @@ static carom_turn eightball_break(carom_rules_state *game, const carom_facts *fa
     return turn;
   }
 
-  /* a foul: the other has the cue ball behind the head string, or leaves it where it lies */
+  /* a foul: the other has the cue ball behind the head string, or leaves it where it is */
   if (foul != CAROM_FOUL_NONE) {
     turn.leave = CAROM_LEAVE_KITCHEN;
     game->may |= may_stay(facts, cue_ball);
@@ -164,7 +164,7 @@ static uint32_t eight_made(const eight_game *as, const carom_facts *facts, carom
 }
 
 /* The foul of a stroke. In blackball a ball that touches is not played towards, none is jumped, and
- * a ball of the other group may fall with one's own alone, or in a free stroke. */
+ * a ball of the other group may fall only together with an own ball, or in a free stroke. */
 static int32_t eight_foul_of(const eight_game *as, const carom_rules_state *game, uint32_t targets,
                              int cue_ball, const carom_facts *facts) {
   if (!as->free_strokes)
@@ -223,7 +223,7 @@ static carom_turn judge_eight(const eight_game *as, carom_rules_state *game, uin
   if (opening)
     return eightball_break(game, facts, cue_ball, foul);
 
-  /* an eight that left the table comes back in blackball */
+  /* an eight that left the table returns in blackball */
   uint32_t gone = facts->down;
   if (!as->free_strokes)
     gone |= facts->off;
@@ -303,10 +303,11 @@ static void blackball_settle(carom_rules_state *game, const carom_table *table,
 /* Blackball: the rules of the WPA, of 2005 by the titles of the sections 4 (play) and 5 (fouls),
  * and section 8 of those of 2025: the break (8.5), balls that touch, the fouls (8.13), and the
  * black, which loses on a foul or while a ball of the group remains after the stroke. A new rack
- * after a break that is a foul is of 2005; who asks for it breaks. A player who is snookered needs
- * no cushion (definition 11, 5g): balls alone hide others, the jaws of pockets do not. A ball is
- * jumped where the cue ball passes over a part of it before it meets any ball: so clubs that print
- * the English rules of eight-ball define the foul, and the WPA's words for it were not at hand. */
+ * after a break that is a foul is of 2005; the player who requests it breaks. A player who is
+ * snookered needs no cushion (definition 11, 5g): only balls hide others, the jaws of pockets do
+ * not. A ball is jumped where the cue ball passes over a part of it before it meets any ball: so
+ * clubs that print the English rules of eight-ball define the foul, and the WPA's definition was
+ * not at hand. */
 CAROM_RULES_OBJECT(carom_blackball) = {.on = eightball_on,
                                        .judge = blackball_judge,
                                        .left = eightball_left,
@@ -318,7 +319,7 @@ CAROM_RULES_OBJECT(carom_blackball) = {.on = eightball_on,
 
 /* Heyball: Rules of Heyball of the World Heyball Masters (2017, 2019), sections 4 to 13, in which
  * nothing is called; three fouls in a row are of the rules of the Chinese association. The break is
- * that of eight-ball. Where balls of both groups fall on an open table, it stays open: the texts at
+ * as in eight-ball. Where balls of both groups fall on an open table, it stays open: the texts at
  * hand do not settle it. */
 CAROM_RULES_OBJECT(carom_heyball) = {.on = eightball_on,
                                      .judge = heyball_judge,
@@ -391,7 +392,7 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
   if (passes)
     return carom_give(game, carom_pass);
 
-  /* the nine wins, or the highest ball of a game without it; it comes back after a foul or a
+  /* the nine wins, or the highest ball of a game without it; it returns after a foul or a
    * push-out */
   const uint32_t wins = carom_highest_of(in_play & 0x3fe);
   const int32_t foul =

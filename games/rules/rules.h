@@ -1,5 +1,5 @@
-/* What the games share: turns and sets of balls. A shot is judged by its facts alone; what depends
- * on places comes after, by settle(). */
+/* What the games share: turns and sets of balls. A shot is judged only by its facts; what depends
+ * on positions is done afterwards, by settle(). */
 #ifndef CAROM_PLAN_RULES_H
 #define CAROM_PLAN_RULES_H
 
@@ -49,8 +49,8 @@ uint32_t carom_on_table(const carom_shot_ball *balls, int count);
  * cue ball, where it is played away from, else the one that it meets; -1: none. */
 int carom_first_of(const carom_facts *facts, uint32_t choice);
 /* Balls behind the head string, which from there may not be met first before the cue ball has
- * crossed it (WPA 6.11), by the leave with which it came in hand; in English billiards balls in
- * baulk, from the D. As a set; 0 of a shot in which it has crossed the line. */
+ * crossed it (WPA 6.11), by the leave with which it was taken in hand; in English billiards balls
+ * in baulk, from the D. As a set; 0 of a shot in which it has crossed the line. */
 uint32_t carom_barred_from(const carom_plan_rules *rules, carom_leave leave,
                            const carom_facts *facts, const carom_table *table,
                            const carom_shot_ball *balls, int count);
@@ -88,7 +88,7 @@ static inline carom_turn carom_turn_seen(const carom_plan_rules *rules,
   return turn;
 }
 /* A turn that passes with a foul, or none. After a scratch the cue ball is in hand behind the head
- * string, else it is played from where it lies. */
+ * string, otherwise it is played from where it is. */
 carom_turn carom_pass_by(int32_t foul);
 /* The foul of a stroke is one more in a row; a stroke without one ends the row. Whether it is the
  * third, behind which a new row begins. */
@@ -96,7 +96,7 @@ bool carom_is_third_foul(carom_rules_state *game, bool foul);
 carom_rules_on carom_on_any;
 /* Whether a call is a choice after a break that the state allows: to have all balls of the set
  * racked and break from behind the head string, to have the other do so, or to leave the cue ball
- * where it lies. Then *turn is what comes of it. */
+ * where it is. *turn is then the result. */
 bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t object_balls,
                        carom_turn *turn);
 
@@ -110,20 +110,20 @@ static inline void carom_add(int32_t *sum, int more) {
 int32_t carom_rotation_foul_of(const carom_facts *facts, uint32_t targets, int cue_ball,
                                bool opening, bool pushes);
 carom_turn carom_give_hand(carom_rules_state *game, int32_t foul, uint32_t spot);
-/* Whether a break pots or drives to the head string fewer balls than the state asks for: by the
+/* Whether a break pots or drives to the head string fewer balls than the state requires: by the
  * three-point rule (WPA, regulation 18) three. Then the other may hand the table back, without a
  * push-out; this is read from practice, as only paragraph 1 of the text was at hand. */
 bool carom_is_below_target(const carom_rules_state *game, const carom_facts *facts, uint32_t balls);
 
 /* Games in which eight balls win: a ball that counts, or is no more owed; one that a foul costs, or
- * is owed; what each player needs; and the balls that come back after a stroke. */
+ * is owed; what each player needs; and the balls that return after a stroke. */
 enum { CAROM_BALLS_THAT_WIN = 8 };
 void carom_count_ball(carom_rules_state *game, int seat);
 void carom_pay_ball(carom_rules_state *game);
 carom_rules_left carom_left_of_eight;
 uint32_t carom_back_of(const carom_rules_state *game, uint32_t down, uint32_t first);
 
-/* Puts balls back, as a rack where so many come for a break, or in straight pool. */
+/* Spots balls, as a rack if there are enough for a break, or in straight pool. */
 carom_rules_settle carom_settle_rack;
 
 #endif

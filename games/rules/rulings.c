@@ -153,7 +153,7 @@ uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball) {
   return set;
 }
 
-/* Of balls that are met at one instant it is assumed that the one that is on came first (WPA,
+/* Among balls that are met at one instant, a ball that is on is assumed to be the first (WPA,
  * regulations for referees, split hits). */
 carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
   if (facts == NULL)
@@ -184,16 +184,16 @@ const char *carom_foul_string(int foul) {
 
 /* ---- Balls that are put back */
 
-/* How far from a ball another one is put that comes beside it, m: a ball of pool is frozen to an
- * object ball (WPA 1.4); beside the cue ball, in snooker (WPBSA, section 3, spotting colours) and
- * in pyramid it must not touch, so it stands as near as balls that clearly do not. */
+/* How far from a ball another one is put next to it, m: a ball of pool is frozen to an object ball
+ * (WPA 1.4); next to the cue ball, in snooker (WPBSA, section 3, spotting colours) and in pyramid
+ * it must not touch, so it is put as near as clearly separate balls. */
 static double room_beside(carom_rack_kind kind, int neighbour) {
   if (kind != CAROM_RACK_SNOOKER && kind != CAROM_RACK_PYRAMID && neighbour != 0)
     return 0.0;
   return 2.0 * CAROM_RULES_TOUCH;
 }
 
-/* Where a ball at x on the long string stands behind another one on a side, y: their centres are
+/* Where a ball at x on the long string is behind another one on a side, y: their centres are
  * then at least the sum of the radii and a gap apart, by as little as doubles allow. */
 static double place_beside(const carom_shot_ball *ball, const carom_shot_ball *neighbour, double x,
                            int side, double gap) {
@@ -203,7 +203,7 @@ static double place_beside(const carom_shot_ball *ball, const carom_shot_ball *n
   return y + side * 4e-16 * (1.0 + fabs(y));
 }
 
-/* As near to a place as there is room, towards y = length, else away from it. */
+/* As near to a position as there is room, towards y = length, else away from it. */
 static carom_status put_near(carom_rack_kind kind, const carom_table *table, carom_shot_ball *balls,
                              int count, int ball, const double place[2]) {
   const double step = fmax(1e-4 * table->length, 1e-3);
@@ -238,7 +238,7 @@ carom_status carom_spot_ball(const carom_table *table, carom_shot_ball *balls, i
 
 carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
                                 carom_shot_ball *balls, int count, int ball) {
-  /* in pyramid the ball that opens comes back as the others do */
+  /* in pyramid the ball that opens returns as the others do */
   int spot_ball = ball;
   if (kind == CAROM_RACK_PYRAMID && ball == 0)
     spot_ball = 1;
@@ -263,10 +263,10 @@ carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
   return put_near(kind, table, balls, count, ball, home);
 }
 
-/* All balls of a rack stand as at first, and keep their kinds. The cue ball is in hand. */
+/* All balls of a rack are placed as at first, and keep their kinds. The cue ball is in hand. */
 static carom_status rack_again(carom_rack_kind rack, const carom_table *table,
                                carom_shot_ball *balls, int count) {
-  const double gap = 1e-4; /* that of a match */
+  const double gap = 1e-4; /* the rack of a match */
   carom_shot_ball racked[CAROM_BALLS_MOST];
   const carom_status error = carom_rack(rack, table, gap, 1, racked, CAROM_BALLS_MOST);
   if (error != CAROM_OK)
@@ -343,7 +343,7 @@ void carom_left_of_eight(const carom_rules_state *game, uint32_t in_play, int32_
   }
 }
 
-/* The balls that come back: as many as are down and count for no one, those of `first` before
+/* The balls that return: as many as are down and count for no one, those of `first` before
  * others. The numbers of balls mean nothing in this game. */
 uint32_t carom_back_of(const carom_rules_state *game, uint32_t down, uint32_t first) {
   const int64_t counted = (int64_t)game->score[0] + game->score[1];

@@ -3,8 +3,8 @@
  *
  * The directions in which the cue ball meets a ball lie between the two that graze its edges.
  * Another ball hides those in which it would be met before. In snooker both edges must be free, in
- * blackball any part of the ball. Of the free directions the first and the last one graze an edge
- * of that ball or of another one, so only these are tried, and the one to its middle. */
+ * blackball any portion of the ball. Of the free directions the first and the last one graze an
+ * edge of that ball or of another one, so only these are tried, and the one to its middle. */
 #include "rules.h"
 
 #include <math.h>

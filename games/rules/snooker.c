@@ -1,13 +1,14 @@
 /* Snooker: the rules of the WPBSA and IBSF, sections 2 and 3.
  *
- * A red and a colour in turn, then the colours from the lowest on. A foul gives the other the value
- * of the ball on, or of the highest ball that it concerns, at least 4; he may let the offender play
- * on. A player who is snookered after a foul may name any ball for one on: a free ball. The first
- * pot or foul on the last black ends the frame, but for equal scores: then the black comes back,
- * and the other plays from the D; by the rules they draw lots. Who comes to the last black more
- * than its seven points ahead claims the frame. Who plays away from a ball on that touches the cue
- * ball has met it first. To meet a ball before the tip has left the cue ball is a push stroke, also
- * at the very edge of one that nearly touches, which the rules allow: facts do not tell it. */
+ * Reds and colours alternately, then the colours from the lowest on. A foul gives the other the
+ * value of the ball on, or of the highest ball that it concerns, at least 4; he may let the
+ * offender play on. A player who is snookered after a foul may name any ball for one on: a free
+ * ball. The first pot or foul on the last black ends the frame, but for equal scores: then the
+ * black returns, and the other plays from the D; by the rules they draw lots. A player who reaches
+ * the last black more than its seven points ahead claims the frame. Who plays away from a ball on
+ * that touches the cue ball has met it first. To meet a ball before the tip has left the cue ball
+ * is a push stroke, also at the very edge of a ball that nearly touches, which the rules allow:
+ * facts do not show it. */
 #include "games.h"
 #include "rules.h"
 #include "table/marks.h"
@@ -67,7 +68,7 @@ static int64_t lead_of(const carom_rules_state *game) {
   return (int64_t)game->score[0] - game->score[1];
 }
 
-/* Whether a striker with this lead claims the frame: the black alone is left, and its pot or a foul
+/* Whether a striker with this lead claims the frame: only the black is left, and its pot or a foul
  * on it makes fewer points and ends the frame. */
 static bool is_claimed(int64_t lead, uint32_t balls) {
   return balls == black && lead > MOST;
@@ -101,7 +102,7 @@ static double points(const carom_rules_state *game, uint32_t in_play, int ball) 
   return (double)on_table / pots;
 }
 
-/* The last black is gone: who has more has won; else it comes back. */
+/* The last black is gone: who has more has won; else it returns. */
 static carom_turn finish(const carom_rules_state *game, carom_turn turn) {
   turn.spot = 0;
   turn.leave = CAROM_LEAVE_AFTER;
@@ -195,7 +196,7 @@ static carom_turn judge_foul(carom_rules_state *game, uint32_t balls, int cost, 
   if (scratch)
     turn.leave = CAROM_LEAVE_D;
 
-  /* a black that comes back is a new beginning */
+  /* a black that returns is a new beginning */
   if (balls == black)
     return carom_end_turn(game, finish(game, turn));
   game->may = CAROM_CHOICE_PASS;
@@ -238,7 +239,8 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     return carom_give(game, turn);
   }
 
-  /* Reds count one each, and a free ball beside them as one; of others the ball on counts alone. */
+  /* Reds count one each, and a free ball potted with them as one; otherwise only the ball on
+   * counts. */
   const bool red = !colour && (targets & reds) != 0;
   int points = n.value;
   turn.spot = fell & colours;
@@ -282,7 +284,7 @@ static bool is_behind(const carom_shot_ball *balls, uint32_t targets, uint32_t o
   return true;
 }
 
-/* Whether the cue ball is snookered; in hand from all free places of the D: some are tried. */
+/* Whether the cue ball is snookered; in hand from all free positions of the D: some are tried. */
 static bool is_snookered(const carom_table *table, const carom_shot_ball *balls, uint32_t in_play,
                          uint32_t targets, uint32_t others, bool hand) {
   enum { STEPS = 6 };
@@ -304,7 +306,7 @@ static bool is_snookered(const carom_table *table, const carom_shot_ball *balls,
   return true;
 }
 
-/* Colours come back: first those whose own spots are free, then the others, the highest first. */
+/* Colours return: first those whose own spots are free, then the others, the highest first. */
 static void put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set) {
   for (int k = YELLOW; k <= BLACK; k++) {
     double spot[2];
@@ -328,7 +330,7 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
   const uint32_t targets = due_of(game, in_play);
   const bool hand = turn->leave == CAROM_LEAVE_D;
 
-  /* Behind the free ball, but for pink and black alone: a foul. */
+  /* Behind the free ball, except if only pink and black are left: a foul. */
   if (game->free_ball > 0 && game->free_ball <= BLACK) {
     const int free_ball = game->free_ball;
     game->free_ball = 0;
@@ -340,7 +342,7 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
     }
   }
 
-  /* A free ball; a black that came back gives none. */
+  /* A free ball; a respotted black gives none. */
   if (game->may & CAROM_CHOICE_PASS &&
       is_snookered(table, balls, in_play, targets, in_play & ~targets, hand))
     game->may |= CAROM_CHOICE_FREE_BALL;

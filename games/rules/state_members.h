@@ -15,7 +15,7 @@
   MEMBER(FREE_BALL, free_ball, 0, 21, "0 to 21")         \
   MEMBER(TARGET, target, 1, 1000000, "1 to 1000000")
 
-/* Members that came later. Their keys stand behind the others of a line, so that the hashes of
+/* Members that were added later. Their keys are behind the others of a line, so that the hashes of
  * older recordings stay. */
 #define CAROM_LATER_MEMBERS(MEMBER)        \
   MEMBER(INNINGS, innings, 0, 3, "0 to 3") \

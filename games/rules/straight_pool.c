@@ -1,7 +1,7 @@
 /* Straight pool, 14.1 continuous: World Standardized Rules of the WPA (2016), section 4.
  *
  * A called ball in its pocket keeps the turn; then it and all others that fell with it count one
- * each. What falls otherwise comes back. A foul costs one point, the third in a row 15 more and a
+ * each. What falls otherwise returns. A foul costs one point, the third in a row 15 more and a
  * new break. An opening break pots a called ball, or drives the cue ball and two others to
  * rails, as those that fall are; else it costs two points, and the other may have it played
  * again. */
@@ -44,7 +44,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if (passes)
     return carom_give(game, racked(game, CAROM_TURN_PASS, 0));
 
-  /* Fouls: what fell comes back. */
+  /* Fouls: what fell returns. */
   const int32_t foul = (int32_t)carom_foul_of(facts, balls, cue_ball);
   const bool called =
       foul == CAROM_FOUL_NONE && carom_is_called(facts, call) && (balls >> call.ball & 1);
@@ -83,7 +83,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
 
 /* ---- Racks */
 
-/* The places of the triangle, of which the first is its front. */
+/* The positions of the triangle, of which the first is its front. */
 static void places_of(const carom_table *table, double radius, double place[LAST_BALL][2]) {
   const double pitch = 2.0 * radius + 1e-4; /* the gap of carom's racks */
   double foot[2] = {0.0, 0.0};
@@ -95,7 +95,7 @@ static void places_of(const carom_table *table, double radius, double place[LAST
     }
 }
 
-/* Whether a ball at r is in the way of one at a place. */
+/* Whether a ball at r is in the way of one at a position. */
 static bool is_near(const double r[2], const double place[2], double radius) {
   return carom_square(r, place) < 4.0 * radius * radius;
 }
@@ -107,8 +107,8 @@ static bool is_in_rack(const carom_shot_ball *ball, double place[LAST_BALL][2]) 
   return in;
 }
 
-/* Puts balls of the set back on their spots, one after another: where one has no place, no other
- * has. */
+/* Spots balls of the set, one after another: if there is no room for one, there is none for the
+ * others. */
 static void spot_each(const carom_table *table, carom_shot_ball *balls, int count, uint32_t spot) {
   carom_status status = CAROM_OK;
   for (int k = 1; spot >> k != 0 && status == CAROM_OK; k++)
@@ -139,12 +139,13 @@ static void place_at_head(const carom_table *table, carom_shot_ball *balls, int 
   carom_place_ball(table, balls, count, ball, spot[0], spot[1], NULL);
 }
 
-/* Puts the balls of the set on the places of the triangle: all 15 as in eight-ball, with the eight
- * in the middle and unlike balls in the corners; 14 in their order, with the front one free. */
+/* Puts the balls of the set on the positions of the triangle: all 15 as in eight-ball, with the
+ * eight in the middle and unlike balls in the corners; 14 in their order, with the front one
+ * free. */
 static void rack_up(const carom_table *table, carom_shot_ball *balls, int count, uint32_t spot,
                     double place[LAST_BALL][2]) {
   static const int of_place[LAST_BALL] = {1, 9, 2, 10, 8, 3, 11, 7, 14, 4, 5, 13, 15, 6, 12};
-  int n = spot != object_balls; /* with 14 balls the front place stays free */
+  int n = spot != object_balls; /* with 14 balls the front position stays free */
   for (int k = 1; k <= LAST_BALL; k++) {
     int ball = k;
     if (spot == object_balls)
@@ -156,7 +157,7 @@ static void rack_up(const carom_table *table, carom_shot_ball *balls, int count,
   }
 }
 
-/* Whether balls that come back are racked: 14 or all 15 of them, in straight pool or as a break. */
+/* Whether balls that return are racked: 14 or all 15 of them, in straight pool or as a break. */
 static bool is_racked(const carom_rules_state *game, uint32_t spot, int count) {
   const bool racks = game->target > 0 || game->opening != 0;
   return racks && carom_count_of(spot) >= RACKED && count > LAST_BALL;

@@ -1,15 +1,15 @@
 /* Ten-ball: World Standardized Rules of the WPA (2016), section 9, with the general fouls of
- * section 6. The edition of 2025, chapter 6, rules the same but for its words on safeties.
+ * section 6. The edition of 2025, chapter 6, has the same rules, except its wording on safeties.
  *
  * The cue ball meets the lowest ball first (9). Ball and pocket are called, except on the break
  * (9.5). A called ball in its pocket keeps the turn, and what else falls stays down; the ten,
  * called as the last ball, wins (9.8). A ball that falls otherwise without a foul ends the visit,
  * and the other may hand the table back; this holds for a safety too (9.6, 9.7). A ten that falls
- * without winning or leaves the table comes back, and no other ball does (9.9). A break pots a
+ * without winning or leaves the table returns, and no other ball does (9.9). A break pots a
  * ball or drives four to cushions (9.3). The next player may push out, and then the other may hand
  * the table back (9.4). After a foul the cue ball is in hand (9.10), and the third in a row loses
- * (9.11). A break below the three points of regulation 18, where the state asks for them, may be
- * handed back. In a game without the ten the highest ball stands for it. */
+ * (9.11). A break below the three points of regulation 18, where the state requires them, may be
+ * handed back. In a game without the ten the highest ball replaces it. */
 #include "games.h"
 #include "rules.h"
 

@@ -1,4 +1,4 @@
-/* The words of a game, for programs that ask. */
+/* The names of a game's values, for programs that request them. */
 #include "words.h"
 
 #include "carom_match.h"

@@ -25,7 +25,7 @@
   WORD(FOUL, FOUL_NONE, "none", "")                                                                \
   WORD(FOUL, FOUL_CUE_BALL, "cue_ball", "the cue ball fell or left the table")                     \
   WORD(FOUL, FOUL_NO_BALL, "no_ball", "the cue ball met no ball")                                  \
-  WORD(FOUL, FOUL_FIRST, "first", "the cue ball met another ball first than one that is on")       \
+  WORD(FOUL, FOUL_FIRST, "first", "the cue ball first met a ball that is not on")                  \
   WORD(FOUL, FOUL_OFF, "off", "a ball left the table")                                             \
   WORD(FOUL, FOUL_CUSHION, "cushion",                                                              \
        "nothing fell, and nothing met a cushion after the first contact")                          \
@@ -35,7 +35,7 @@
   WORD(FOUL, FOUL_DOUBLE_HIT, "double_hit",                                                        \
        "the tip was still on the cue ball, or touched it again, as it met a ball")                 \
   WORD(FOUL, FOUL_JUMP, "jump", "the cue ball jumped over a ball")                                 \
-  /* what a player may decide besides strokes; the text is of the player */                        \
+  /* what a player may decide in addition to strokes; the text is of the player */                 \
   WORD(CHOICE, CHOICE_PASS, "pass", "may pass")                                                    \
   WORD(CHOICE, CHOICE_PUSH, "push", "may push out")                                                \
   WORD(CHOICE, CHOICE_FREE_BALL, "free_ball", "has a free ball")                                   \
@@ -51,33 +51,33 @@
   /* what a match waits for */                                                                     \
   WORD(PHASE, MATCH_NONE, "none", "the match has not begun")                                       \
   WORD(PHASE, MATCH_STROKE, "stroke", "a stroke, or a choice")                                     \
-  WORD(PHASE, MATCH_PLACE, "place", "a place of the cue ball in hand, or a choice")                \
+  WORD(PHASE, MATCH_PLACE, "place", "a position of the cue ball in hand, or a choice")             \
   WORD(PHASE, MATCH_MOVING, "moving", "the rest of a shot that was stopped")                       \
   WORD(PHASE, MATCH_OVER, "over", "nothing: the match is over")                                    \
-  /* the acts of a match besides strokes and places */                                             \
+  /* the acts of a match in addition to strokes and places */                                      \
   WORD(ACT, ACT_CHOOSE, "choose", "one of the choices")                                            \
   WORD(ACT, ACT_CALL, "call", "the ball and the pocket of the next stroke")                        \
-  WORD(ACT, ACT_CONCEDE, "concede", "the player gives the game to the opponent")                   \
+  WORD(ACT, ACT_CONCEDE, "concede", "the player concedes the game")                                \
   WORD(ACT, ACT_CLOCK, "clock", "the time for the stroke is over")                                 \
   WORD(ACT, ACT_EXTEND, "extend", "the player takes an extension of the time")                     \
   WORD(ACT, ACT_TIMEOUT, "timeout", "the player takes a timeout")                                  \
-  /* why an act was refused */                                                                     \
+  /* why an act was rejected */                                                                    \
   WORD(REFUSAL, REFUSED_NOT, "not", "")                                                            \
   WORD(REFUSAL, REFUSED_NOT_BEGUN, "not_begun", "the match has not begun")                         \
   WORD(REFUSAL, REFUSED_OVER, "over", "the match is over")                                         \
   WORD(REFUSAL, REFUSED_TURN, "turn", "another seat is at the table, or sent the line")            \
   WORD(REFUSAL, REFUSED_MOVING, "moving", "balls move")                                            \
-  WORD(REFUSAL, REFUSED_AT_REST, "at_rest", "no ball moves, so no shot goes on")                   \
+  WORD(REFUSAL, REFUSED_AT_REST, "at_rest", "no ball moves, so no shot can be continued")          \
   WORD(REFUSAL, REFUSED_IN_HAND, "in_hand", "the cue ball must be placed first")                   \
   WORD(REFUSAL, REFUSED_NO_HAND, "no_hand", "the cue ball is not in hand")                         \
-  WORD(REFUSAL, REFUSED_BOUNDS, "bounds", "the place is outside the bounds")                       \
+  WORD(REFUSAL, REFUSED_BOUNDS, "bounds", "the position is outside the bounds")                    \
   WORD(REFUSAL, REFUSED_OCCUPIED, "occupied", "a ball or a cushion is in the way")                 \
   WORD(REFUSAL, REFUSED_CHOICE, "choice", "the rules do not allow this choice now")                \
   WORD(REFUSAL, REFUSED_CALL, "call", "the game does not know this call, or the ball is not on")   \
-  WORD(REFUSAL, REFUSED_CUE_BALL, "cue_ball", "another ball than the cue ball would be struck")    \
+  WORD(REFUSAL, REFUSED_CUE_BALL, "cue_ball", "a ball other than the cue ball would be struck")    \
   WORD(REFUSAL, REFUSED_STROKE, "stroke", "the stroke cannot be played")                           \
-  WORD(REFUSAL, REFUSED_BEGIN, "begin", "a match cannot begin so")                                 \
-  WORD(REFUSAL, REFUSED_LINE, "line", "a line that was read is not by the rules")                  \
+  WORD(REFUSAL, REFUSED_BEGIN, "begin", "a match cannot begin in this way")                        \
+  WORD(REFUSAL, REFUSED_LINE, "line", "a line that was read breaks the rules")                     \
   WORD(REFUSAL, REFUSED_LIMIT, "limit", "the stroke is beyond the limits of the match")            \
   WORD(REFUSAL, REFUSED_TIME, "time", "no extension or timeout is left")                           \
   /* what a stroke is to leave */                                                                  \

@@ -1,24 +1,24 @@
-/* Aims at a pocket, by shots of the balls on the way alone, and at last by those of all balls.
+/* Aims at a pocket, by shots of only the balls on the way, and finally by shots of all balls.
  *
  * The way is a row of links: the cue ball meets rails or ball 1, which meets rails or ball 2, up to
  * the ball that is wanted, which meets rails. A direction phi of the cue does the first few of
- * them. Where it does all, the ball goes on to the pocket, and
+ * them. Where it does all, the ball continues to the pocket, and
  *
  *   e(phi) = psi(o) - the direction of v,
  *
  * v being its velocity just before anything ends this last piece: a jaw, a cushion, the pocket,
- * or rest. o is the place on the line of v that is as far from the pocket as the place of the
+ * or rest. o is the position on the line of v that is as far from the pocket as the position of the
  * last link. psi, of pots.c, is the middle of the directions from there that pass the jaws. So
  * a path may curve on its way.
  *
- * Directions that do most links are few: the range of phi is sampled, and shrinks to those, as
- * long as links are gained. Then e is continuous but for jumps; its roots are bracketed by
- * neighbours and halved. The samples are those of a sine, under which the cut at the first ball
- * changes in equal steps.
+ * Directions that do most links are few: the range of phi is sampled, and shrinks to those, as long
+ * as links are gained. Then e is continuous but for jumps; its roots are bracketed by neighbours
+ * and halved. The samples are spaced like a sine, under which the cut at the first ball changes in
+ * equal steps.
  *
  * A cue that the caller leaves to the stick has in each direction the least elevation of the stick,
  * so a root is the direction of the stroke that is played. That elevation jumps where the butt
- * comes over a cushion; where no other root is left, all directions have the greater elevation.
+ * passes over a cushion; where no other root is left, all directions have the greater elevation.
  *
  * A ball that runs along a rail, or is met right off one, has no root. Then directions are played,
  * and the middle of the widest range in which the ball falls is taken. */
@@ -34,7 +34,8 @@
 
 enum { LINKS = CAROM_VIA_MOST + 1, EVENTS = 96, SAMPLES = 180, HALVINGS = 48, SWEPT = 600 };
 static const carom_shot_options no_options;
-/* a part of the time since the start: a velocity before an event is taken so much earlier */
+/* a fraction of the time since the start: a velocity before an event is evaluated so much
+ * earlier */
 static const double just_before = 1e-6;
 /* rad: a root with more is a jump; neighbours that differ by more are none */
 static const double root_most = 1e-4, step_most = 1.0;
@@ -51,18 +52,18 @@ typedef struct way {
   carom_shot_options options;
   const carom_pocket *pocket;
   carom_mouth mouth;
-  const carom_shot_ball *layout; /* the whole layout, of `count` balls */
+  const carom_shot_ball *layout; /* the complete layout, of `count` balls */
   int count, balls, links;
   bool raised;                      /* the caller leaves the elevation to the stick */
   bool swept;                       /* the cue ball may touch a rail just before the first ball */
   carom_part link[LINKS];           /* balls and rails, as they are met */
   int ball[LINKS + 1];              /* indices in the layout */
-  carom_shot_ball alone[LINKS + 1]; /* the balls as a layout of their own */
-  carom_brief_event *events;        /* room for those of one shot */
+  carom_shot_ball alone[LINKS + 1]; /* the balls as their own layout */
+  carom_brief_event *events;        /* room for the events of one shot */
   double *jump;                     /* the greatest elevation at a jump of e, degrees */
 } way;
 
-/* How far a shot came on its way. */
+/* How far a shot got on its way. */
 typedef struct progress {
   int links;
   double first, last_contact,
@@ -198,7 +199,7 @@ static void states_at(const way *w, const carom_cue *cue, double time,
   carom_shoot(w->table, w->alone, w->balls, cue, &options, &shot);
 }
 
-/* How far the balls of the way come alone, and the time of their shot. */
+/* How far only the balls of the way get, and the time of their shot. */
 static progress alone(const way *w, const carom_cue *cue, double *time) {
   static const int indices[LINKS + 1] = {0, 1, 2, 3, 4, 5};
   carom_shot_options options = w->options;
@@ -239,7 +240,7 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
   const double *c = w->mouth.centre;
   const carom_ball_state *s = &states[w->balls - 1];
   states_at(w, &cue, p.last_contact, states);
-  /* a ball that lay still was met there, and starts from another place where contacts last */
+  /* a ball that lay still was met there, and starts from another position where contacts last */
   const bool lay = w->link[w->links - 1].kind == CAROM_PART_BALL;
   const double *from = lay ? w->alone[w->balls - 1].state.r : s->r;
   const double x = c[0] - from[0], y = c[1] - from[1], far = sqrt(x * x + y * y);
@@ -262,7 +263,7 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
   return p;
 }
 
-/* Whether a cushion that the ball met is beside the pocket. */
+/* Whether a cushion that the ball met is next to the pocket. */
 static bool is_beside(const way *w, const carom_brief_event *e) {
   const int pocket = (int)(w->pocket - w->table->pocket);
   if (e->type == CAROM_EVENT_JAW)
@@ -270,7 +271,7 @@ static bool is_beside(const way *w, const carom_brief_event *e) {
   return carom_is_beside(w->table, e->b, pocket);
 }
 
-/* What comes of a cue, of the whole layout. */
+/* The result of a cue, with the complete layout. */
 static carom_pot_outcome fate(const way *w, const carom_shot_ball *balls, int count,
                               const carom_cue *cue, carom_brief_event *contact) {
   carom_facts facts;
@@ -281,7 +282,7 @@ static carom_pot_outcome fate(const way *w, const carom_shot_ball *balls, int co
   const bool falls = facts.pocket[last] >= 0 && &w->table->pocket[facts.pocket[last]] == w->pocket;
   *contact = p.end;
 
-  /* After the last link it may touch what is beside the pocket, and nothing else. */
+  /* After the last link it may touch what is next to the pocket, and nothing else. */
   const int type = p.end.type;
   const bool done = p.links == w->links, ends_free = type == 0 || type == CAROM_EVENT_POCKET;
   const bool at_cushion = type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW;
@@ -364,7 +365,7 @@ static double cut_of(const way *w, carom_cue cue) {
          degree;
 }
 
-/* What comes of a root; where the ball falls, with how much may be erred. */
+/* The result of a root; if the ball falls, with the margins of error. */
 static void judge(const way *w, const carom_shot_ball *balls, int count, const carom_cue *root,
                   double half, carom_pot *pot, carom_cue *cue) {
   cue->phi = carom_turned(root->phi);
@@ -403,10 +404,10 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
     const bool roots = best == w->links;
     double low = 0.0, high = 0.0, last = mid - wide, previous = (double)NAN;
     int most = -1;
-    bool short_of = true; /* whether all that do most come to rest */
+    bool short_of = true; /* whether all that do most stop */
     progress at_rest = {0};
 
-    /* directions at the places of a sine, from one end of the range to the other */
+    /* directions at the positions of a sine, from one end of the range to the other */
     for (int k = 0; k <= SAMPLES; k++) {
       double sine, cosine, e, half, phi;
       carom_sincos(pi * k / (double)SAMPLES - 0.5 * pi, &sine, &cosine);
@@ -484,7 +485,7 @@ static void sweep(way *w, const carom_shot_ball *balls, int count, double mid, d
     c = *cue;
     c.phi = mid + wide * sine;
     c.theta = elevation_of(w, &c);
-    /* the whole layout where the balls of the way alone come so far */
+    /* the complete layout if only the balls of the way get so far */
     carom_cue single = c;
     single.ball = 0;
     const bool falls = alone(w, &single, &unused).links == w->links &&
@@ -516,8 +517,8 @@ static void sweep(way *w, const carom_shot_ball *balls, int count, double mid, d
 
 /* ---- The call */
 
-/* The links: those that the caller names in via[], and the ball that falls, which comes after the
- * last other ball where via[] does not name it. */
+/* The links: those that the caller names in via[], and the ball that falls, which follows the last
+ * other ball if via[] does not name it. */
 static void make_links(const carom_pot *pot, way *w) {
   int last = -1;
   bool named = false;
@@ -552,7 +553,7 @@ static bool is_there(const carom_shot_ball *balls, int count, int ball) {
          balls[ball].state.label != CAROM_BALL_OFF;
 }
 
-/* Takes the balls of the way out of the layout. False where one is not there, or comes twice. */
+/* Takes the balls of the way out of the layout. False if one is not there, or occurs twice. */
 static bool take_alone(const carom_shot_ball *balls, int count, way *w) {
   for (int k = 0; k < w->balls; k++) {
     if (!is_there(balls, count, w->ball[k]))
@@ -565,7 +566,7 @@ static bool take_alone(const carom_shot_ball *balls, int count, way *w) {
   return true;
 }
 
-/* The way as the caller asks for it; false where that cannot be. */
+/* The way as the caller requests it; false where that cannot be. */
 static bool way_of(const carom_table *table, const carom_shot_ball *balls, int count,
                    const carom_shot_options *options, const carom_pot *pot, int cue_ball, way *w) {
   if (pot->pocket < 0 || pot->pocket >= table->pockets || pot->vias < 0 ||
@@ -586,7 +587,8 @@ static bool way_of(const carom_table *table, const carom_shot_ball *balls, int c
   return list_balls(table, w) && take_alone(balls, count, w);
 }
 
-/* The place of the first ball, or its image in the rails before it, of which there are *rails. */
+/* The position of the first ball, or its image in the rails before it, of which there are
+ * *rails. */
 static void image_of_first(const way *w, double image[2], int *rails) {
   const carom_shot_ball *first = &w->alone[1];
   image[0] = first->state.r[0];
@@ -752,7 +754,7 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
     sweep(&w, balls, count, range.mid, half, pot, cue);
   }
 
-  /* whether the stick alone is in the way of all directions */
+  /* whether only the stick is in the way of all directions */
   along.phi = range.mid;
   if (w.raised && pot->outcome == CAROM_POT_NO_WAY) {
     const double least = stick_of(&w, along);

@@ -1,6 +1,6 @@
-/* A plan that may be stopped plays rounds: a whole plan of 100 shots, one of 200, of 400 and so on,
- * each with errors of its own. So whenever it is stopped it has the best stroke of a whole plan of
- * about half of its shots, which also joins the candidates of the next one. */
+/* A plan that may be stopped plays rounds: a complete plan of 100 shots, one of 200, of 400 and so
+ * on, each with its own errors. So whenever it is stopped it has the best stroke of a complete plan
+ * of about half of its shots, which is also a candidate of the next one. */
 #include "anytime.h"
 
 #include "platform/arithmetic.h"
@@ -47,7 +47,7 @@ bool carom_search_double(carom_search *search) {
     return true;
   }
 
-  /* one that was stopped tells the best so far */
+  /* a stopped plan reports the best so far */
   if (!better) {
     search->found[0] = search->best;
     search->count = carom_max(search->count, 1);

@@ -1,4 +1,4 @@
-/* Plans that may be stopped, which go on by rounds of twice as many shots. */
+/* Plans that may be stopped, which continue by rounds of twice as many shots. */
 #ifndef CAROM_PLAN_ANYTIME_H
 #define CAROM_PLAN_ANYTIME_H
 

@@ -1,6 +1,6 @@
-/* Candidates: direct pots, with six speeds and five places of the tip, aimed by shots of two balls
- * that stop at the contact; and strokes in all directions, of which those stay that meet a ball
- * first that is on. */
+/* Candidates: direct pots, with six speeds and five positions of the tip, aimed by shots of two
+ * balls that stop at the contact; and strokes in all directions, of which those stay that meet a
+ * ball first that is on. */
 #include "candidates.h"
 
 #include "miss.h"
@@ -31,7 +31,8 @@ static const double scan_tip[TIPS][2] = {
 static void bound(const carom_search *search, candidate *c) {
   const carom_player *player = &search->player;
   double most = player->speed_most;
-  if (player->growth > 0.0 && !search->breaks) /* who errs more by speed strikes calmly */
+  if (player->growth > 0.0 && !search->breaks) /* a player with larger errors of speed strikes
+                                                  calmly */
     most *= 0.5;
   c->speed = carom_within(c->speed, player->speed_least, fmax(most, player->speed_least));
   c->a = carom_within(c->a, -player->tip_most, player->tip_most);
@@ -143,7 +144,7 @@ static size_t aim_rows(const void *context, size_t first, size_t end) {
   return end;
 }
 
-/* Changes one number of a stroke, to more or to less: the speed, a place of the tip, or the
+/* Changes one number of a stroke, to more or to less: the speed, a position of the tip, or the
  * direction by one of two steps. */
 static void step_aside(candidate *c, int number, bool more) {
   enum { SPEED, SIDE, HEIGHT, DIRECTION };
@@ -171,7 +172,7 @@ static void move_aside(candidate *c, int side) {
   c->r[1] += offset[side][1];
 }
 
-/* Whether a stroke that is steered is beside one that was. */
+/* Whether a stroke that is steered is next to one that was. */
 static bool is_known(const carom_search *search, const candidate *c) {
   static const double apart = 0.3; /* degrees */
   for (int64_t k = 0; k < search->count; k++) {
@@ -183,10 +184,10 @@ static bool is_known(const carom_search *search, const candidate *c) {
   return false;
 }
 
-/* Strokes near the best `parents` ones, between those of the grid: one of speed, both places of the
- * tip and, where nothing is aimed, the direction changed at a time, and pots aimed anew. carom-lab
- * plan --racks 1000 --shots 1000 runs out 761 racks with them, 740 without; half of these steps,
- * and half as much again, could not be told from them. */
+/* Strokes near the best `parents` ones, between those of the grid: one of speed, both positions of
+ * the tip and, where nothing is aimed, the direction changed at a time, and pots aimed anew.
+ * carom-lab plan --racks 1000 --shots 1000 runs out 761 racks with them, 740 without; half of these
+ * steps, and 1.5 times them, could not be distinguished from them. */
 void carom_search_near(carom_search *search, int64_t parents) {
   enum { POT_WAYS = 6, WAYS = 10, PLACE_WAYS = 4 };
   const int64_t first = search->count;
@@ -292,7 +293,7 @@ void carom_search_aimed(carom_search *search) {
       carom_search_add(search, search->found[first + k]);
 }
 
-/* Breaks: the nearest balls that are on, full and a little beside their middle, hard, with the tip
+/* Breaks: the nearest balls that are on, full and a little off their middle, hard, with the tip
  * at three heights. Or thin ones, which leave the other little: the balls that lie farthest to the
  * sides of the rack, on their outer side, softly, with side. Up to `most` of these strokes, in an
  * order that is drawn. */
@@ -333,7 +334,7 @@ void carom_search_breaks(carom_search *search, int64_t most) {
       ball[index].outer = -1.0;
   }
 
-  /* strokes in an order that is drawn: a number stands for ball, side, speed and tip */
+  /* strokes in an order that is drawn: a number represents ball, side, speed and tip */
   int order[TARGETS * SIDES * SPEEDS * PLACES];
   const int strokes = balls * SIDES * SPEEDS * PLACES;
   draw_order(search, DRAW_BREAKS, order, strokes);
@@ -374,7 +375,7 @@ static double towards(const carom_search *search, uint64_t row) {
 
 /* Strokes in all directions, of which those stay that meet a ball first that is on. The directions
  * follow the golden ratio, so that however many are tried, they are spread evenly. With ball in
- * hand, where each place has few, every second one goes to a ball that is on: of 40 layouts of
+ * hand, where each position has few, every second one goes to a ball that is on: of 40 layouts of
  * nine-ball, plans of 2,000 shots and a player with errors of 2, the chosen strokes were worth
  * 0.595 with it, 0.572 without. */
 bool carom_search_scan(carom_search *search) {
@@ -403,7 +404,8 @@ bool carom_search_scan(carom_search *search) {
     const double *tip =
         scan_tip[(int)((double)TIPS * carom_uniform(search->options.seed, DRAW_SCAN, row, 1))];
     double drawn[2];
-    if (search->view.pockets == 0) { /* any place, since its side decides where cushions send it */
+    if (search->view.pockets == 0) { /* any position, since its side decides where cushions send
+                                        it */
       const double turned = 2.0 * pi * carom_uniform(search->options.seed, DRAW_SCAN, row, 2);
       const double far =
           search->player.tip_most * sqrt(carom_uniform(search->options.seed, DRAW_SCAN, row, 1));

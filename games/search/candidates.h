@@ -15,7 +15,7 @@ bool carom_search_scan(carom_search *search);
 void carom_search_scanned(carom_search *search);
 /* Makes strokes near the best `parents`. */
 void carom_search_near(carom_search *search, int64_t parents);
-/* Makes strokes of a break, in place of pots and scan. */
+/* Makes strokes of a break, instead of pots and scan. */
 void carom_search_breaks(carom_search *search, int64_t most);
 void carom_search_add(carom_search *search, carom_candidate c);
 

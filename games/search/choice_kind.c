@@ -1,5 +1,5 @@
-/* The kind of a choice: that of the first of its strokes, without errors and then with some, in
- * which the ball that is named falls. */
+/* The kind of a choice: the kind of the first of its strokes, without errors and then with some, in
+ * which the named ball falls. */
 #include "choice_kind.h"
 
 #include "pot_kind.h"

@@ -36,8 +36,8 @@ void carom_search_tables(carom_search *search, carom_drawn_table *room) {
     for (int n = 0; n < NUMBERS; n++)
       factor[n] = carom_exp(search->options.unsure * spread[n] * sign * z[n]);
 
-    /* the numbers of the balls; and those that a rail or a jaw has of its own, which are 0 where it
-     * has none */
+    /* the numbers of the balls; and the numbers of a rail or its own jaw, which are 0 if it has
+     * none */
     carom_drawn_table *drawn = &room[k];
     for (int ball = 0; ball < search->plays; ball++) {
       carom_ball_kind *kind = &drawn->kind[ball];

@@ -1,6 +1,6 @@
 /* Goals of a plan. A shot reaches its goal or not, so the mean worth of its strokes with errors is
  * the chance of the goal, and the search compares these chances as it compares chances to win.
- * Whether balls hide others is what sight.c says of straight lines. */
+ * sight.c determines whether balls hide others on straight lines. */
 #include "goals.h"
 
 #include "rules.h"
@@ -53,7 +53,7 @@ bool carom_goal_has_safeties(const carom_plan_job *job, const carom_plan_options
   return hides || options->safeties;
 }
 
-/* Whether no ball of `targets` can be hit, or `ball` alone is behind others. Apart, as its balls
+/* Whether no ball of `targets` can be hit, or only `ball` is behind others. Apart, as its balls
  * would take 10 KiB of the stack below a shot. */
 __attribute__((noinline)) static bool is_barred(const carom_search *search, uint32_t in_play,
                                                 uint32_t targets, const carom_ball_state *layout) {

@@ -4,12 +4,12 @@
 
 #include "search_state.h"
 
-/* Takes push-outs out of the candidates: rounds do not tell what they are worth. */
+/* Removes push-outs from the candidates: rounds do not determine their value. */
 void carom_leaves_collect(carom_search *search);
 /* Begins with the leaves of a plan whose rounds are over. False: it may not push out or pass. */
 bool carom_leaves_begin(carom_search *search);
 bool carom_leaves_ended(const carom_search *search);
-/* The plan from the next leave, which has not begun; NULL: it comes later, or none does. */
+/* The plan from the next leave, which has not begun; NULL: not yet, or no further one. */
 carom_search *carom_leaves_next(carom_search *search);
 /* Takes the value of that plan, which has ended. */
 void carom_leaves_take(carom_search *search);

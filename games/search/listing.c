@@ -1,5 +1,5 @@
-/* Choices. Shots that compare a stroke overestimate the one that they choose, so the chances that a
- * choice tells are those of fresh shots, whose errors have chosen nothing. */
+/* Choices. Shots that compare a stroke overestimate the one that they choose, so the reported
+ * chances of a choice come from fresh shots, which were not used to choose. */
 #include "listing.h"
 
 #include "choice_kind.h"
@@ -17,7 +17,7 @@ enum { SAFETIES = 6 }; /* that are played anew, of which the best is listed */
 /* A chance of fewer shots is none. */
 enum { TOLD_LEAST = 20 };
 
-/* What the shots of a candidate tell. */
+/* The results of the shots of a candidate. */
 typedef struct shot_chances {
   double value, error, keep, foul, lose;
 } shot_chances;
@@ -44,7 +44,7 @@ static shot_chances told_by(const carom_tally *t) {
 }
 
 /* The shots of a candidate. Fresh ones are few, so as many of those that chose as count `shots`
- * stand beside them. */
+ * are next to them. */
 static shot_chances told_of(const candidate *c) {
   static const double shots = 10.0;
   const shot_chances chose = told_by(&c->chose);
@@ -66,7 +66,7 @@ typedef struct named_pot {
   int ball, pocket, cushions;
 } named_pot;
 
-/* Luck alone names no pot: where most strokes with errors pot nothing, it is that of the shot
+/* Luck does not name a pot: if most strokes with errors pot nothing, the pot is the one of the shot
  * without errors. A break names none. */
 static named_pot pot_of(const candidate *c) {
   const bool often = told_of(c).keep >= 0.5;
@@ -126,7 +126,7 @@ carom_plan_stroke carom_search_choice(const carom_search *search, const candidat
   return choice;
 }
 
-/* Whether two choices have the same ball, pocket and kind; of safeties alone, also about the same
+/* Whether two choices have the same ball, pocket and kind; for safeties, also about the same
  * direction. */
 static bool is_same(const carom_search *search, const carom_plan_stroke *a,
                     const carom_plan_stroke *b) {
@@ -145,16 +145,16 @@ static bool has_same(const carom_search *search, const carom_plan_stroke *choice
   return false;
 }
 
-/* What a candidate tells, with its kind. */
+/* The result of a candidate, with its kind. */
 static carom_plan_stroke with_kind(carom_search *search, candidate *c) {
   carom_plan_stroke choice = carom_search_choice(search, c);
   choice.kind = carom_search_kind(search, c, &choice);
   return choice;
 }
 
-/* Whether a candidate is worth a place in the list. One that was not played tells nothing; one
- * without a ball is none to a player who is alone; and one that looks better than the best was
- * played too seldom. */
+/* Whether a candidate is worth a position in the list. A candidate that was not played has no
+ * result; a candidate without a ball is not listed for a single player; and a candidate that looks
+ * better than the best was played too seldom. */
 static bool is_listed(const carom_search *search, const candidate *c) {
   const candidate *best = &search->found[0];
   const bool alone = search->job.rules->race == CAROM_RACE_ALONE && !search->breaks;
@@ -235,7 +235,7 @@ static void sort_in(carom_plan_stroke *choices, int n, const carom_plan_stroke *
   choices[index] = *choice;
 }
 
-/* A first choice that was worth nothing in its fresh shots gives its place to one that was worth
+/* A first choice that was worth nothing in its fresh shots gives its position to one that was worth
  * something in its own: small plans of carom games chose strokes that make no point. */
 static void promote(carom_plan_stroke *first, carom_plan_stroke *second) {
   if (first->value > 0.0 || second->value <= 0.0)
@@ -262,8 +262,8 @@ int carom_search_give(carom_search *search, carom_plan_stroke *choices, int room
     sort_in(choice_list, n++, &choice);
   }
 
-  /* the best of each ball, pocket and kind; the best safety takes the last place at least, and a
-   * player who may pass is told so */
+  /* the best of each ball, pocket and kind; the best safety takes the last position at least, and a
+   * player who may pass is offered this */
   for (int k = 0; k < n; k++) {
     const bool safety = choice_list[k].kind == CAROM_PLAN_SAFETY;
     const bool is_close = choice_list[k].value >= choice_list[0].value - points_most ||

@@ -1,8 +1,8 @@
 /* Ways of a mirror: banks, kicks and combinations, which are steered before they are played.
  *
  * A ball leaves a cushion about as light leaves a mirror. So a bank is a pot into the image of the
- * pocket, and a kick one by the image of the cue ball. In a combination the first ball has to come
- * to the ghost of the second one, which is a window for it. Each of these ways has the chance of a
+ * pocket, and a kick one by the image of the cue ball. In a combination the first ball has to reach
+ * the ghost of the second one, which is a window for it. Each of these ways has the chance of a
  * direct pot of pots.c; the likeliest are tried. */
 #include "mirrors.h"
 #include "random_draws.h"
@@ -130,7 +130,7 @@ static void add_combinations(const carom_search *search, int falls, const carom_
   for (int k = 0; k < view->count; k++) {
     if (!(search->targets >> k & 1) || k == falls)
       continue;
-    /* the ball that drives it, in the place of the cue ball */
+    /* the ball that drives it, in the position of the cue ball */
     carom_hit hit;
     const double *driver = search->state[k].r;
     if (!carom_way_into(view, o, view->radius[falls], driver, window, 0, &hit) ||

@@ -99,7 +99,7 @@ static void compare(measure *s, const piece *w, int target, double miss) {
                            .piece = (int16_t)w->contacts};
 }
 
-/* The misses of the pockets that count, by a ball that comes near them. */
+/* The misses of the pockets that count, for a ball that passes near them. */
 static void miss_pockets(measure *s, const piece *w) {
   static const double farthest[2] = {0.3, 1.2},
                       beyond[2] = {0.12, 0.6}; /* m: from the line; behind its end */
@@ -202,7 +202,7 @@ static double miss_at(const carom_search *search, const candidate *c, const caro
   return (double)m.miss;
 }
 
-/* The slope of a miss, by the stroke beside it; infinite where that leaves the way. */
+/* The slope of a miss, by the stroke next to it; infinite where that leaves the way. */
 static float slope_of(const carom_search *search, const candidate *c, const carom_miss *m,
                       carom_trail *path) {
   const double slope = (miss_at(search, c, m, c->phi + step, path) - (double)m->miss) / step;

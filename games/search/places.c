@@ -1,4 +1,4 @@
-/* Places of a cue ball in hand. They and strokes are candidates of one race. */
+/* Positions of a cue ball in hand. They and strokes are candidates of one race. */
 #include "places.h"
 #include "random_draws.h"
 
@@ -9,8 +9,8 @@
 
 enum { PLACES = 120 }; /* that are tried */
 
-/* Where the cue ball may be: within the bounds of its leave, and those of the caller, low and high,
- * or NULL. False where there is no place: the range is empty, or has NaN. */
+/* Where the cue ball may be: within the bounds of its leave, and the caller's bounds, low and high,
+ * or NULL. False if there is no position: the range is empty, or contains NaN. */
 static bool find_range(carom_search *search, const double low[2], const double high[2]) {
   const carom_plan_job *job = &search->job;
   const double R = search->view.radius[search->view.cue_ball];
@@ -32,7 +32,7 @@ static bool find_range(carom_search *search, const double low[2], const double h
   return range->low[0] <= range->high[0] && range->low[1] <= range->high[1];
 }
 
-/* The place number k from which a ball that is on could be potted: 0.12 to 0.72 m from the ball,
+/* The position number k from which a ball that is on could be potted: 0.12 to 0.72 m from the ball,
  * and a cut of at most 50 degrees. Ball, pocket, cut and distance are drawn. False: the ball does
  * not get into that pocket. */
 static bool draw_place_of_pot(const carom_search *search, uint64_t k, double r[2]) {
@@ -52,7 +52,7 @@ static bool draw_place_of_pot(const carom_search *search, uint64_t k, double r[2
   if (!(window->half > 0.0))
     return false;
 
-  /* the place */
+  /* the position */
   double sine, cosine;
   carom_sincos(window->psi + (2.0 * u[2] - 1.0) * cut_most, &sine, &cosine);
   const double far = nearest + farther * u[3];
@@ -61,10 +61,10 @@ static bool draw_place_of_pot(const carom_search *search, uint64_t k, double r[2
   return true;
 }
 
-/* The place number k at random in the range. Every second one is a place of a pot, because few
- * places of the whole table are good ones: of 120 layouts of nine-ball, errors of 2 and plans of
- * 2,000 shots, the chosen strokes were worth 0.012 +- 0.007 more than with 60 places of the table,
- * and with other draws, of 98 of these layouts, 0.029 +- 0.008. */
+/* The position number k at random in the range. Every second one is a position of a pot, because
+ * few positions of the complete table are good ones: of 120 layouts of nine-ball, errors of 2 and
+ * plans of 2,000 shots, the chosen strokes were worth 0.012 +- 0.007 more than with 60 positions of
+ * the table, and with other draws, of 98 of these layouts, 0.029 +- 0.008. */
 static void draw_place(const carom_search *search, uint64_t k, double r[2]) {
   if (k % 2 == 1 && draw_place_of_pot(search, k, r))
     return;
@@ -76,7 +76,7 @@ static void draw_place(const carom_search *search, uint64_t k, double r[2]) {
 }
 
 enum { BREAK_PLACES = 6 };
-/* The place number k of a break: one of six across, where the range ends. */
+/* The position number k of a break: one of six across, where the range ends. */
 static void break_place(const carom_search *search, uint64_t k, double r[2]) {
   static const double across[BREAK_PLACES] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
   const carom_bounds *range = &search->range;
@@ -84,7 +84,7 @@ static void break_place(const carom_search *search, uint64_t k, double r[2]) {
   r[1] = range->high[1];
 }
 
-/* Puts the cue ball in hand on a place. */
+/* Puts the cue ball in hand on a position. */
 static bool place_in_hand(carom_search *search, const double r[2]) {
   const carom_plan_job *job = &search->job;
   return carom_is_within(&search->range, r[0], r[1]) &&
@@ -92,7 +92,7 @@ static bool place_in_hand(carom_search *search, const double r[2]) {
                           r[1], NULL) == CAROM_OK;
 }
 
-/* Sorts the place on which the cue ball is in among the best, by the value of the layout. */
+/* Sorts the position on which the cue ball is in among the best, by the value of the layout. */
 static void keep_place(carom_search *search, const double r[2]) {
   const int cue_ball = search->view.cue_ball;
   search->state[cue_ball] = search->hand[cue_ball].state;
@@ -106,7 +106,7 @@ static void keep_place(carom_search *search, const double r[2]) {
   search->best_place[index] = (carom_place_in_hand){{r[0], r[1]}, value};
 }
 
-/* Tries the next place. False: there is none. */
+/* Tries the next position. False: there is none. */
 static bool try_place(carom_search *search) {
   enum { COST = 30 }; /* events of a shot that take as long as a value */
   const uint64_t draws = search->breaks ? BREAK_PLACES : 50 * PLACES;

@@ -1,6 +1,6 @@
 /* The best shot of a layout, by playing many.
  *
- * 1. Pots: every direct pot whose chance is above 3 %, with six speeds and five places of the
+ * 1. Pots: every direct pot whose chance is above 3 %, with six speeds and five positions of the
  *    tip. The aim is solved by shots of two balls that stop at the contact: three fixed-point
  *    steps for throw, the squirt once for each tip.
  * 2. Scan: strokes in all directions. One that meets a ball first that is not on is stopped
@@ -8,12 +8,12 @@
  * 3. Each candidate is played once without errors. Its worth is 1 for a win, 0 for a loss, else
  *    the value of the layout that it leaves, to whoever plays next.
  * 4. Sequential halving (Z. Karnin, T. Koren, O. Somekh, ICML 2013): four rounds with equal
- *    shares of the shots. In each, the candidates that are left are played with errors, the same
+ *    fractions of the shots. In each, the candidates that are left are played with errors, the same
  *    errors for all; a quarter of them stays. In the third round strokes near the best one join,
  *    with another speed, tip or direction; where no pot is direct, after each round.
- * 5. The best is played again, with errors that have chosen nothing, which tell its chances.
+ * 5. The best is played again, with errors that were not used to choose, to estimate its chances.
  *
- * With ball in hand, candidates are made from several places, and race together.
+ * With ball in hand, candidates are made from several positions, and race together.
  *
  * A shot is a row, whose errors are a function of seed, round and number. Rows are computed by
  * threads and added up in their order, so no bit of a sum depends on threads. The rows of a stage
@@ -40,7 +40,7 @@
 
 typedef carom_candidate candidate;
 
-/* FIRST: of the first round of doubling; IN_HAND_LEAST: of a plan whose places race */
+/* FIRST: of the first round of doubling; IN_HAND_LEAST: of a plan whose positions race */
 enum { IN_HAND_LEAST = 600, FIRST = 100 };
 
 size_t carom_plan_memory(const carom_plan_options *options) {
@@ -91,7 +91,7 @@ uint64_t carom_fingerprint_of_job(const carom_plan_job *job) {
 }
 
 /* A player who thinks of nothing but potting believes in later pots, and that a turn which ends
- * before is lost. There is nothing to pot in a break, and another goal comes first. */
+ * before is lost. There is nothing to pot in a break, and another goal has priority. */
 static void think(carom_search *search) {
   /* the layout takes part in the draw, so that plans of one seed have the share in their mean */
   uint64_t layout = 1;
@@ -130,7 +130,7 @@ static void plan_here(void *context, carom_crew *crew) {
   search->ended = true;
 }
 
-/* First of all finds the places of a cue ball in hand. */
+/* First of all finds the positions of a cue ball in hand. */
 static void find_places(void *context, carom_crew *crew) {
   carom_search *search = context;
   search->crew = crew;
@@ -142,7 +142,7 @@ static void find_places(void *context, carom_crew *crew) {
   plan_here(context, crew);
 }
 
-/* Strokes that the caller gave, each with its share of the shots. */
+/* Strokes that the caller gave, each with its fraction of the shots. */
 static void try_all(void *context, carom_crew *crew) {
   carom_search *search = context;
   search->crew = crew;
@@ -227,7 +227,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   if (!carom_search_find_place(search, low, high))
     return CAROM_ERROR_OFF_TABLE;
 
-  /* with the cue ball on a place the layout can be checked */
+  /* with the cue ball on a position the layout can be checked */
   search->job.balls = search->hand;
   carom_search_put(search, search->best_place[0].r);
   status = carom_search_check(search, search->hand, true);

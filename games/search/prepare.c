@@ -43,7 +43,7 @@ static int64_t most_candidates(int64_t shots, double scan) {
          carom_min(shots, SCAN_MORE) + SPARE;
 }
 
-/* Rows of the largest stage; those of reasons are of one candidate. */
+/* Rows of the largest stage; the rows of reasons belong to one candidate. */
 static int64_t most_rows(int64_t shots, double scan) {
   return carom_max(shots + most_candidates(shots, scan), CAROM_WHY_STROKES);
 }
@@ -115,7 +115,7 @@ static bool good_rules(const carom_plan_rules *rules) {
          (uint32_t)rules->own_cue_balls <= 1 && CAROM_RESERVED_IS_ZERO(rules);
 }
 
-/* Checks what a job says of itself; the table and the balls are checked with the layout. */
+/* Checks the job itself; the table and the balls are checked with the layout. */
 static carom_status check_job(const carom_plan_job *job) {
   if (!carom_search_is_whole(job))
     return CAROM_ERROR_NULL;
@@ -129,8 +129,8 @@ static carom_status check_job(const carom_plan_job *job) {
   return CAROM_OK;
 }
 
-/* Takes a job, its options and its player. Shots have the caller's options but for when to stop,
- * which the plan says itself. */
+/* Takes a job, its options and its player. Shots have the caller's options except the stopping
+ * options, which the plan sets itself. */
 static void take_job(carom_search *search, const carom_plan_job *job) {
   search->job = *job;
   search->options = *carom_search_options(job->options);
@@ -163,7 +163,7 @@ static carom_status check_layout(carom_search *search, bool in_hand) {
   return CAROM_OK;
 }
 
-/* Candidates, outcomes and tables stand behind the plan in the caller's memory. */
+/* Candidates, outcomes and tables are behind the plan in the caller's memory. */
 static void share_memory(carom_search *search) {
   const int64_t shots = carom_search_shots(&search->options);
   const double scan = carom_scan_of(&search->options);
@@ -177,7 +177,7 @@ static void share_memory(carom_search *search) {
   search->drawn = NULL;
 }
 
-/* Whether the rack of a soft break is whole: each ball that is on touches two others. */
+/* Whether the rack of a soft break is intact: each ball that is on touches two others. */
 static bool is_packed(const carom_search *search) {
   enum { BALLS_LEAST = 10, NEIGHBOURS = 2 };
   static const double apart = 1e-3; /* m */
@@ -248,7 +248,7 @@ static carom_status begin(carom_search *search, const carom_plan_job *job, bool 
   if (status != CAROM_OK)
     return status;
 
-  /* The memory is as long as good options ask; no plan is in it from here on. */
+  /* The memory is as long as valid options require; no plan is in it from here on. */
   search->fingerprint = 0;
   if (job->count < 2 || job->count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;

@@ -4,11 +4,12 @@
 
 #include "search_state.h"
 
-/* The options of a caller, or those of NULL; whether they are good; and how many shots they ask. */
+/* The options of a caller, or the defaults for NULL; whether they are valid; and how many shots
+ * they request. */
 const carom_plan_options *carom_search_options(const carom_plan_options *options);
 carom_status carom_search_check_options(const carom_plan_options *o);
 int64_t carom_search_shots(const carom_plan_options *o);
-/* The share of the shots that the scan has. */
+/* The fraction of the shots that the scan has. */
 double carom_scan_of(const carom_plan_options *o);
 /* The bytes of a plan on a known table, which may search leaves; and those for its leaves, with
  * room for its trails, of which it has no use later. */

@@ -7,14 +7,15 @@
 typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 
-/* for each m/s, so that of strokes that are as good the softer one is chosen: of 120 layouts of
+/* for each m/s, so that among equally good strokes the softer one is chosen: of 120 layouts of
  * eight-ball and nine-ball, plans of 1,000 shots had 36 % of strokes above 3 m/s without it, 27 %
  * with 0.002, and were worth 0.755 and 0.757. On nine feet, values of nine-ball are so flat that
  * 0.002, and 0.03 for a foul, lost 319 of 600 games against the steeper values of before, where
  * 0.001 and 0.018 lost 281 */
 static const double softer = 0.001;
 
-/* With a goal: for a foul, and for coming near a place, where strokes reach the goal as often. */
+/* With a goal: for a foul, and for coming near a position, where strokes reach the goal as
+ * often. */
 static const double legal = 0.01, nearer = 0.1;
 
 static double merit_of(const carom_search *search, const candidate *c) {
@@ -51,8 +52,8 @@ static void name(candidate *c, const outcome *o) {
   c->cushions = o->cushions;
 }
 
-/* Where nothing is called, the pot that is named is the one that comes most often, by the vote of
- * R. S. Boyer and J S. Moore: with more than half of the pots, it is sure to be named. */
+/* Where nothing is called, the named pot is the most frequent one, by the vote of R. S. Boyer and J
+ * S. Moore: with more than half of the pots, it is sure to be named. */
 static void vote(candidate *c, const outcome *o) {
   if (o->ball < 0)
     return;
@@ -85,7 +86,7 @@ static int64_t next_gap(int64_t gap) {
 
 /* Sorts the first n candidates, by Shell's method, without memory. The order is total, so that it
  * does not matter how it is found. To sort half a million takes longer than a plan has to stop; a
- * sort that is stopped leaves the first in its place if that is the best. */
+ * sort that is stopped leaves the first in its position if that is the best. */
 void carom_search_sort(const carom_search *search, int64_t n) {
   candidate *c = search->found;
   for (int64_t gap = n / 2; gap > 0; gap = next_gap(gap))

@@ -17,7 +17,7 @@
 typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 
-/* Where the balls of a shot lie, and what comes of it. */
+/* The positions of the balls of a shot, and its result. */
 typedef struct shot_result {
   carom_facts facts;
   carom_ball_state final[CAROM_BALLS_MOST]; /* before the shot where its balls are drawn */
@@ -92,7 +92,7 @@ double carom_search_share(const carom_search *search, double points) {
   return carom_within(points / search->left, -1.0, 1.0);
 }
 
-/* The layout of the next stroke, by rules that ask where balls lie. Apart, as its balls would take
+/* The layout of the next stroke, for rules that depend on positions. Apart, as its balls would take
  * 10 KiB of the stack below a shot. */
 __attribute__((noinline)) static void settle(const carom_search *search, carom_rules_state *game,
                                              const candidate *c, carom_ball_state *final,
@@ -121,7 +121,7 @@ static bool is_good(const carom_search *search, const carom_facts *facts,
   return turn->outcome != CAROM_TURN_LOSE;
 }
 
-/* The call of a shot: that of the candidate with errors, and without them what the shot makes. */
+/* The call of a shot: with errors, the candidate's call; without, what the shot makes. */
 static carom_call call_for(const carom_search *search, const carom_facts *facts, const candidate *c,
                            bool errors) {
   if (c->kind == CAROM_PLAN_PUSH)
@@ -131,7 +131,7 @@ static carom_call call_for(const carom_search *search, const carom_facts *facts,
   return call_of(search, facts);
 }
 
-/* What an outcome tells of a turn and its call, without the worth. */
+/* What an outcome contains of a turn and its call, without the value. */
 static outcome outcome_of(const carom_facts *facts, carom_call call, const carom_turn *turn,
                           bool good) {
   outcome o = {.turn = (int8_t)(good ? CAROM_TURN_KEEP : turn->outcome),
@@ -149,7 +149,7 @@ static outcome outcome_of(const carom_facts *facts, carom_call call, const carom
   return o;
 }
 
-/* Whether a turn has a worth of its own, whatever the layout: it ends the game or the visit, or a
+/* Whether a turn has its own worth, whatever the layout: it ends the game or the visit, or a
  * shot that was stopped at a wrong ball or is in error has left no layout. */
 static bool has_worth(const carom_search *search, const carom_turn *turn, carom_status status,
                       double *worth) {
@@ -222,7 +222,7 @@ double carom_search_ruled(const carom_search *search, const carom_ruling *ruling
 static outcome judge(const carom_search *search, const carom_facts *facts, carom_ball_state *final,
                      carom_status status, const candidate *c, bool errors) {
   const carom_plan_rules *rules = search->job.rules;
-  if (status < 0) /* an error tells nothing: a foul */
+  if (status < 0) /* an error has no result: a foul */
     facts = &carom_no_facts;
   const carom_call call = call_for(search, facts, c, errors);
   carom_rules_state game = rules->state; /* rules change it as they judge */
@@ -252,7 +252,7 @@ bool carom_search_may_join(const carom_search *search, const outcome *o) {
   return carom_search_begins_well(search, o->first) && (passes || !search->only_safeties);
 }
 
-/* The balls in play of a layout become those of shots. */
+/* The balls in play of a layout become the balls of shots. */
 void carom_search_lay_out(carom_search *search, const carom_shot_ball *balls) {
   search->plays = 0;
   search->shot.first_of = 0;
@@ -276,7 +276,7 @@ static int32_t in_layout(const carom_search *search, int32_t ball) {
   return search->layout_ball[ball];
 }
 
-/* From the balls of a shot to those of the layout. */
+/* From the balls of a shot to the balls of the layout. */
 static void spread(const carom_search *search, shot_result *with) {
   carom_facts *f = &with->facts;
   const carom_facts of_shot = *f;

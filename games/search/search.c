@@ -73,7 +73,7 @@ static candidate gentle(const carom_search *search) {
                      .pocket = -1};
 }
 
-/* ---- The course of a search: each of these sets the next stage, and what comes after it */
+/* ---- The course of a search: each of these sets the next stage, and what follows it */
 
 /* Shots of the rounds: at least a third of all. */
 static int64_t left_for_rounds(const carom_search *search) {
@@ -97,7 +97,8 @@ static bool loses(const carom_search *search) {
   return lost > 0;
 }
 
-/* Plays the best again, by shots that choose nothing: its reported chances come from them. */
+/* Plays the best again, by shots that are not used to choose: its reported chances come from
+ * them. */
 static void replay(carom_search *search) {
   enum { SHARE = 10 };
   search->next = NEXT_ENDED;
@@ -135,7 +136,7 @@ static void next_leave(carom_search *search) {
   search->next = NEXT_SEARCH;
 }
 
-/* Goes on with the plan from a leave, whose time and slice are those of this one. */
+/* Continues the plan from a leave, with the time and slice of this plan. */
 static void search_leave(carom_search *search) {
   carom_search *leave = search->leave;
   leave->crew = search->crew;
@@ -222,7 +223,7 @@ static void look_again(carom_search *search) {
     return;
   }
 
-  /* it is played in the place of the best, with which it is compared then */
+  /* it is played in the position of the best, with which it is compared then */
   const candidate first = search->found[0];
   search->found[0] = search->found[search->better];
   search->found[search->better] = first;
@@ -341,9 +342,9 @@ static void scan(carom_search *search) {
   }
 }
 
-/* The share of the scan in the shots. A break has none; and where a direct pot is nearly sure, few
- * other strokes suffice. With a share of 0.1 there, plans of 300 shots ran out 247 of 400 racks of
- * eight-ball, without 217, in 0.71 of the time; of 1,000 shots as many with both. */
+/* The fraction of the scan in the shots. A break has no scan; and if a direct pot is nearly sure,
+ * few other strokes suffice. With a fraction of 0.1 there, plans of 300 shots ran out 247 of 400
+ * racks of eight-ball, without 217, in 0.71 of the time; of 1,000 shots as many with both. */
 static double scan_share(const carom_search *search) {
   static const double sure = 0.8, least = 0.1, saved = 120.0; /* shots */
   const double share = carom_scan_of(&search->options);
@@ -359,7 +360,7 @@ static double scan_share(const carom_search *search) {
   return fmax(share - saved / (double)search->shots, least);
 }
 
-/* The most pots, or strokes of a break, from a place. */
+/* The most pots, or strokes of a break, from a position. */
 static int64_t pots_of(const carom_search *search) {
   return (int64_t)((1.0 - search->share) * (double)search->shots / 4.0) /
          carom_max(search->raced, 1);
@@ -472,7 +473,7 @@ void carom_search_begin(carom_search *search, int64_t shots) {
   search->neighbours = -1;
   search->listed = 1;
 
-  /* the first place */
+  /* the first position */
   const int64_t raced = carom_max(shots / SHOTS_A_PLACE, PLACES_LEAST);
   search->raced = (int)carom_min(search->places, raced);
   search->place = -1;

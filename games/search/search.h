@@ -6,7 +6,7 @@
 
 /* Begins all stages with so many shots. */
 void carom_search_begin(carom_search *search, int64_t shots);
-/* Goes on with them. Returns whether the end is reached, where the best candidate is the first. */
+/* Continues them. Returns whether the end is reached, where the best candidate is the first. */
 bool carom_search_run(carom_search *search);
 /* The fingerprint of a job and of all that it points to but its memory. */
 uint64_t carom_fingerprint_of_job(const carom_plan_job *job);

@@ -1,7 +1,7 @@
-/* The state of a search for the best shot: all that its sources share. What they do stands in a
- * header of each. A source knows this file, coach.h and the headers that stand before its own, in
- * this order: goals.h, drawn_tables.h, rows.h, prepare.h, ranking.h, choice_kind.h, listing.h,
- * places.h, miss.h, candidates.h, mirrors.h, steer.h, leaves.h, search.h, anytime.h. */
+/* The state of a search for the best shot: all that its sources share. What they do is in a header
+ * of each. A source includes this file, coach.h and the headers before its own, in this order:
+ * goals.h, drawn_tables.h, rows.h, prepare.h, ranking.h, choice_kind.h, listing.h, places.h,
+ * miss.h, candidates.h, mirrors.h, steer.h, leaves.h, search.h, anytime.h. */
 #ifndef CAROM_PLAN_SEARCH_STATE_H
 #define CAROM_PLAN_SEARCH_STATE_H
 
@@ -20,10 +20,10 @@ enum { LISTED_MOST = 16 }; /* choices behind the best that are played anew */
 /* A chance to play on below which balls fall by luck. */
 static const double carom_luck = 0.1;
 
-/* What shots with errors came to. */
+/* The results of shots with errors. */
 typedef struct carom_tally {
   double sum, squares;      /* of the worths of the shots, and of their squares */
-  double near;              /* sum of how near they came to a goal that is a place */
+  double near;              /* sum of how near they were to a goal that is a position */
   int32_t seen;             /* number of shots */
   int32_t keep, foul, lose; /* shots by which the player keeps his turn, fouls, loses */
 } carom_tally;
@@ -36,9 +36,9 @@ typedef struct carom_miss {
   int16_t piece;       /* contacts of the ball before the piece of its way */
 } carom_miss;
 
-/* A stroke that may be chosen, and what its shots have told. */
+/* A stroke that may be chosen, and the results of its shots. */
 typedef struct carom_candidate {
-  double r[2];                    /* where the cue ball lies, m */
+  double r[2];                    /* the position of the cue ball, m */
   double speed, phi, theta, a, b; /* as in carom_cue */
   carom_tally chose;   /* the shots that compare it. Until there is one with errors, that without */
   carom_tally fresh;   /* and those with errors that have chosen nothing */
@@ -59,7 +59,7 @@ typedef struct carom_candidate {
   float leave_worth, leave_error; /* and what it is worth without a foul, with its error */
 } carom_candidate;
 
-/* What one shot tells. */
+/* The result of one shot. */
 typedef struct carom_outcome {
   double worth;      /* to the player, 0 to 1 */
   int8_t turn, foul; /* a carom_turn_outcome, KEEP for each good one, or 1 of a pot that was aimed;
@@ -68,13 +68,13 @@ typedef struct carom_outcome {
   int16_t cushions;    /* impacts of that ball on cushions */
   int8_t first;        /* the ball that was met first, or -1 */
   uint16_t events;     /* of the shot */
-  float near;          /* 1 on the place that is the goal, 0 from 1 m on */
+  float near;          /* 1 on the position that is the goal, 0 from 1 m on */
   carom_miss miss;     /* where the stage measures misses */
 } carom_outcome;
 
 /* Rows of a stage that measures misses, and the events of each that are kept. */
 enum { PATH_ROWS = 32, PATH_EVENTS = 40 };
-/* Room for a shot that is measured: a small stack has none. */
+/* Room for a shot that is measured: a small stack is not enough. */
 typedef struct carom_trail {
   carom_event event[PATH_EVENTS];
   carom_ball_state drawn[CAROM_BALLS_MOST];
@@ -111,7 +111,7 @@ typedef enum carom_search_next {
   NEXT_DUEL,   /* it sorts the few best, which were played against each other */
   NEXT_LOOK,   /* it compares another pot, which was played again, with the best */
   NEXT_LEAVE,  /* it searches the leaves of push-outs and of a pass, */
-  NEXT_SEARCH, /* each by a plan of its own, */
+  NEXT_SEARCH, /* each by its own plan, */
   NEXT_REPLAY, /* it takes the shots of the best that have chosen nothing, */
   NEXT_LIST,   /* it looks for other choices among the candidates, */
   NEXT_LISTED, /* and takes their shots that have chosen nothing */
@@ -124,13 +124,12 @@ typedef struct carom_pot_found {
   int ball, pocket;
 } carom_pot_found;
 
-/* A place of a cue ball in hand, and the value of the layout with it. */
+/* A position of a cue ball in hand, and the value of the layout with it. */
 typedef struct carom_place_in_hand {
   double r[2], value;
 } carom_place_in_hand;
 
-/* A table as it may be, where the player does not know it; the kinds are those of the balls in
- * play. */
+/* A table as it may be, if the player does not know it; with the kinds of the balls in play. */
 enum { TABLES = 32 };
 typedef struct carom_drawn_table {
   carom_table table;
@@ -138,9 +137,9 @@ typedef struct carom_drawn_table {
 } carom_drawn_table;
 
 enum { LEAVE_SHOTS = 100 }; /* of a plan from a leave */
-enum { LEAVES_TRIED = 64 }; /* push-outs whose places are compared */
+enum { LEAVES_TRIED = 64 }; /* push-outs whose positions are compared */
 
-/* A push-out or a pass, and what its searches have told. */
+/* A push-out or a pass, and the results of its searches. */
 typedef struct carom_handed_over {
   carom_candidate c;
   double place[2];       /* where the stroke without errors leaves the cue ball, m */
@@ -153,7 +152,7 @@ typedef struct carom_handed_over {
 struct carom_leaves {
   carom_handed_over item[LEAVES_TRIED + 1];
   int count;             /* of items */
-  int placed;            /* of them, whose places are found */
+  int placed;            /* of them, whose positions are found */
   bool is_spread;        /* the items are those that are searched; */
   bool is_again;         /* they are the best, and the pass */
   int index, draw, side; /* of the next search; side 0: the opponent plays */
@@ -170,14 +169,14 @@ struct carom_leaves {
  * stack. */
 struct carom_search {
   carom_crew *crew;   /* the threads that play its shots */
-  carom_plan_job job; /* with shot and options of its own */
+  carom_plan_job job; /* with its own shot and options */
   carom_shot_options shot;
   carom_plan_options options;
   carom_features features; /* of the table, for */
   carom_prepared layout;   /* all balls */
   carom_view view;
   carom_player player;
-  uint32_t in_play, targets;                /* balls in play; those of them that may be met first */
+  uint32_t in_play, targets;                /* balls in play; the ones that may be met first */
   uint32_t permissions;                     /* of the stroke: the bits CAROM_CHOICE_... */
   uint32_t pockets;                         /* that count */
   bool breaks;                              /* the stroke is a break */
@@ -193,20 +192,20 @@ struct carom_search {
   int64_t room;                             /* of outcomes */
   carom_ball_state state[CAROM_BALLS_MOST]; /* of the layout that is laid out */
   carom_shot_ball hand[CAROM_BALLS_MOST];   /* the layout with the cue ball in hand */
-  /* the balls in play, which alone take part in shots: which they are, and their set in shots
-   * of the balls that are on, where the first contact decides */
+  /* the balls in play, the only ones in shots: their indices, and the set of the balls that are on,
+   * by their indices in shots, if the first contact decides */
   carom_shot_ball played[CAROM_BALLS_MOST];
   int32_t plays, layout_ball[CAROM_BALLS_MOST], cue_ball;
   carom_pot_found pot[CAROM_BALLS_MOST * CAROM_POCKETS_MOST];
-  carom_brief_event event[128];                    /* of a stroke whose kind is asked */
+  carom_brief_event event[128];                    /* of a stroke whose kind is determined */
   carom_place_in_hand best_place[PLACES_MOST + 1]; /* the best first */
   carom_bounds range;                              /* where the cue ball in hand may be put */
   const carom_cue *cues;                           /* `tries` strokes of the caller, */
   carom_plan_stroke *choices;                      /* and the room for their choices */
-  int places, tries;                               /* places 0: the cue ball is not in hand */
+  int places, tries;                               /* `places` 0: the cue ball is not in hand */
   /* The state of a plan in slices between two calls. */
   uint64_t fingerprint;  /* of the job; 0: no plan */
-  carom_crew_caller *go; /* the function that goes on with it */
+  carom_crew_caller *go; /* the function that continues with it */
   bool ended;
   bool late;      /* its seconds are over */
   bool joins;     /* `best` is of a round of doubling, and joins the next one */
@@ -221,30 +220,30 @@ struct carom_search {
   int64_t shots;                 /* of all stages, about, */
   double share;                  /* of them that the scan has */
   carom_trail *path;             /* of the rows of a stage that measures misses */
-  carom_leaves *leaves;          /* in their place, after the rounds, */
+  carom_leaves *leaves;          /* instead of them, after the rounds, */
   carom_search *leave;           /* and the search from the one that is looked at */
   uint32_t deciding;             /* balls of the shot whose ways reach a goal */
   int cushions;                  /* of a point; -1: pots are the goals */
   int steered;                   /* stages of strokes that were steered */
-  int64_t scan, scan_end, tried; /* those of the scan; where its candidates end; tried so far */
+  int64_t scan, scan_end, tried; /* the scan's; where its candidates end; tried so far */
   int64_t better;                /* the candidate that is looked at again */
   int64_t entered;               /* candidates of that round from the one before, */
   int64_t neighbours;            /* and strokes near the best that join it; -1: none yet */
   int round, look, duels;        /* that have begun */
-  int place, raced;              /* from which candidates are made; how many places are tried */
-  int choices_most, listed;      /* choices that the caller has room for; that stand first */
+  int place, raced;              /* from which candidates are made; how many positions are tried */
+  int choices_most, listed;      /* choices that the caller has room for; that are first */
   carom_plan_stroke listing[LISTED_MOST]; /* the choices of the list while it is made */
-  int64_t examined;      /* candidates that have been asked whether they are listed */
-  uint64_t drawn_places; /* places of a cue ball in hand that have been drawn */
-  int tried_places;      /* and those of them that could be tried */
-  carom_candidate best;  /* of the rounds of doubling before */
+  int64_t examined;                       /* candidates that have been checked for the list */
+  uint64_t drawn_places;                  /* positions of a cue ball in hand that have been drawn */
+  int tried_places;                       /* and the ones that could be tried */
+  carom_candidate best;                   /* of the rounds of doubling before */
 };
 
 /* plan.c: prepares a job once for all that is played of it: its search, in the job's memory, from
  * which shots can be played. */
 carom_status carom_search_prepare(const carom_plan_job *job, bool in_hand, int choices,
                                   carom_search **prepared);
-/* Does a part of a search, `work`, with the threads that the options ask for. */
+/* Does a part of a search, `work`, with the threads that the options request. */
 void carom_search_with_crew(carom_search *search, carom_crew_caller *work);
 
 static inline bool carom_is_stopped(const carom_search *search) {

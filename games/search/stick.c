@@ -2,7 +2,7 @@
  *
  * In the vertical plane of the stick, with the origin in the cue ball's centre, the axis of a stick
  * that is raised by theta is where x sin(theta) + z cos(theta) = b R, x forward. A point that is D
- * behind, L beside the axis and h above the slate is below the axis by
+ * behind, L off the axis and h above the slate is below the axis by
  *
  *     b R + D sin(theta) - (h - R) cos(theta) >= q,   q^2 = r^2 - L^2,
  *
@@ -11,9 +11,9 @@
  *
  *     theta >= asin((q - b R) / A) - atan2(R - h, D).
  *
- * Of a rail and of a jaw the place that needs most is found by the golden section. The stick grows,
- * so that is a little behind the place below its axis, or far behind where the stick grows by more
- * than it rises. */
+ * Of a rail and of a jaw the position that needs most is found by the golden section. The stick
+ * grows, so that is a little behind the position below its axis, or far behind where the stick
+ * grows by more than it rises. */
 #include "stick.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
@@ -25,13 +25,13 @@
 /* m: a cue of usual make; its radius grows evenly from the tip on */
 static const double stick_end = 1.47, tip_radius = 0.0065, radius_growth = 0.0055;
 
-/* A stick, before it is raised: the cue ball's radius, the tip's place above its centre in radii,
+/* A stick, before it is raised: the cue ball's radius, the tip's height above its centre in radii,
  * and the direction in the plane of the table of the axis, with a point of it. */
 typedef struct stick {
   double R, b, u[2], origin[2];
 } stick;
 
-/* How far a place is beside the axis, and behind the cue ball. */
+/* How far a position is off the axis, and behind the cue ball. */
 static void seen_from(const stick *s, const double place[2], double *L, double *D) {
   const double x = place[0] - s->origin[0], y = place[1] - s->origin[1];
   *L = s->u[0] * y - s->u[1] * x;
@@ -60,12 +60,13 @@ static double radius_at(double D) {
   return tip_radius + radius_growth * D;
 }
 
-/* A nose: a line from a place on, or a circle of radius rho around that. */
+/* A nose: a line from a position on, or a circle of radius rho around that. */
 typedef struct nose {
   double L, D, across, along, rho, h;
 } nose;
 
-/* What a place of it needs: a share of the line, or a direction from the centre, 0 the front. */
+/* What a position of it needs: a fraction of the line, or a direction from the centre, 0 the
+ * front. */
 static double needed_at(const stick *axis, const nose *n, double place) {
   double sine = 0.0, cosine = 0.0;
   if (n->rho > 0.0)
@@ -75,13 +76,13 @@ static double needed_at(const stick *axis, const nose *n, double place) {
   return needed(axis, L, D, n->h, radius_at(D));
 }
 
-/* The most that places from low to high need, by the golden section. */
+/* The most that positions from low to high need, by the golden section. */
 static double most_between(const stick *axis, const nose *n, double low, double high) {
   enum { STEPS = 30 };
   const double golden = 0.6180339887498949;
   double place[2], theta[2];
   for (int step = -2; step < STEPS; step++) {
-    /* two places; then the worse one is an end, and a place comes on the other side */
+    /* two positions; then the worse one is an end, and a position is added on the other side */
     int next = step + 2;
     if (step >= 0) {
       next = theta[0] < theta[1];
@@ -112,7 +113,7 @@ static void keep_positive(double range[2], double value, double slope) {
     range[1] = carom_lesser(range[1], root);
 }
 
-/* What the part of a rail needs that is below the stick. */
+/* What the section of a rail below the stick needs. */
 static double over_rail(const stick *axis, const carom_rail *rail) {
   nose n = {.h = rail->height};
   double part[2] = {0.0, 1.0}, q[2];

@@ -1,4 +1,4 @@
-/* Aims at pockets: what is found falls, and what is refused does not. */
+/* Aims at pockets: what is found falls, and what is rejected does not. */
 #include "plan_support.h"
 
 enum { WAYS = 6, EVENTS = 200 };
@@ -106,7 +106,7 @@ TEST(aims) {
     ck_assert(pot.margin >= 0.0 && fabs(pot.cut) < 90.0 && pot.phi[0] < pot.phi[1]);
     try_bounds(&pot, &aimed, seed, &tries, &inside);
   }
-  /* beside the bounds a jaw may yet send the ball back, once in a thousand */
+  /* next to the bounds a jaw may yet send the ball back, once in a thousand */
   ck_assert_int_ge(inside, tries - 1 - tries / 1000);
   int good = 0, others = 0;
   for (int kind = 0; kind < WAYS; kind++) {
@@ -123,7 +123,7 @@ TEST(aims) {
 
 /* Balls in a row before a pocket without jaws: the margin is the half angle at which its circle is
  * seen from the last ball. The longest way has a ball and four before it; the first may touch the
- * cue ball. A stroke that is too weak tells which ball comes to rest. */
+ * cue ball. A stroke that is too weak reports which ball stops. */
 TEST(rows_before_a_pocket) {
   for (int others = 0; others <= CAROM_VIA_MOST; others++) {
     make_layout(1, 1);
@@ -154,7 +154,7 @@ TEST(rows_before_a_pocket) {
   }
 }
 
-/* Ways that cannot be are refused. */
+/* Ways that cannot be are rejected. */
 TEST(ways_that_cannot_be) {
   make_layout(test_seed(), 4);
   const carom_part ball = {CAROM_PART_BALL, 2}, rail = {CAROM_PART_RAIL, 0};

@@ -80,7 +80,7 @@ TEST(arguments_of_plans) {
   const double low[2] = {0.9, 0.9}, high[2] = {0.5, 2.0}, no[2] = {NAN, 0.0};
   ck_assert_int_eq(carom_plan_hand(&job, low, high, &best, 1, &found), CAROM_ERROR_OFF_TABLE);
   ck_assert_int_eq(carom_plan_hand(&job, no, NULL, &best, 1, &found), CAROM_ERROR_OFF_TABLE);
-  const double point[2] = {0.5, 0.6}; /* a range of one place */
+  const double point[2] = {0.5, 0.6}; /* a range of one position */
   expect_ok(carom_plan_hand(&job, point, point, &best, 1, &found));
   ck_assert(best.place[0] == point[0] && best.place[1] == point[1]);
   balls[0].state.v[0] = 1.0; /* in hand, it may move */

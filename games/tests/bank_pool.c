@@ -30,7 +30,7 @@ TEST(a_bank_is_planned) {
 }
 
 /* The ruling counts the balls whose kind is a bank, of strokes in all directions. Some balls rub
- * the rail beside their pocket, which is no bank. */
+ * the rail next to their pocket, which is no bank. */
 TEST(rulings_and_kinds_agree) {
   enum { DIRECTIONS = 18000, ROOM = 100 };
   const int count = lay_out(CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 0xf);

@@ -240,7 +240,7 @@ TEST(breaks) {
   }
 }
 
-/* Of a cue ball in hand behind the head string: a ball that lies there too is not met directly (WPA
+/* Of a cue ball in hand behind the head string: a ball that is there too is not met directly (WPA
  * 6.11), however easy it is. */
 TEST(ball_behind_the_head_string) {
   make_layout(1, 1);
@@ -264,8 +264,8 @@ TEST(ball_behind_the_head_string) {
   }
 }
 
-/* The leave says whether a stroke is from behind the head string, and a bound does not: an upper
- * bound on that string, or 1 um beside it, has one plan. The only target lies behind the string. */
+/* The leave reports whether a stroke is from behind the head string, and a bound does not: an upper
+ * bound on that string, or 1 um next to it, has one plan. The only target is behind the string. */
 TEST(leave_and_not_a_bound) {
   static const double places[][2] = {{0.6, 0.6}, {0.4, 0.35}, {0.9, 2.1}};
   make_layout(1, 1);
@@ -295,7 +295,8 @@ TEST(leave_and_not_a_bound) {
   edge_free(&memory);
 }
 
-/* Every leave bounds the place of a ball in hand, with the plan's place on or within its bounds. */
+/* Every leave bounds the position of a ball in hand, with the plan's place on or within its
+ * bounds. */
 TEST(bounds_of_every_leave) {
   static const double high[] = {1.0, 1.0, 1.0, 0.25, 0.2, 0.2}; /* of the length, from the head */
   make_layout(3, 4);
@@ -482,7 +483,7 @@ TEST(soft_openings) {
   }
 }
 
-/* A stroke that made no point in its fresh shots stands behind those that made one. */
+/* A stroke that made no point in its fresh shots is behind those that made one. */
 TEST(what_is_worth_nothing_is_not_first) {
   enum { SEEDS = 12, ROOM = 5 };
   int points = 0;

@@ -52,7 +52,7 @@ TEST(a_pot_is_explained) {
   ck_assert(why.misses < 0.2 && why.flawless_value == 1.0);
   ck_assert_int_eq(why.strokes, CAROM_WHY_STROKES);
 
-  /* the cushion of a kick is named, and its place lies at that rail */
+  /* the cushion of a kick is named, and its position is at that rail */
   carom_plan_stroke kick = {
       .kind = CAROM_PLAN_GIVEN, .ball = -1, .pocket = -1, .place = {0.5, 0.5}};
   kick.cue = cue;
@@ -68,7 +68,7 @@ TEST(a_pot_is_explained) {
   edge_free(&memory);
 }
 
-/* A list names a stroke that is meant to pass the turn, beside those that pot by luck. */
+/* A list names a stroke that is meant to pass the turn, as well as those that pot by luck. */
 TEST(lists_have_safeties) {
   enum { LAYOUTS = 15, LEAST = 13 };
   int lists = 0, lucky = 0;
@@ -251,7 +251,7 @@ TEST(the_best_break_wins_more_often) {
     ck_assert(isnan(c->cost) == (k > 0));
   }
 
-  /* at racks of another seed, beside a third of the speed */
+  /* at racks of another seed, compared with a third of the speed */
   carom_break_counts again = {0}, soft = {0};
   breaks.seed = 90000;
   cue.speed = 3.0;
@@ -264,7 +264,7 @@ TEST(the_best_break_wins_more_often) {
   const double spread = sqrt(choice[0].counts.win_squares - pow(choice[0].counts.wins, 2) / BREAKS);
   ck_assert(fabs(again.wins - choice[0].counts.wins) < 5.0 * 1.5 * spread);
 
-  /* without errors; and what is refused */
+  /* without errors; and what is rejected */
   player = carom_player_of(0.0);
   expect_ok(carom_break_best(&breaks, 16, choice, 1));
   ck_assert(choice[0].cost == 0.0 && choice[0].aim_cost == 0.0 && choice[0].tip_cost == 0.0);

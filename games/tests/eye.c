@@ -2,7 +2,7 @@
 #include "eye.h"
 #include "plan_support.h"
 
-/* Pushes ball k from its place in a direction until it touches something. */
+/* Pushes ball k from its position in a direction until it touches something. */
 static void push(int k, double phi) {
   const double from[2] = {balls[k].state.r[0], balls[k].state.r[1]};
   const double u[2] = {cos(phi * per_degree), sin(phi * per_degree)};

@@ -1,5 +1,5 @@
-/* What a game asks besides shots: whether a table is sound, whether a place is free, how balls
- * have turned, and names. */
+/* What a game asks in addition to shots: whether a table is sound, whether a position is free, how
+ * balls have turned, and names. */
 #include "carom_shot.h"
 #include "support.h"
 
@@ -51,7 +51,7 @@ static int lost_balls(const carom_table *t, double R, int rail, int shots, rando
 }
 
 /* The built-in tables are sound; a table without any one of their parts is found open exactly
- * where a ball can get out, and the hole is beside what is missing; a rail with the wrong side,
+ * where a ball can get out, and the hole is next to what is missing; a rail with the wrong side,
  * or a line that is not its own, is named. */
 TEST(tables_are_checked) {
   random_source r = {test_seed()};
@@ -119,10 +119,10 @@ TEST(tables_are_checked) {
   ck_assert(holes >= 60 && sides >= rails - 12);
 }
 
-/* A table is searched for a place in rings around the middle of its box, in tenths of the box up to
- * four. Each of these places is found where it is the only free one: four posts, so large that
- * they are nearly straight, close a room of 10 cm around it and cover all others. Without one of
- * the posts the room is open. */
+/* A table is searched for a position in rings around the middle of its box, in tenths of the box up
+ * to four. Each of these positions is found where it is the only free one: four posts, so large
+ * that they are nearly straight, close a room of 10 cm around it and cover all others. Without one
+ * of the posts the room is open. */
 TEST(the_only_free_place) {
   enum { HALF = 4 };
   static const double way[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
@@ -145,7 +145,7 @@ TEST(the_only_free_place) {
 
 /* ---- Ball in hand */
 
-/* A place is free exactly where carom_shot_check() has nothing against it, and what is in the
+/* A position is free exactly where carom_shot_check() has nothing against it, and what is in the
  * way is there. */
 TEST(places) {
   random_source r = {test_seed()};
@@ -206,14 +206,14 @@ TEST(places) {
     ck_assert_int_gt(seen[k], 20);
 }
 
-/* ---- Places on tables of one's own */
+/* ---- Positions on tables of one's own */
 
 /* Some times as fast as hypot(), of which floods take most of their time. */
 static double length(double x, double y) {
   return sqrt(x * x + y * y);
 }
 
-/* How far the surface of a ball at a place is from the next cushion. */
+/* How far the surface of a ball at a position is from the next cushion. */
 static double room_at(const carom_table *t, double R, double x, double y) {
   double room = INFINITY;
   for (int k = 0; k < t->rails; k++) {
@@ -229,7 +229,7 @@ static double room_at(const carom_table *t, double R, double x, double y) {
   return room;
 }
 
-/* How far a place is from the next pocket; negative inside. */
+/* How far a position is from the next pocket; negative inside. */
 static double off_pockets(const carom_table *t, double x, double y) {
   double off = INFINITY;
   for (int k = 0; k < t->pockets; k++)
@@ -242,7 +242,7 @@ enum { MOST_PLACES = 540 }; /* of a grid, along each side */
 static uint8_t reached[MOST_PLACES][MOST_PLACES];
 static const double margin = 0.3; /* m: of the grid, beyond the table */
 
-/* Finds the places of a grid to which a ball can be rolled from one of them, by flooding; n
+/* Finds the positions of a grid to which a ball can be rolled from one of them, by flooding; n
  * becomes their numbers. */
 static void flood(const carom_table *t, double R, double step, const double from[2], int n[2]) {
   static int queue[MOST_PLACES * MOST_PLACES];
@@ -269,7 +269,7 @@ static void flood(const carom_table *t, double R, double step, const double from
   }
 }
 
-/* Both ways to ask whether a ball may stand at a place. */
+/* Both ways to ask whether a ball may be at a position. */
 static void expect_place(const carom_table *t, double R, double x, double y, bool free_one) {
   carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
   const carom_status expected = free_one ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
@@ -280,7 +280,7 @@ static void expect_place(const carom_table *t, double R, double x, double y, boo
   ck_assert_int_eq(carom_shot_check(t, &ball, 1, NULL, NULL, NULL), expected);
 }
 
-/* A ball may stand at all places of a grid to which it can be rolled, and nowhere else. */
+/* A ball may be at all positions of a grid to which it can be rolled, and nowhere else. */
 static void expect_flooded(const carom_table *t, double R, double step, const double from[2]) {
   int n[2];
   flood(t, R, step, from, n);
@@ -292,7 +292,7 @@ static void expect_flooded(const carom_table *t, double R, double step, const do
     }
 }
 
-/* On the built-in tables a ball may stand at all places of a grid to which it can be rolled from
+/* On the built-in tables a ball may be at all positions of a grid to which it can be rolled from
  * the middle, and nowhere else: not behind a cushion, not in a pocket. */
 TEST(places_on_built_in_tables) {
   const double step = 0.016;
@@ -368,7 +368,7 @@ TEST(polygons_take_any_origin) {
   }
 }
 
-/* A polygon that is refused names the corner at fault, and a second one where there is. The other
+/* A polygon that is rejected names the corner at fault, and a second one where there is. The other
  * way round it has the same status, and its corners have other numbers. */
 TEST(faults_of_polygons) {
   enum { CORNERS = 4, NONE = -1 };
@@ -639,7 +639,7 @@ static void same_frames(const carom_shot_ball *balls, const carom_shot *shot, co
   }
 }
 
-/* However frames are cut, also where a shot goes on, where time goes back, jumps or runs back to
+/* However frames are cut, also where a shot continues, where time goes back, jumps or runs back to
  * the beginning, and where the memory is that of another shot's film. */
 TEST(frames) {
   static carom_shot_state state;
@@ -768,7 +768,7 @@ TEST(names) {
 }
 
 /* The cue ball jumps into three balls that touch each other: contacts that last, the slate and
- * cushions read the numbers that may stand for defaults. */
+ * cushions read the numbers that may represent defaults. */
 static void play_jump(const carom_table *t, const carom_ball_kind *kind,
                       const carom_shot_options *options, carom_game game, carom_ball_state *final) {
   carom_shot_ball balls[4];

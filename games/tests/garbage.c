@@ -1,7 +1,7 @@
-/* Garbage is refused. Every public function is called with arguments that are right, and then with
+/* Garbage is rejected. Every public function is called with arguments that are right, and then with
  * each of them wrong in turn: NULL, numbers that are none, counts and indices out of range. A
  * status says so; functions without one only have to return. Then numbers of structs: NaN and those
- * beside the range. The sanitizers' build looks for undefined behaviour.
+ * next to the range. The sanitizers' build looks for undefined behaviour.
  *
  * The list of functions is that of packaging/tests/abi-MINOR.expected, so that none is forgotten.
  * */
@@ -73,7 +73,7 @@ TEST(no_function_is_forgotten) {
 
 /* ---- Numbers of structs */
 
-/* Each number beyond its range, beside those of shot_input.c and bad_input.c. */
+/* Each number beyond its range, in addition to those of shot_input.c and bad_input.c. */
 TEST(numbers_of_plans_and_measures) {
   const carom_number *row;
   for (int k = 0; (row = carom_number_of(CAROM_PART_PLAN_OPTIONS, k)) != NULL; k++)

@@ -49,7 +49,7 @@ static bool is_seen(const carom_shot_ball *left, int k) {
   return false;
 }
 
-/* Whether a ruling has reached the goal, by the places of its balls. */
+/* Whether a ruling has reached the goal, by the positions of its balls. */
 static bool is_reached(const carom_ruling *ruling) {
   const carom_shot_ball *left = ruling->balls;
   const bool hides = goal.kind == CAROM_GOAL_HIDDEN || goal.kind == CAROM_GOAL_SNOOKER;
@@ -74,7 +74,7 @@ static bool is_reached(const carom_ruling *ruling) {
   return reached;
 }
 
-/* The share of a choice's strokes with other errors that reach the goal. */
+/* The fraction of a choice's strokes with other errors that reach the goal. */
 static double share_of(const carom_plan_stroke *choice) {
   enum { STROKES = 400 };
   int reached = 0;
@@ -135,7 +135,7 @@ TEST(only_safeties) {
   ck_assert_int_ge(listed, 18);
 }
 
-/* A goal that a layout or its rules do not have is refused. */
+/* A goal that a layout or its rules do not have is rejected. */
 TEST(goals_refused) {
   const carom_plan_goal wrong[] = {{.kind = 5},
                                    {.kind = CAROM_GOAL_SNOOKER, .ball = 0},

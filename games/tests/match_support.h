@@ -1,4 +1,4 @@
-/* What tests of matches share: a match, its recording, and acts that are refused. */
+/* What tests of matches share: a match, its recording, and acts that are rejected. */
 #ifndef CAROM_TESTS_MATCH_SUPPORT_H
 #define CAROM_TESTS_MATCH_SUPPORT_H
 
@@ -52,7 +52,7 @@ static inline void check_recording(const char *title) {
   ck_assert(reader.winner == match.winner && reader.record.hash == match.record.hash);
 }
 
-/* What an act that is refused may change. */
+/* What an act that is rejected may change. */
 static inline void forget_refusal(carom_match *target) {
   target->refusal = 0;
   target->size = target->due = 0;
@@ -60,7 +60,7 @@ static inline void forget_refusal(carom_match *target) {
   memset(target->text, 0, sizeof target->text);
 }
 
-/* An act was refused by this name, with these words, and has changed nothing since `before`. */
+/* An act was rejected by this name, with these words, and has changed nothing since `before`. */
 static inline void check_refusal(const char *title, carom_status status, const char *name,
                                  const char *words) {
   ck_assert_int_eq(status, CAROM_ERROR_ACT);

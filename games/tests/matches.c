@@ -1,4 +1,4 @@
-/* Matches: what is refused, and by which name; rulings with their sections; recordings that are
+/* Matches: what is rejected, and by which name; rulings with their sections; recordings that are
  * judged; and random matches by random acts over all games. */
 #include "match_support.h"
 
@@ -52,7 +52,7 @@ static void play_some(carom_rules_kind kind, uint64_t seed, int strokes) {
 }
 
 /* A match that is read again is the same; one of which any line is changed, left out or doubled is
- * refused, but for a file that ends behind a line, which goes on where it was cut off. */
+ * rejected, but for a file that ends behind a line, which continues where it was cut off. */
 TEST(recordings_are_judged) {
   for (int kind = 0; carom_rules_about_of((carom_rules_kind)kind) != NULL; kind++) {
     play_some((carom_rules_kind)kind, 11, 12);
@@ -90,7 +90,7 @@ TEST(recordings_are_judged) {
 }
 
 /* A file that was cut off behind a shot: the reader knows the ruling, has the lines that are
- * missing, and the other player goes on. */
+ * missing, and the other player continues. */
 TEST(cut_off_behind_a_shot) {
   play_some(CAROM_RULES_STRAIGHT, 3, 1);
   const char *shot = strstr(file, "{\"shot\"");
@@ -102,7 +102,7 @@ TEST(cut_off_behind_a_shot) {
 
 /* ---- Random matches */
 
-/* One random act, most of which are refused: with a name, and with nothing changed. */
+/* One random act, most of which are rejected: with a name, and with nothing changed. */
 static carom_status act(random_source *r, carom_rules_kind kind) {
   const int player = (int)match.record.player ^ (random_between(r, 0.0, 1.0) < 0.05);
   const carom_bounds *b = &match.bounds;

@@ -1,4 +1,4 @@
-/* Odds of matches beside all courses of a match, and ratings of players who are drawn. */
+/* Odds of matches, compared with all courses of a match, and ratings of players who are drawn. */
 #include "carom_coach.h"
 #include "carom_match.h"
 #include "support.h"

@@ -15,7 +15,7 @@ static void make_job(const carom_player *player) {
   job.memory = malloc(job.memory_size);
 }
 
-/* How many strokes of each seat the match weighed, and the opponent's error of aim as a share of
+/* How many strokes of each seat the match weighed, and the opponent's error of aim as a fraction of
  * that of a player whose errors are `scale`. */
 static double share_of(const carom_match *of, double scale) {
   const carom_player asks = carom_player_of(scale);

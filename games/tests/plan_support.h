@@ -27,7 +27,7 @@ static inline carom_status place_ball(int ball, double x, double y) {
   return carom_place_ball(&table, balls, BALLS, ball, x, y, NULL);
 }
 
-/* Balls of eight-ball at random places of which some are down; the seed is the layout's. */
+/* Balls of eight-ball at random positions of which some are down; the seed is the layout's. */
 static inline void make_layout(uint64_t seed, int in_play) {
   random_source r = {seed};
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);

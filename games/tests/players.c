@@ -169,8 +169,8 @@ TEST(strokes_err) {
   ck_assert(first[0].speed == 0.3 && first[1].speed == 9.0);
 }
 
-/* Ratings by games, beside sums over 2,000,001 ratings, by NumPy: none, few, half of the games won
- * or all or none, so many that the density is a needle; and what is refused. */
+/* Ratings by games, compared with sums over 2,000,001 ratings, by NumPy: none, few, half of the
+ * games won or all or none, so many that the density is a needle; and what is rejected. */
 TEST(rating_by_games) {
   static const struct {
     carom_score scores[2];

@@ -36,7 +36,7 @@ TEST(spots) {
   ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, BALLS), CAROM_ERROR_BALLS);
 }
 
-/* In pyramid the struck ball comes back to the foot spot as others do, and touches none there. */
+/* In pyramid the struck ball returns to the foot spot as others do, and touches none there. */
 TEST(spots_of_pyramid) {
   const int count = lay_out(CAROM_RACK_PYRAMID, CAROM_TABLE_PYRAMID, 4);
   const double foot[2] = {0.5 * table.width, 0.75 * table.length}, R = balls[0].kind.radius;

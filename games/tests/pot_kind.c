@@ -1,5 +1,5 @@
 /* What a stroke was: the kind of a pot by the order of precedence, the marks of a stroke, and the
- * terms. The shots are lists of events; whole shots are in ways.c and facts.c. */
+ * terms. The shots are lists of events; complete shots are in ways.c and facts.c. */
 #include "pot_kind.h"
 #include "plan_support.h"
 
@@ -25,7 +25,7 @@ static carom_brief_event event_of(double time, const char *word) {
 }
 
 /* The kind of a shot of these events, one a second; = is at the instant of the one before. What
- * the facts say of cushions stands in front: K a kick, R rail first, B the ball is banked. */
+ * the facts say of cushions is in front: K a kick, R rail first, B the ball is banked. */
 static int kind_of(const char *list) {
   carom_brief_event brief[EVENTS_MOST];
   carom_event events[EVENTS_MOST];
@@ -126,7 +126,7 @@ TEST(marks) {
   ck_assert_uint_eq(carom_stroke_marks(&f, 0), CAROM_MARK_LEGAL_BREAK);
 }
 
-/* Each kind has a word of its own, and each term beyond them a meaning. */
+/* Each kind has its own word, and each term beyond them a meaning. */
 TEST(terms_have_words) {
   int terms = 0;
   for (const carom_term *t; (t = carom_term_of(terms)) != NULL; terms++) {

@@ -1,5 +1,5 @@
 /* Reviews of strokes and drills of them: of a player with the errors of the job the costs have the
- * mean 0, and one who aims beside pays for misses. */
+ * mean 0, and one who aims off it pays for misses. */
 #include "carom_coach.h"
 #include "plan_support.h"
 
@@ -68,8 +68,8 @@ TEST(costs_have_no_mean_by_the_errors_of_the_player) {
   ck_assert(beside.miss > fair.miss + 3.0 && beside.kept < fair.kept - 7.0);
 }
 
-/* A player of the rating of a drill makes it in about half of other tries; and where the place cost
- * more than the miss, half of the pots end within the radius. */
+/* A player of the rating of a drill makes it in about half of other tries; and where the position
+ * cost more than the miss, half of the pots end within the radius. */
 TEST(drills_suit_the_rating) {
   lay_out_pot();
   carom_review review;
@@ -100,7 +100,7 @@ TEST(drills_suit_the_rating) {
   }
 }
 
-/* A stroke at no pocket has no aim, and games that cannot be reviewed are refused. */
+/* A stroke at no pocket has no aim, and games that cannot be reviewed are rejected. */
 TEST(strokes_without_a_pot_have_no_aim) {
   lay_out_pot();
   carom_cue away = aim_at_eight();

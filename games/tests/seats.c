@@ -56,7 +56,7 @@ TEST(partners_play_in_turn) {
     check_recording("partners");
   }
 
-  /* a stroke that keeps the table: the same seat goes on by visits, the partner by strokes */
+  /* a stroke that keeps the table: the same seat continues by visits, the partner by strokes */
   for (int64_t alternate = 0; alternate < 2; alternate++) {
     begin_seats(CAROM_RULES_POTTING, 4);
     seating.alternate = alternate;
@@ -178,10 +178,10 @@ TEST(own_rules_of_three_seats) {
   ck_assert(match.phase == CAROM_MATCH_OVER && match.winner == 1 + 1);
 }
 
-/* ---- Senders: each kind of cheat is refused in words, with nothing changed */
+/* ---- Senders: each kind of cheat is rejected in words, with nothing changed */
 
 TEST(what_another_seat_sends) {
-  static carom_match peer;
+  static carom_match peer, room;
   static const char *const what[] = {"place", "stroke", "concede", "clock", "call", "extend"};
   begin_seats(CAROM_RULES_EIGHTBALL, 4);
   setup.set = &(carom_set){.race = 2, .extensions = 1};
@@ -212,7 +212,7 @@ TEST(what_another_seat_sends) {
       ck_assert_msg(status == CAROM_OK, "%s: %s", what[k], peer.fault);
       before = reader;
       const size_t size = (size_t)(strchr(peer.text, '\n') + 1 - peer.text);
-      status = carom_match_read_from(&reader, &scratch, peer.text, size, seat);
+      status = carom_match_receive(&reader, &room, peer.text, size, seat);
       if (seat == 0) {
         ck_assert_msg(status == CAROM_OK, "%s: %s", what[k], reader.fault);
         continue;
@@ -237,7 +237,7 @@ TEST(what_a_stroke_may_be) {
                {"cue.end_mass must be at least 0.001 kg", {.end_mass = 1e-9}},
                {"cue.theta must be at most 20 degrees", {.theta = 45.0}},
                {"cue.tip_restitution must be at most 0.8", {.tip_restitution = 1.0}},
-               {"the stick must be that of seat 0", {.mass = 0.5}}};
+               {"stick and tip must be the same as for seat 0", {.mass = 0.5}}};
   begin_seats(CAROM_RULES_EIGHTBALL, 2);
   seating.limits.theta = 20.0;
   seating.limits.tip_restitution_most = 0.8;
@@ -300,7 +300,7 @@ TEST(the_last_shot_again) {
   expect_ok(read_all(file, file_size));
   check_replay(&reader, &shot);
 
-  /* the match that was read goes on, with the events of the replay */
+  /* the match that was read continues, with the events of the replay */
   static carom_event more[ROOM];
   carom_shot other = {.events = more, .room = ROOM};
   ck_assert_int_ge(carom_match_replay(&reader, &other), 0);
@@ -401,7 +401,7 @@ TEST(sets_are_played_and_read) {
     keep();
     check_recording("a set");
 
-    /* another rack in the second match is refused */
+    /* another rack in the second match is rejected */
     char *number = strstr(strstr(file, "{\"end\""), "\"r\":[");
     number[7] = number[7] == '5' ? '6' : '5';
     ck_assert_int_eq(read_all(file, file_size), CAROM_ERROR_ACT);

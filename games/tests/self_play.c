@@ -1,11 +1,11 @@
-/* Whole games of the planner against itself through matches: none has a dead end, and some are the
- * same on all machines. CAROM_TEST_GAMES: how many of each game; CAROM_TEST_GAME: of which. */
+/* Complete games of the planner against itself through matches: none has a dead end, and some are
+ * the same on all machines. CAROM_TEST_GAMES: how many of each game; CAROM_TEST_GAME: of which. */
 #include "carom_match.h"
 #include "game_support.h"
 
 static carom_match match;
 
-/* What a ruling says besides of the turn: falls in their order, who plays, words. */
+/* What a ruling has in addition to the turn: falls in their order, who plays, words. */
 static void check_ruling(const carom_ruling *r) {
   char words[300];
   uint32_t down = 0;

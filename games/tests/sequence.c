@@ -18,7 +18,7 @@ static int find_sequence(uint64_t seed, int in_play) {
   return found;
 }
 
-/* The estimated value of what a stroke leaves, with the cue ball at a place; -1: it cannot lie
+/* The estimated value of what a stroke leaves, with the cue ball at a position; -1: it cannot lie
  * there. */
 static double value_at(const carom_sequence_stroke *s, double x, double y) {
   carom_plan_rules next_rules = rules;
@@ -38,7 +38,7 @@ static double value_at(const carom_sequence_stroke *s, double x, double y) {
 }
 
 static bool is_in_zone(const carom_sequence_stroke *s, const double *place) {
-  double turns = 0.0; /* of the border about the place */
+  double turns = 0.0; /* of the border about the position */
   for (int k = 0; k < CAROM_ZONE_CORNERS; k++) {
     const double *a = s->zone[k], *b = s->zone[(k + 1) % CAROM_ZONE_CORNERS];
     const double u[2] = {a[0] - place[0], a[1] - place[1]},
@@ -68,7 +68,7 @@ static int result_of(const carom_sequence_stroke *s, const carom_shot_ball *layo
 }
 
 /* Of 8 run-outs: values at the corners of zones, just within and beyond; strokes without errors at
- * the ends of the tolerances and beyond; and shares of strokes with other errors. */
+ * the ends of the tolerances and beyond; and fractions of strokes with other errors. */
 TEST(zones_and_tolerances) {
   enum { LAYOUTS = 8, TRIES = 200 };
   double told[2] = {0.0}, came[2] = {0.0};

@@ -1,5 +1,5 @@
 /* The rows of situations.txt and matches.txt, which say what they mean: a state of a game and
- * what a stroke did, beside the ruling and the state that must follow; and acts of a match, each
+ * what a stroke did, then the ruling and the state that must follow; and acts of a match, each
  * with how the match must stand. */
 #include "match_support.h"
 #include "row_file.h"
@@ -20,7 +20,7 @@ typedef struct situation {
   const char *put, *place;
 } situation;
 
-/* Words of the library in place of numbers; those of choices are places of their bits. */
+/* Words of the library instead of numbers; those of choices are positions of their bits. */
 enum words {
   NO_WORDS,
   TURNS = CAROM_GAME_WORDS_TURN + 1,
@@ -145,7 +145,7 @@ static void read_seats(const member *m, const char *text, uint64_t word[CAROM_SE
   }
 }
 
-/* The numbers of a list, in which a-b stands for a to b: into `value`, or as bits of *value. */
+/* The numbers of a list, in which a-b represents a to b: into `value`, or as bits of *value. */
 static void read_value(const member *m, const char *text, int32_t *value) {
   if (m->form == SET)
     *value = 0;
@@ -240,7 +240,7 @@ static void check_row(const char *title, carom_plan_rules *game_rules, const sit
   check_turn(title, game_rules, &turn, expected);
 }
 
-/* A ball and its place, with how far y may be from it. Returns the text of the next ball, or
+/* A ball and its position, with how far y may be from it. Returns the text of the next ball, or
  * NULL. */
 static const char *read_place(carom_rack_kind rack, const char *text, int *ball, double place[3]) {
   int spot, size = 0;
@@ -270,7 +270,7 @@ static void count_racked(int count, int *racked, int *front) {
   }
 }
 
-/* Lays out a row: the balls that are not down, some at places of their own. Returns how many the
+/* Lays out a row: the balls that are not down, some at positions of their own. Returns how many the
  * game has. */
 static int lay_out_row(const carom_rules_about *about, const situation *row) {
   const carom_rack_kind rack = (carom_rack_kind)about->rack;
@@ -442,7 +442,7 @@ static carom_status do_act(const char *act) {
   return carom_match_concede(&match, player);
 }
 
-/* How the match stands. */
+/* The state of the match. */
 static situation standing(void) {
   const carom_turn *turn = &match.ruling.turn;
   situation s = {.state = match.rules.state,
@@ -497,8 +497,8 @@ static void begin_row(carom_rules_kind kind, char *text) {
   keep();
 }
 
-/* Does the act of a column, and checks what it says behind the colon: why the act is refused, with
- * its words; or how the match stands, and the words of the ruling. */
+/* Does the act of a column, and checks what it says behind the colon: why the act is rejected, with
+ * its words; or the state of the match, and the names of the ruling. */
 static void check_act(const char *title, char *column) {
   char *expected = strstr(column, ": "), *words = strchr(column, '"'), ruled[200];
   ck_assert_msg(expected != NULL, "%s: no colon in %s", title, column);

@@ -14,7 +14,7 @@ static carom_turn judge_and_stop(carom_rules_state *state, uint32_t in_play, int
 }
 
 /* Plans, of a cue ball in hand or not, in the memory of the job. Returns how many choices there
- * are, 0 if the plan goes on. */
+ * are, 0 if the plan continues. */
 static int start_plan(bool in_hand, carom_plan_stroke *choices, int most) {
   int found = 0;
   expect_ok(in_hand ? carom_plan_hand(&job, NULL, NULL, choices, most, &found)
@@ -29,7 +29,7 @@ static int continue_plan(carom_plan_stroke *choices, int most) {
 }
 
 /* A plan that is stopped judges no other shot, but for one of a stage that has not begun. It gives
- * the best so far: of ball in hand no worse a place than it had before. */
+ * the best so far: of ball in hand no worse a position than it had before. */
 TEST(stopped_plans) {
   enum { PLAN, HAND, TRY };
   for (int kind = PLAN; kind <= TRY; kind++) {
@@ -138,7 +138,7 @@ TEST(plans_in_slices) {
 }
 
 /* A run-out in slices has the strokes of one call, bit for bit, and a slice judges no more shots
- * than it has events, but those of a plan that begins. Another job is refused. */
+ * than it has events, but those of a plan that begins. Another job is rejected. */
 TEST(run_outs_in_slices) {
   static const int64_t slices[] = {1, 40, 1000};
   static carom_sequence_stroke whole[CAROM_SEQUENCE_MOST], strokes[CAROM_SEQUENCE_MOST];
@@ -181,7 +181,7 @@ TEST(run_outs_in_slices) {
   }
 }
 
-/* Values of layouts that were asked for. */
+/* Values of layouts that were requested. */
 static int64_t values;
 static double count_values(const carom_rules_state *state, const carom_ball_state *layout,
                            int count, int in_hand) {
@@ -190,7 +190,7 @@ static double count_values(const carom_rules_state *state, const carom_ball_stat
   return 0.5;
 }
 
-/* No slice tries all places of a cue ball in hand, which would take longer than its shots. */
+/* No slice tries all positions of a cue ball in hand, which would take longer than its shots. */
 TEST(places_in_slices) {
   carom_plan_stroke best;
   int found;
@@ -289,7 +289,8 @@ TEST(stopped_plans_are_worth_their_shots) {
   ck_assert(less[0] < 0.05 && less[1] < 0.02 && less[2] < 0.01);
 }
 
-/* A plan that goes on with something else is refused; one that is stopped between slices ends. */
+/* A plan that continues with something else is rejected; one that is stopped between slices
+ * ends. */
 TEST(slices_of_other_plans) {
   carom_plan_stroke best;
   int found;
@@ -313,7 +314,7 @@ TEST(slices_of_other_plans) {
   stop = 1;
   ck_assert_int_eq(continue_plan(&best, 1), 1);
 
-  /* a plan that was refused leaves nothing to go on with */
+  /* a plan that was rejected leaves nothing to continue with */
   stop = 0;
   expect_ok(carom_plan(&job, &best, 1, &found));
   balls[8].state.v[0] = 1.0;

@@ -55,8 +55,7 @@ TEST(double_hits) {
 TEST(snooker_jumps) {
   static const struct {
     const char *what;
-    double theta, speed, x,
-        place[2]; /* how far beside the way the blue is; of the red and the blue */
+    double theta, speed, x, place[2]; /* how far off the way the blue is; of the red and the blue */
     uint32_t jumped;
     int foul, second;
   } cases[] = {{"over the blue", 30.0, 4.0, 0.0, {1.0, 0.35}, UINT32_C(1) << BLUE, JUMP, 5},

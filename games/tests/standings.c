@@ -1,4 +1,4 @@
-/* Lines of recordings that say how a game stands. tests/unit/record.c tests the other lines. */
+/* Lines of recordings that say the state of a game. tests/unit/record.c tests the other lines. */
 #include "carom_record.h"
 #include "support.h"
 
@@ -24,7 +24,7 @@ static void begin_reading(void) {
   expect_ok(carom_record_read(&again, text, size));
 }
 
-/* How the game stands is read as it was written. */
+/* The state of the game is read as it was written. */
 TEST(standings_come_back) {
   begin_recording();
   game.standing = (carom_rules_state){.score = {0, 7}, .target = 100, .user = {1, [7] = 9}};
@@ -40,7 +40,7 @@ TEST(standings_come_back) {
   ck_assert_mem_eq(&again.standing, &game.standing, sizeof game.standing);
 }
 
-/* What no game can be is refused, and named. */
+/* What no game can be is rejected, and named. */
 TEST(standings_that_are_refused) {
   static const struct {
     const char *part;
@@ -50,7 +50,7 @@ TEST(standings_that_are_refused) {
                    {"\"target\":-1", "game.target must be 1 to 1000000"},
                    {"\"player\":8", "game.player must be 0 to 7"},
                    {"\"pocket\":[1]", "game.pocket has too few numbers"},
-                   {"\"gruop\":1", "game.gruop is no key of the format"}};
+                   {"\"gruop\":1", "game.gruop is not a key of the format"}};
   begin_recording();
   for (size_t k = 0; k < COUNT_OF(standings); k++) {
     char line[100];
@@ -76,7 +76,7 @@ static bool is_written(void) {
     ck_assert_msg(!is_written(), #number " = " #value); \
   } while (0)
 
-/* What the reader refuses is not written. */
+/* What the reader rejects is not written. */
 TEST(standings_that_are_not_written) {
   NOT_WRITTEN(game.rules, -5);
   NOT_WRITTEN(game.player, 77);

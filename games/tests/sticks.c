@@ -3,7 +3,7 @@
 
 #include "plan_support.h"
 
-/* The point of a rail, or of the circle of a jaw, at a share of it. */
+/* The point of a rail, or of the circle of a jaw, at a fraction of it. */
 static void point_of_nose(const carom_rail *rail, const carom_jaw *jaw, double share,
                           double point[3]) {
   const double turn = share * 360.0 * per_degree;
@@ -47,7 +47,7 @@ static double over_nose(const carom_cue *c, const carom_rail *rail, const carom_
   return least_over(c, point, 0.0);
 }
 
-/* The same over all points of a nose: the worst of many, and of places beside that, by thirds. */
+/* The same over all points of a nose: the worst of many, and of places next to that, by thirds. */
 static double over_points(const carom_cue *c, const carom_rail *rail, const carom_jaw *jaw) {
   enum { POINTS = 1000 };
   double worst = -INFINITY, low = 0.0, high = 0.0;
@@ -155,7 +155,7 @@ TEST(a_level_cue) {
   ck_assert_int_gt(raised, 10);
 }
 
-/* Whether an elevation is that of the reference in the cue's direction, or beside it, where the
+/* Whether an elevation is that of the reference in the cue's direction, or next to it, where the
  * reference jumps. */
 static bool is_least(double elevation, carom_cue c) {
   bool good = false;
@@ -226,7 +226,7 @@ TEST(noses_under_the_stick) {
   ck_assert_int_gt(raised, 100);
 }
 
-/* The elevation where it begins: balls beside a level stick, which they just touch or do not, and
+/* The elevation where it begins: balls next to a level stick, which they just touch or do not, and
  * the end of the stick over a cushion. Below the middle it jumps there. */
 TEST(where_the_stick_begins_to_touch) {
   enum { PLACES = 120, STRIDE = 7 }; /* without a common factor, so that few are all over them */
@@ -246,7 +246,7 @@ TEST(where_the_stick_begins_to_touch) {
     if (k % 3 != 0)
       continue;
 
-    /* the cue ball is too far from the head cushion; then a ball beside the stick */
+    /* the cue ball is too far from the head cushion; then a ball next to the stick */
     ck_assert(stroke.theta == 0.0);
     const carom_cue level = stroke;
     for (int inside = 0; inside < 2; inside++) {

@@ -34,7 +34,7 @@ static carom_plan_stroke tried(const carom_cue *stroke, double unsure) {
 }
 
 /* The less of the table a player knows, the less often a bank comes off; a pot near by comes off as
- * often. Rails with numbers of their own are as little known as those with the numbers of the
+ * often. Rails with their own numbers are as little known as those with the numbers of the
  * balls. */
 TEST(tables_that_are_not_known) {
   static const double unsure[] = {0.0, 0.1, 0.3, 1.0};
@@ -45,7 +45,7 @@ TEST(tables_that_are_not_known) {
       const carom_plan_stroke c = tried(&stroke, unsure[k]);
       keep[bank][k] = c.keep;
 
-      /* facings and jaws have numbers of their own already */
+      /* facings and jaws have their own numbers already */
       for (int r = 0; r < table.rails; r++) {
         if (table.rail[r].restitution > 0.0)
           continue;

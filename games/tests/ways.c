@@ -5,7 +5,7 @@
 #include "pot_kind.h"
 
 /* LEAST, ASKED: directions of the narrowest windows that are listed, of any ball and of one that is
- * asked for */
+ * requested */
 enum { SWEPT = 18000, LEAST = 10, ASKED = 3, ROOM = 300, SPEEDS = 3 };
 static const double speed[SPEEDS] = {1.0, 1.5, 2.5};
 
@@ -249,7 +249,7 @@ static bool is_met_soon(const carom_cue *aimed) {
 }
 
 /* Direct aims find each pot above 0.25 degrees of a ball within 2 R of a rail that is met directly
- * or right off a rail, and touches at most rails beside its pocket, but for one in 30. */
+ * or right off a rail, and touches at most rails next to its pocket, but for one in 30. */
 TEST(pots_at_rails) {
   random_source r = {test_seed()};
   int pots = 0, falls = 0;

@@ -10,7 +10,7 @@ enum { SHOTS = 100, STROKES_MOST = 2000 };
 
 static carom_match match;
 
-/* Chances that were told, and what came of them. Where they are true, the difference has the
+/* Chances that were told, and the results of them. Where they are true, the difference has the
  * variance of as many coins. */
 typedef struct told_chances {
   double told, came, variance;

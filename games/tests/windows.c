@@ -1,12 +1,12 @@
-/* The windows of pots.c against sweeps: a ball alone that rolls at a usual speed, in all directions
- * near a pocket, from places of which half are near a rail. */
+/* The windows of pots.c against sweeps: a single ball that rolls at a usual speed, in all
+ * directions near a pocket, from positions of which half are near a rail. */
 #include "view.h" /* before the support, whose names it uses for arguments */
 
 #include "plan_support.h"
 
 enum { STEPS = 160 };
 
-/* The range of directions, rad, in which the ball falls, among those up to `wide` beside psi. */
+/* The range of directions, rad, in which the ball falls, among those within `wide` of psi. */
 static double sweep(int pocket, double psi, double wide) {
   int falls = 0;
   for (int k = 0; k < STEPS; k++) {

@@ -1,11 +1,11 @@
 /* The events, and how they are opened.
  *
- * Names and codes are those of the tables of Linux, tools/perf/pmu-events/arch/x86: amdzen2 to
- * amdzen5 (floating-point.json; other.json, for Zen 5 decode.json), skylake, skylakex, icelakex,
+ * Names and codes are from the tables of Linux, tools/perf/pmu-events/arch/x86: amdzen2 to amdzen5
+ * (floating-point.json; other.json, for Zen 5 decode.json), skylake, skylakex, icelakex,
  * sapphirerapids (floating-point.json, pipeline.json). They follow AMD's Processor Programming
  * References (PMCx003, PMCx0AE, PMCx0AF) and Intel's perfmon lists. A raw code is the event, its
- * unit mask << 8, and its counter mask << 24. No event of Intel's counts divisions or fused
- * multiply-adds alone, so those columns have no row of Intel's. */
+ * unit mask << 8, and its counter mask << 24. No event of Intel's counts only divisions or fused
+ * multiply-adds, so those columns have no Intel row. */
 #include "counters.h"
 
 #include "program/program.h"
@@ -33,11 +33,11 @@ enum {
  * hence the weights of "flops"; they include least and greatest, and approximations of 1/x.
  *
  * The paper's token stalls are cycles in which an instruction could be dispatched, and a resource
- * is missing: a place in a scheduler, a register, a place in the retire queue. AMD has an event for
- * each of them. Intel has one for all of them together, "stalls_resources": a cycle on Skylake, and
- * a slot on its successors, which issue in 5 or 6 slots a cycle, hence the weights. Another event,
- * "stalls_execution", counts cycles in which no unit begins anything. The paper reads no such
- * event. */
+ * is missing: an entry in a scheduler, a register, an entry in the retire queue. AMD has an
+ * event for each of them. Intel has one for all of them together, "stalls_resources": a cycle on
+ * Skylake, and a slot on its successors, which issue in 5 or 6 slots a cycle, hence the weights.
+ * Another event, "stalls_execution", counts cycles in which no unit begins anything. The paper
+ * reads no such event. */
 const counter_row counter_table[] = {
     {CORE_ANY, COUNTER_CYCLES, "PERF_COUNT_HW_CPU_CYCLES", PERF_TYPE_HARDWARE,
      PERF_COUNT_HW_CPU_CYCLES, 1.0},
@@ -85,7 +85,7 @@ const char *counter_column_name(counter_column column) {
 
 /* ---- The processor */
 
-/* The models are those of Linux's mapfile.csv, beside the tables of events. */
+/* The models are from Linux's mapfile.csv, next to the tables of events. */
 counter_core counter_core_of(const char *vendor, unsigned family, unsigned model) {
   static const struct {
     const char *vendor;
@@ -122,7 +122,7 @@ counter_core counter_core_of(const char *vendor, unsigned family, unsigned model
   return CORE_UNKNOWN;
 }
 
-/* Is this a virtual machine, by what the processor says of itself? */
+/* Is this a virtual machine, according to the processor? */
 static bool has_hypervisor(void) {
 #if defined(__x86_64__)
   unsigned a, b, c, d;
@@ -188,7 +188,7 @@ static int open_event(const counter_row *row, int leader) {
   return (int)syscall(SYS_perf_event_open, &attributes, 0, -1, leader, PERF_FLAG_FD_CLOEXEC);
 }
 
-/* The leader alone is enabled and disabled, and the kernel takes the others along. Enabled one by
+/* Only the leader is enabled and disabled; the kernel does the same with the others. Enabled one by
  * one, events of software would start at the next tick of the kernel only. */
 static void start(int leader) {
   ioctl(leader, PERF_EVENT_IOC_RESET, PERF_IOC_FLAG_GROUP);
@@ -208,8 +208,8 @@ static bool is_counted(int leader) {
   return stop(leader, &reading) && reading.running > 0 && reading.running == reading.enabled;
 }
 
-/* Opens an event within the last group, or else as the first of a new one. False: errno says why
- * not. */
+/* Opens an event within the last group, or else as the first of a new one. False: errno has the
+ * reason. */
 static bool add_event(counter_set *set, const counter_row *row) {
   int leader = -1;
   size_t others = 0;
@@ -330,7 +330,7 @@ static void explain(int error, FILE *out) {
   fprintf(out, "%s (perf_event_open: errno %d, perf_event_paranoid %s)", why, error, paranoid);
 }
 
-/* Names the columns that are counted (`error` 0), have no event (-1), or are refused with that
+/* Names the columns that are counted (`error` 0), have no event (-1), or are rejected with that
  * errno; false where there are none. */
 static bool name_columns(const counter_set *set, int error, FILE *out) {
   bool any = false;

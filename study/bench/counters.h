@@ -1,10 +1,10 @@
 /* Hardware counters of the calling thread, in user mode, by the system call perf_event_open(2).
  *
- * An event is a row of a table, because each maker of processors has names and codes of its own.
- * The counts of one or several events make a column. A column is NAN where the processor has no
- * such event or the kernel does not count it, and counters_describe() says why. Nothing is scaled:
- * events that do not fit into the processor together form several groups, one of which counts at
- * a time. */
+ * An event is a row of a table, because each maker of processors has its own names and codes. The
+ * counts of one or several events make a column. A column is NAN where the processor has no such
+ * event or the kernel does not count it, and counters_describe() gives the reason. Nothing is
+ * scaled: events that do not fit into the processor together form several groups, one of which
+ * counts at a time. */
 #ifndef CAROM_BENCH_COUNTERS_H
 #define CAROM_BENCH_COUNTERS_H
 
@@ -66,8 +66,8 @@ extern const size_t counter_table_size;
 
 typedef struct counter_set counter_set;
 
-/* Opens the events of counter_table for this processor, or those of `rows` for `core`. What cannot
- * be counted is left out. */
+/* Opens the events of counter_table for this processor, or the events of `rows` for `core`. What
+ * cannot be counted is left out. */
 counter_set *counters_open_here(void);
 counter_set *counters_open(const counter_row *rows, size_t count, counter_core core);
 void counters_close(counter_set *set);
@@ -78,8 +78,9 @@ void counters_describe(const counter_set *set, FILE *out);
 size_t counters_groups(const counter_set *set);
 size_t counters_events(const counter_set *set);
 
-/* Counts what the thread does between the two calls by the events of one group. count[k] is that
- * of event k, NAN for events of other groups, or where the kernel did not count all the time. */
+/* Counts what the thread does between the two calls by the events of one group. count[k] is the
+ * count of event k, NAN for events of other groups, or where the kernel did not count all the
+ * time. */
 void counters_start(const counter_set *set, size_t group);
 void counters_stop(const counter_set *set, size_t group, double *count);
 

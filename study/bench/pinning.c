@@ -1,5 +1,5 @@
-/* Keeping the benchmark on one core. Real-time priority is the lowest there is: it comes before
- * everything ordinary and after everything that knows better. */
+/* Keeping the benchmark on one core. Real-time priority is the lowest there is: it precedes
+ * everything ordinary and yields to everything with a deliberate priority. */
 #include "pinning.h"
 
 #include <errno.h>

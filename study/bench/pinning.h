@@ -3,7 +3,7 @@
 #define CAROM_BENCH_PINNING_H
 
 /* Moves the calling thread to one core (an isolated one if there is one, else the last that it
- * may use) and asks for real-time priority. Returns what was reached, as a sentence part for the
+ * may use) and requests real-time priority. Returns what was reached, as a sentence part for the
  * notes. */
 const char *pinning_begin(void);
 

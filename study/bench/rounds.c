@@ -57,7 +57,7 @@ uint64_t bench_fingerprint(const void *results, size_t bytes) {
   return hash;
 }
 
-/* ---- Samples in turns */
+/* ---- Interleaved samples */
 
 /* The counters that run in a sample. */
 typedef struct counting {

@@ -14,8 +14,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Tells the compiler that somebody reads what `pointer` points to, so that it must have been
- * computed. */
+/* Makes the compiler assume that the target of `pointer` is read, so that it must be computed. */
 #define BENCH_CONSUME(pointer) __asm__ volatile("" : : "r"(pointer) : "memory")
 
 /* What is timed. Its results are there, verified by whoever made it. */
@@ -59,7 +58,7 @@ typedef struct bench_figure {
   bool unchanged;                  /* the results after the last round are those before the first */
 } bench_figure;
 
-/* Times n subjects; figure[k] is that of subject[k]. */
+/* Times n subjects; figure[k] belongs to subject[k]. */
 void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *settings,
                   bench_figure *figure);
 

@@ -1,17 +1,19 @@
 """bounds: operation counts of the ladder's kernels and lower bounds on their cycles, as CSV.
 
-The module that `carom-lab bench --config zen2` times is run under callgrind on the reference collisions; valgrind does not execute
-AVX-512, hence Zen 2. `valgrind --tool=callgrind --dump-instr=yes` says how often the instruction at each address was executed, and its
-`jcnd=` lines how often a conditional jump was taken. Joined with the module's disassembly these are operations by kind, and the path
-through the loop that one collision takes in almost every step.
+The module that `carom-lab bench --config zen2` times is run under callgrind on the reference
+collisions; valgrind does not execute AVX-512, hence Zen 2. `valgrind --tool=callgrind
+--dump-instr=yes` reports how often the instruction at each address was executed, and its `jcnd=`
+lines how often a conditional jump was taken. Joined with the module's disassembly these are
+operations by kind, and the path through the loop that one collision takes in almost every step.
 
 Columns: flops_*, rsqrt, rcp, conversions, compares, minmax are executed operations per collision at N, the mean of all cases;
 flops_total is add + mul + div + sqrt + fma, flops_amd counts an fma twice, as AMD's counter does; shuffles and instructions are
 instructions. per_step_flops_amd is the difference between N and N/4, divided by the steps between.
 
-mean_steps and mean_chain_cycles_* are of the same cases: the iterations of the hot loops of a collision, and their cycles by the longest
-chain of each case, with the latencies of Zen 2 and with those of this processor. `carom-lab bench` times these cases, so the share of
-the bound is mean_chain_cycles_* over its cycles. In some cases less friction acts, and their chain is shorter.
+mean_steps and mean_chain_cycles_* are of the same cases: the iterations of the hot loops of a
+collision, and their cycles by the longest chain of each case, with the latencies of Zen 2 and with
+those of this processor. `carom-lab bench` times these cases, so the fraction of the bound is
+mean_chain_cycles_* over its cycles. In some cases less friction acts, and their chain is shorter.
 
 The others belong to one case, in which friction acts at the cloth in every step, as in the bound of the seed paper. loads_per_step and
 stores_per_step are data accesses of the kernel, by callgrind's cache simulation, the difference between N and N/4 divided by the steps
@@ -188,7 +190,8 @@ def execute(driver, module, kernel, steps, cases, *more):
 
 
 def join(code, counts):
-    """Operations and instructions by kind: {kind: executed operations} with '<kind>_instructions' beside each."""
+    """Operations and instructions by kind: {kind: executed operations} with '<kind>_instructions'
+    next to each."""
     total = Counter()
     for address, instruction in code.items():
         executed = counts.get(address, 0)

@@ -1,14 +1,13 @@
 /* latency: the latencies of this processor, measured in core cycles without any counter.
  *
- * A chain of dependent integer additions advances by one core cycle an addition on every
- * processor of interest (of registers: some add constants while they rename, several in a
- * cycle), so its time is the length of a cycle, at whatever clock the core runs just now. Chains
- * of other instructions are timed in turn with it, and the least time of many rounds is divided
- * by the cycle. Operands have full significands where a division or a square root might
- * otherwise end early. Where a chain needs a helper (a square root alone runs to 1), the
- * helper's latency is subtracted.
+ * A chain of dependent integer additions advances by one core cycle an addition on every processor
+ * of interest (of registers: some add constants while they rename, several in a cycle), so its time
+ * is the length of a cycle, at whatever clock the core runs just now. Chains of other instructions
+ * are timed alternately with it, and the least time of many rounds is divided by the cycle.
+ * Operands have full significands where a division or a square root might otherwise end early. If a
+ * chain needs a helper (a repeated square root converges to 1), the helper's latency is subtracted.
  *
- * Output: CSV, `row,cycles,ns`; the rows are those of latencies.csv, and `cycle`, the integer
+ * Output: CSV, `row,cycles,ns`; the rows are as in latencies.csv, and `cycle`, the integer
  * addition: its ns is one core cycle.
  */
 #define _POSIX_C_SOURCE 200809L
@@ -16,7 +15,7 @@
 
 #include <stdio.h>
 
-/* X(name, row, instructions of one link, its helper or itself, how often the row stands in a
+/* X(name, row, instructions of one link, its helper or itself, how often the row is in a
  * link). The value of the chain is in xmm0 or rax and begins with 1.618...; 2.718... is in xmm2,
  * 0 in xmm3, 1 in xmm4, scratch memory is at -512(rsp): as compilers address it, and below what
  * the function may use itself. */
@@ -55,7 +54,7 @@ enum { ROUNDS = 400, TURNS = 50, LINKS = 100 };
 static const double full[2][2] = {{1.61803398874989, 1.0}, {2.71828182845904, 1.0}},
                     unit[2] = {1.0, 1.0};
 
-/* The whole loop is one piece of assembly: a value set anew between two turns would let them
+/* The whole loop is one piece of assembly: a value set again between two iterations would let them
  * overlap. */
 #define TIME(name, row, instructions, helper, times)                                             \
   static double time_##name(void) {                                                              \

@@ -1,10 +1,10 @@
 """cushions.py LIBRARY MEASURED.csv, which `carom-lab published --cushions` runs: the
 cushions of pool and snooker in tables of Markdown, for docs/.
 
-1. The errors of the sets of data/pool_systems.csv on the three tables of pool.
-2. The sizes of pockets by speed, beside those of Alciatore's TP 3.5 and TP 3.6.
-3. Snooker: the directions of balls that roll once they have met a cushion, beside the exact model,
-   and the rebound by speed beside the measured one.
+1. The errors of the sets of data/pool_systems.csv on the three tables of pool. 2. The sizes of
+pockets by speed, compared with those of Alciatore's TP 3.5 and TP 3.6. 3. Snooker: the directions
+of balls that roll once they have met a cushion, compared with the exact model,
+   and the rebound by speed compared with the measured one.
 4. What three banks tell of a table (carom_calibrate): tables are drawn, their banks are read with
    an error, and the other kicks and banks of the systems are played on them. With other laws of the
    cushion the three readings cannot be met exactly.
@@ -183,7 +183,7 @@ def other_places():
 
 
 def banks_of_calibration():
-    """Where the three banks come back on the table that is played on, in diamonds."""
+    """Where the three banks return on the table that is played on, in diamonds."""
     found = []
     for k in range(BANKS):
         bank = OF["carom_bank"]()
@@ -194,7 +194,7 @@ def banks_of_calibration():
 
 
 def calibrated(readings):
-    """The two numbers, or None where the readings are refused."""
+    """The two numbers, or None where the readings are rejected."""
     found = OF["carom_calibration"]()
     read = (ctypes.c_double * BANKS)(*readings)
     status = LIBRARY.carom_calibrate(

@@ -1,5 +1,5 @@
-"""film.py LIBRARY FILM.csv, which `carom-lab published --film FILM.csv` runs: filmed shots beside
-those of carom, in tables of Markdown. data/README.md has the columns.
+"""film.py LIBRARY FILM.csv, which `carom-lab published --film FILM.csv` runs: filmed shots compared
+with those of carom, in tables of Markdown. data/README.md has the columns.
 
 1. Each shot with its strike alone fitted: speed, direction, follow, side and the time of the
    strike. The loss is robust: an error e counts as 2 (sqrt(1 + (e/s)^2) - 1) with s = 4 mm.
@@ -29,7 +29,7 @@ TABLES = {
     "p": (GAME_POOL, 1.27, 2.54, 0.028575),
 }
 SCALE = 0.004  # m: s of the loss
-LOST = 0.5  # m: the error of a place that no shot has
+LOST = 0.5  # m: the error of a position that no shot has
 STATE, G = np.dtype(OF["carom_ball_state"]), 9.81
 
 
@@ -194,8 +194,8 @@ class Shot:
         )
 
     def strike(self, **numbers):
-        """The loss and the best strike. It is found from ever more of the shot: a search over what a
-        ball meets later begins with the earlier part already right.
+        """The loss and the best strike. It is found from ever more of the shot: a search over what
+        a ball meets later begins with the earlier part already right.
         """
         self.use_until(self.time + 0.5)
         found = [
@@ -430,7 +430,7 @@ def seen(game, radius, incoming, side=0, **numbers):
 
 
 def speed_at_hit(times, gone, friction):
-    """The speed of a ball and the time at which it left its place, from how far it is gone: it
+    """The speed of a ball and the time at which it left its position, from how far it is gone: it
     slides until it has lost 2/7 of the speed, and rolls on.
     """
     slowing = friction * G

@@ -1,5 +1,5 @@
 """published.py LIBRARY MEASURED.csv [csv], which `carom-lab published` runs: values that others
-measured or stated, beside those that carom computes.
+measured or stated, compared with those that carom computes.
 
 The columns of a row end with the verdict that is wanted, and with the name in COMPUTED of the
 function that computes carom's value; "-" where nothing of carom can be compared, which the
@@ -129,8 +129,8 @@ def friction_of(game, slip):
     return ball(game).law_a + ball(game).law_b * exp(-ball(game).law_c * slip)
 
 
-# ---- Two balls of pool: cut in degrees, speed, share of rolling, friction (0: Alciatore's), side
-# spin R w_z / v
+# ---- Two balls of pool: cut in degrees, speed, fraction of rolling, friction (0: Alciatore's),
+# side spin R w_z / v
 
 
 def hit(cut, speed, roll=0, friction=0, side=0):
@@ -245,14 +245,14 @@ def struck(a, b):
 
 
 def rise(ahead, *numbers, **of_cue):
-    """mm, of a ball that hops, at a place ahead; 0: at its highest"""
+    """mm, of a ball that hops, at a position ahead; 0: at its highest"""
     _, forward, up = strike(*numbers, **of_cue)[0].after[0].v
     time = ahead / forward or up / ball().gravity
     return 1e3 * time * (up - 0.5 * ball().gravity * time)
 
 
 def in_the_air(*numbers):
-    """the share of the time from the head spot to a ball on the foot spot, %"""
+    """the fraction of the time from the head spot to a ball on the foot spot, %"""
     events = strike(*numbers, object_place=(0.635, 1.905, ball().radius))
     impact_index = next(k for k, e in enumerate(events) if e.type == EVENT_BALL_BALL)
     return (
@@ -268,7 +268,7 @@ def in_the_air(*numbers):
 
 def inside(offset_angle, friction, speed):
     """how far the tip is from the centre where a frozen ball leaves in the direction of the cue,
-    that angle beside the line of centres, in R
+    that angle off the line of centres, in R
     """
 
     def to_the_left(a):
@@ -361,7 +361,7 @@ def rows_of_systems():
 
 def flight(kind, place, direction, speed, roll, side, nth):
     """Place and velocity of a lone ball just before its contact number `nth` with a rail, a jaw or
-    a pocket: it starts at a place in a direction, radians from +x, with side spin R w / v to the
+    a pocket: it starts at a position in a direction, radians from +x, with side spin R w / v to the
     left. The speed is that of the 9 ft table. The texts say how hard a stroke is, not how fast, so
     on another table the ball goes as many lengths of that one: the speed has the root of the ratio.
     """
@@ -389,13 +389,14 @@ def place_at(motion, x):
 
 
 def through(start, end, x):
-    """The place on the line through two others that has this x, and the direction of the line."""
+    """The position on the line through two others that has this x, and the direction of the
+    line."""
     way = (end[0] - start[0], end[1] - start[1])
     return (x, start[1] + way[1] * (x - start[0]) / way[0]), atan2(way[1], way[0])
 
 
 def bank(kind, row, speed, side):
-    """P: from a sight of the long rail to one of the other; read where it comes back to the nose.
+    """P: from a sight of the long rail to one of the other; read where it returns to the nose.
     F: the same along the grooves, and towards the corner at 0.
     """
     shape, groove = table(kind), row["set"] == "F"
@@ -555,7 +556,7 @@ def bounce(height):
     return (first.after[0].v[2] / first.before[0].v[2]) ** 2 if first.type == EVENT_SLATE else nan
 
 
-# ---- Breaks: the rack, the table, the gap in mm, how far the cue ball is beside the long string,
+# ---- Breaks: the rack, the table, the gap in mm, how far the cue ball is off the long string,
 # m, its speed, the tip above its centre in R. Values are pairs, with the standard error.
 
 BREAKS = 1600
@@ -576,7 +577,7 @@ def back_of(events):
 
 @cache
 def breaks(rack, kind, gap, offset, speed, above=0):
-    """Of each break: the places of the balls that fell, in rows from the cue ball and from the
+    """Of each break: the positions of the balls that fell, in rows from the cue ball and from the
     left; what is counted; the cue ball's velocity back, and how far from the middle of the table it
     stops, m. The errors are those of a good player: 0.2 degrees, 3 % of the speed, 0.03 R.
     """
@@ -663,7 +664,7 @@ POOL, SNOOKER, BILLIARD = GAME_POOL, GAME_SNOOKER, GAME_BILLIARD
 
 
 def bank_by_diamonds(origin, beyond):
-    """The diamonds to where a bank comes back, aimed so many half diamonds beyond its origin."""
+    """The diamonds to where a bank returns, aimed so many half diamonds beyond its origin."""
     return origin - diamond(TABLE_POOL_9FT, POOL, origin, origin - 0.5 * beyond, 1.5, 0, 2)
 
 
@@ -687,7 +688,7 @@ def share_of_tangent_line(cut):
 
 
 def most_side():
-    """R w_z / v of a ball that is struck half a radius beside its centre."""
+    """R w_z / v of a ball that is struck half a radius off its centre."""
     motion = struck(0.5, 0)
     return ball().radius * abs(motion.w[2]) / hypot(*motion.v[:2])
 

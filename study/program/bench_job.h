@@ -1,5 +1,6 @@
-/* One run of `carom-lab bench`: what is timed is verified, then timed in turns by the engine,
- * then printed. There are three tables of work: collisions of two balls, whole shots, cushions. */
+/* One run of `carom-lab bench`: what is timed is verified, then timed interleaved by the engine,
+ * then printed. There are three tables of work: collisions of two balls, complete shots,
+ * cushions. */
 #ifndef CAROM_LAB_BENCH_JOB_H
 #define CAROM_LAB_BENCH_JOB_H
 
@@ -8,7 +9,7 @@
 
 #include <stdio.h>
 
-/* Names, or whole numbers as text, with commas between; repeating an option adds to its list. They
+/* Names, or integers as text, with commas between; repeating an option adds to its list. They
  * point into the argument vector, whose commas become ends. */
 typedef struct name_list {
   const char **name;

@@ -17,7 +17,7 @@ typedef struct case_set {
 typedef struct reference_set {
   size_t count;
   carom_result *result;
-  int64_t *steps; /* the reference's step counts, or NULL where the file has none */
+  int64_t *steps; /* the reference's step counts, or NULL if the file has no such column */
 } reference_set;
 
 /* Loads `folder`/`name`. Complains and returns false if anything in it is wrong: this is our own

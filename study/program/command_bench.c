@@ -4,10 +4,10 @@
  *     batch   the cases over and over, many in a call                solvers, and rungs across
  *                                                                    collisions: isa "avx512", ...
  *
- * Calls go through a pointer, as those of a program that chooses its kernel at run time would.
- * Small batches move on: call j begins at case j * size, modulo the number of cases, until every
- * case has been in as many batches as any other, so that what is timed does not depend on which
- * cases a batch happens to hold. */
+ * Calls use a pointer, as in a program that chooses its kernel at run time. Small batches move on:
+ * call j begins at case j * size, modulo the number of cases, until every case has been in as many
+ * batches as any other, so that what is timed does not depend on which cases a batch happens to
+ * hold. */
 #include "accuracy.h"
 #include "bench_job.h"
 #include "cases.h"
@@ -44,7 +44,7 @@ struct workload {
   const void *in;  /* the rows, of doubles or floats */
   size_t *case_of; /* their cases; NULL: row k is case k modulo their number */
   size_t rows;
-  size_t period;   /* rows after which the cases come again */
+  size_t period;   /* rows after which the cases repeat */
   size_t left_out; /* cases that the kernel's precision does not resolve in so many steps */
   void *result;
   accuracy_summary claimed, exact; /* against the kernel's own reference, and the exact limit */
@@ -167,8 +167,8 @@ static bool compare_file(const workload *w, const char *folder, const char *name
   return loaded;
 }
 
-/* What a kernel must reach on the cases at its claim's steps: for batches that of their
- * precision, if it is wider; 0 asks for the same bits. */
+/* What a kernel must reach on the cases at its claim's steps: for batches the bound of their
+ * precision, if it is wider; 0 requires the same bits. */
 static double bound_of(const workload *w) {
   static const double of_batches[][2] = {[CAROM_SOLVER_EXACT] = {1e-6, 2e-5},
                                          [CAROM_SOLVER_EULER] = {0.0, 1e-2},
@@ -243,7 +243,7 @@ static bool verify(workload *w, const char *folder, bool *good) {
   return compare_file(w, folder, name, &w->exact);
 }
 
-/* ---- What is asked for */
+/* ---- What is requested */
 
 static bool names(const name_list *list, const char *name) {
   bool named = false;
@@ -307,8 +307,8 @@ static size_t common_divisor(size_t a, size_t b) {
   return common_divisor(b, a % b);
 }
 
-/* So many calls of `size` pairs that every case is in as many of them as any other; the cases
- * come again after `period` rows. */
+/* The number of calls of `size` pairs after which every case was used equally often; the cases
+ * repeat after `period` rows. */
 static void lay_out_calls(workload *w, size_t size, size_t period) {
   const size_t shared = common_divisor(size, period);
   w->size = size;
@@ -362,7 +362,7 @@ static void add_lanes(const kernel *candidate, const kernel_claim *claim,
   free(rows);
 }
 
-/* By the sizes of batches that are asked for, or the rung's own. */
+/* By the sizes of batches that are requested, or the rung's own. */
 static void add_all_lanes(const bench_job *job, const kernel *candidate, const kernel_claim *claim,
                           const ladder_module *module, int steps) {
   const bool has_sizes = job->pairs.room > 0;
@@ -372,8 +372,8 @@ static void add_all_lanes(const bench_job *job, const kernel *candidate, const k
     add_lanes(candidate, claim, module, steps, 0);
 }
 
-/* Is it the kernel's first claim with its slip, and is the slip asked for? Without --slip, a kernel
- * is timed with its own, that of its first claim. */
+/* Is it the kernel's first claim with its slip, and is the slip requested? Without --slip, a kernel
+ * is timed with the slip of its first claim. */
 static bool wants_claim(const bench_job *job, const kernel *candidate, const kernel_claim *claim) {
   for (const kernel_claim *earlier = candidate->claims; earlier < claim; earlier++)
     if (earlier->slip == claim->slip)
@@ -427,7 +427,7 @@ static bool wants_form(const bench_job *job, const kernel *candidate) {
          (names(&job->isas, "best") && same_text(best, isa));
 }
 
-/* All that does not come in batches of the library. */
+/* Everything except batches of the library. */
 static bool add_all_calls(const bench_job *job) {
   const kernel *candidate;
   const ladder_module *unused;
@@ -467,8 +467,7 @@ static bool wants_isa(const bench_job *job, carom_isa isa) {
                               (isa == carom_isa_in_force() && names(&job->isas, "best")));
 }
 
-/* Solvers with steps cost a batch as much as thousands of the others, so they have to be asked
- * for. */
+/* Solvers with steps cost a batch as much as thousands of the others, so they must be requested. */
 static bool wants_batches(const bench_job *job, const kernel *candidate) {
   return !candidate->is_rung &&
          (job->kernels.count == 0 || names(&job->kernels, candidate->name)) &&
@@ -551,7 +550,7 @@ static bool verify_all(bench_job *job, const char *folder) {
       return false;
     progress_show("kernels verified", (double)(k + 1), (double)timing.count);
     const workload passed = timing.work[k];
-    timing.work[k] = timing.work[count]; /* those that are refused come to the end */
+    timing.work[k] = timing.work[count]; /* rejected ones move to the end */
     timing.work[count] = passed;
     count += good;
     if (!good)
@@ -767,7 +766,7 @@ static void show_time(double done, double total) {
   progress_show("seconds measured", done, total);
 }
 
-/* The hardware counters, if they are asked for, and a note on what they count. */
+/* The hardware counters, if they are requested, and a note on what they count. */
 static counter_set *open_counters(const bench_job *job, FILE *out) {
   if (!job->counters)
     return NULL;
@@ -822,7 +821,7 @@ static bool bench_all(bench_job *job) {
 
 /* ---- Arguments */
 
-/* Adds to a list what stands between commas, each good. */
+/* Adds to a list what is between commas, each good. */
 static bool add_each(const option_row *row, char *text, name_list *list,
                      bool good(const option_row *row, char *word)) {
   char *rest, *word = strtok_r(text, ",", &rest);
@@ -925,8 +924,8 @@ OPTION(
     bench_job, option_isa, "isa", isas, "NAME,...", set_isas, 0,
     "only these instruction sets: scalar (single calls), plain, sse2, avx2, avx512, neon, or best");
 OPTION(bench_job, option_slips, "slip", slips, "NAME,...", set_slips, 0,
-       "sign of the spin in the slip over the cloth: paper, pooltool (default: that of each "
-       "kernel's reference, pooltool for the ladder, paper for exact and fast); adds the column "
+       "sign of the spin in the slip over the cloth: paper, pooltool (default: the slip of each "
+       "kernel's reference: pooltool for the ladder, paper for exact and fast); adds the column "
        "slip");
 OPTION(bench_job, option_one_precision, "precision", shared.precision, "double|single", set_choice,
        0, "only this precision (default: both)");
@@ -949,22 +948,23 @@ FLAG(bench_job, option_counters, "counters", counters,
      "more columns: what the processor counts for each collision, such as cycles and operations; "
      "NA where the kernel or the processor does not count it");
 OPTION(bench_job, option_shots, "shots", shots, "IN.jsonl", set_text, 0,
-       "instead: time the whole shots of this file, beside pooltool's recorded times");
+       "instead: time the shots of this file, next to pooltool's recorded times");
 FLAG(bench_job, option_cushions, "cushions", cushions,
-     "instead: time impacts on a cushion with each model, beside Han's");
+     "instead: time impacts on a cushion with each model, relative to Han's");
 static const char about[] =
-    "Times kernels on the 204 reference collisions, one call each, in turns: A B C A B C ... Each "
-    "kernel is verified first; one whose error is above its bound is not timed. Times are "
+    "Times kernels on the 204 reference collisions, one call each, interleaved: A B C A B C ... "
+    "Each kernel is verified first; a kernel whose error is above its bound is not timed. Times "
+    "are "
     "nanoseconds per collision, the mean over the collisions; median and spread are over the "
     "rounds. The speedup of a round is relative to the ladder's first kernel in the default "
     "configuration with the same number of steps (1000 for kernels without steps). The exact "
     "solver is also timed in batches, with every instruction set.\n";
 
 static const char details[] =
-    "Spread is the median absolute deviation: half of the rounds lie within it. "
+    "Spread is the median absolute deviation: half of the rounds are within it. "
     "docs/study/measuring.md explains how to read the figures.\n"
     "\n"
-    "exit code: 0 if all kernels were timed; 1 if some were refused (the others are timed); 2 for "
+    "exit code: 0 if all kernels were timed; 1 if some were rejected (the others are timed); 2 for "
     "bad usage or unreadable data\n";
 
 static const command_form form = {

@@ -14,7 +14,7 @@ OPTION(bounds_job, bounds_kernels, "kernel", kernels, "NAME,...", set_text, 0,
        "these kernels of the ladder, or all (default base,double,float,double_vec,float_vec)");
 OPTION(bounds_job, bounds_config, "config", config, "NAME", set_text, 0,
        "the build that is counted (default clang-zen2, or gcc-zen2 without clang); valgrind, which "
-       "counts, knows no AVX-512");
+       "counts, does not support AVX-512");
 OPTION(bounds_job, bounds_steps, "steps", steps, "N", set_count, 10,
        "steps of a collision (default 1000)");
 
@@ -24,8 +24,8 @@ static const command_form form = {
     .about = "Counts what the kernels of the ladder execute on the reference collisions, under "
              "valgrind: floating-point operations, instructions, loads and stores. Bounds the "
              "cycles by the longest chain of dependent operations, with the latencies of Zen 2 and "
-             "with those of this processor, and by llvm-mca where it is installed. The notes have "
-             "a fingerprint of the module, which `carom-lab bench` writes too.\n",
+             "of this processor, and by llvm-mca if it is installed. The notes have a fingerprint "
+             "of the module, which `carom-lab bench` also writes.\n",
     .options = (const option_row *const[]){&bounds_kernels, &bounds_config, &bounds_steps,
                                            &option_output, NULL},
     .details = "Columns: flops_* by kind, flops_total, flops_amd (a fused multiply-add counts "

@@ -93,7 +93,7 @@ static bool outcome_of(const shot *s, const kernel *candidate, carom_slip slip,
   return true;
 }
 
-/* One line: what a source says of a shot. */
+/* One line: a shot according to a source. */
 static void print_line(FILE *out, const char *id, const char *source, const char *format,
                        const double outcome[OUTCOMES]) {
   fprintf(out, "%s,%s", id, source);
@@ -131,11 +131,11 @@ static const command_form form = {
     .usage = "[OPTIONS]",
     .about =
         "A rolling cue ball meets a resting object ball at a cut angle (Mathavan, Jackson, Parkin "
-        "2014, tables 1 and 2). Speeds and angles are those once both balls roll. Angles are "
-        "measured from the path of the cue ball before the collision: that of the cue ball to one "
-        "side, and that of the object ball to the other. Snooker balls: M = 0.1406 kg, R = 26.25 "
+        "2014, tables 1 and 2). Speeds and angles are measured once both balls roll. Angles are "
+        "relative to the path of the cue ball before the collision: the cue ball's to one side, "
+        "and the object ball's to the other. Snooker balls: M = 0.1406 kg, R = 26.25 "
         "mm, friction 0.21 with the cloth and 0.05 with each other, restitution 0.89. The measured "
-        "object angle equals the cut angle, so it is no independent check.\n",
+        "object angle equals the cut angle, so it is not an independent check.\n",
     .options =
         (const option_row *const[]){&option_slip, &option_data, &option_csv, &option_output, NULL},
     .details = "exit code: 0, or 2 for bad usage or unreadable data\n",

@@ -22,13 +22,13 @@ static const command_form form = {
     .about = "Lists the kernels that `resolve --kernel` takes and `verify` checks; the first is "
              "the default. The ladder has the seed paper's kernels, built by every compiler in "
              "every configuration: --config names both, such as gcc-o3, or only the configuration, "
-             "which then means that of the first compiler in the list.\n",
+             "for the first compiler in the list.\n",
     .options = (const option_row *const[]){&option_csv, &option_output, NULL},
     .details = "exit code: 0, or 2 for bad usage\n",
     .example = "carom-lab kernels",
 };
 
-/* People are told of the kernels that run here, and of the builds of the ladder. */
+/* The text for people lists the kernels that run here, and the builds of the ladder. */
 static void print_kernels(FILE *out, bool csv) {
   sheet table;
   FILE *rows = sheet_begin(&table, out, csv);

@@ -14,8 +14,9 @@ typedef struct paper_job {
 
 OPTION(paper_job, paper_source, "from", source, "DIR", set_text, 0,
        "measure nothing: judge the CSV files of this report, such as build/results/report");
-OPTION(paper_job, paper_budget, "budget", budget, "SECONDS", set_amount, 0,
-       "how long to time the kernels (default 60); counting their operations comes on top");
+OPTION(
+    paper_job, paper_budget, "budget", budget, "SECONDS", set_amount, 0,
+    "how long to time the kernels (default 60); counting their operations takes additional time");
 FLAG(paper_job, paper_csv, "csv", csv,
      "as CSV: the columns of study/claims.csv without its measure and direction, then "
      "here,uncertainty,verdict,cause");
@@ -35,9 +36,9 @@ static const command_form form = {
         "Judges the claims of the seed paper, in the order of its sections (study/claims.csv): the "
         "paper's value, the limits between which the claim holds, the value of this run, and "
         "whether the claim holds, is indistinguishable from its limit, is weaker, does not hold "
-        "here, or is not measurable here. Where it does not hold, the causes are named that are "
-        "true of this run. Sentences that compare the paper's best kernel with this run's end the "
-        "table.\n",
+        "here, or is not measurable here. If it does not hold, the causes that apply to this run "
+        "are named. The table ends with sentences that compare the paper's best kernel with the "
+        "best of this run.\n",
     .options = (const option_row *const[]){&paper_source, &paper_budget, &paper_csv, &paper_record,
                                            &paper_matrix, &option_output, NULL},
     .details = "study/paper.py explains the verdicts and the limits at its head, and "

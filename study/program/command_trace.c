@@ -12,7 +12,7 @@ typedef struct trace_job {
   int points;
 } trace_job;
 
-/* The horizontal part of a velocity in the axes of the collision: y from ball 1 to ball 2. */
+/* The horizontal components of a velocity in the axes of the collision: y from ball 1 to ball 2. */
 static void write_in_axes(FILE *out, const carom_impact *in, const double v[3]) {
   const double x = in->b.r[0] - in->a.r[0], y = in->b.r[1] - in->a.r[1], length = hypot(x, y);
   write_numbers(out, (double[]){(v[0] * y - v[1] * x) / length, (v[0] * x + v[1] * y) / length}, 2);

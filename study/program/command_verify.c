@@ -6,7 +6,7 @@
 #include "sheet.h"
 #include "subcommands.h"
 
-/* What the sentence below the table says of the ladder. */
+/* The sentence below the table about the ladder. */
 typedef struct ladder_summary {
   size_t comparisons, pass;
   size_t pass_paper, most_over;      /* by the seed paper's criterion; cases above 1 % */
@@ -33,7 +33,7 @@ typedef struct verification {
   const char *folder;
   int way; /* SINGLE_CALLS or a carom_isa; of no meaning to the ladder */
   case_set cases;
-  int steps; /* 0: those of the claims */
+  int steps; /* 0: the steps of the claims */
   carom_result *result;
   int8_t *status;
   pair_accuracy *each;
@@ -142,7 +142,7 @@ static void resolve_cases(verification *v, const kernel *candidate, const ladder
     v->status[k] = (int8_t)carom_collide(&v->cases.impact[k], options, &v->result[k]);
 }
 
-/* Compares the cases that the kernel solves; with other steps than the claim's it may refuse some,
+/* Compares the cases that the kernel solves; with other steps than the claim's it may reject some,
  * because its precision does not resolve a step. */
 static void compare(verification *v, const kernel *candidate, const ladder_module *module,
                     comparison *c, const carom_result *reference) {
@@ -165,7 +165,7 @@ static void compare(verification *v, const kernel *candidate, const ladder_modul
     tell_solver(v, candidate, c, &s);
 }
 
-/* pooltool's results with as many steps: those of the library's Euler, which has its bits. */
+/* pooltool's results with as many steps: from the library's Euler, which has its bits. */
 static carom_result *solve_by_euler(const verification *v, const carom_options *options) {
   carom_options euler = *options;
   euler.solver = CAROM_SOLVER_EULER;
@@ -204,8 +204,8 @@ static bool verify_module(verification *v, const kernel *candidate, const ladder
   return true;
 }
 
-/* By single calls and in the lanes of every instruction set that this processor has; the
- * sentences tell of single calls only.
+/* By single calls and in the lanes of every instruction set that this processor has; the sentences
+ * are about single calls only.
  */
 static bool verify_solver(verification *v, const kernel *candidate) {
   if (v->config != NULL)
@@ -292,7 +292,8 @@ static const char details[] =
     "the same bits in every component. Component errors compare each number with itself: over_1e3 "
     "and over_1e2 count the cases with one above 0.1 % or 1 %, where numbers below 0.001 of the "
     "largest count as that; strict_1e3 and strict_1e2 count without this floor, as the seed paper "
-    "does, and beside them stand the paper's own counts. `paper_verdict` is the paper's criterion: "
+    "does, and the next columns have the paper's own counts. `paper_verdict` is the paper's "
+    "criterion: "
     "no case in strict_1e2.\n"
     "\n"
     "exit code: 0 if every kernel is within its bounds; 1 if some are not; 2 for bad usage or "

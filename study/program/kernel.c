@@ -3,7 +3,7 @@
 
 #include "program/program.h"
 
-/* Euler at N = 1000 errs by at most 1.3e-3 on the cases, with either slip. */
+/* Euler at N = 1000 has an error of at most 1.3e-3 on the cases, with either slip. */
 static const kernel_claim claims_exact[] = {
     {CAROM_SLIP_PAPER, 1000, "reference-exact-paper.csv", 1e-6},
     {CAROM_SLIP_POOLTOOL, 1000, "reference-exact-pooltool.csv", 1e-6},

@@ -12,7 +12,7 @@ typedef struct kernel_claim {
   carom_slip slip;
   int steps;
   const char *reference; /* a file of data/ */
-  double bound;          /* on the largest pair error; 0 asks for the same bits in every
+  double bound;          /* on the largest pair error; 0 requires the same bits in every
                             component */
 } kernel_claim;
 

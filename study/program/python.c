@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <sys/wait.h>
 
-/* Adds a word in single quotes, in which only the quote itself is special to the shell. */
+/* Adds a word in single quotes, within which only the quote itself is special to the shell. */
 static void add_quoted(FILE *line, const char *word) {
   fputs(" '", line);
   for (const char *c = word; *c != '\0'; c++)

@@ -44,7 +44,7 @@ void sheet_end(sheet *s, FILE *rows) {
   int width[COLUMNS_MOST] = {0};
   bool numbers[COLUMNS_MOST] = {false}, number;
   char cell[CELL_MOST];
-  /* once to measure, once to print; a row with a number tells that its column has them */
+  /* once to measure, once to print; a row with a number shows that its column is numeric */
   for (int print = 0; print < 2; print++)
     for (const char *row = s->text; *row != '\0'; row = strchr(row, '\n') + 1) {
       const char *place = row;

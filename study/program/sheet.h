@@ -12,8 +12,8 @@ typedef struct sheet {
 } sheet;
 
 /* Begins a table, whose rows, the head first, are written as CSV into the stream that it returns.
- * sheet_end() prints them. In columns, text stands to the left, a number to the right, one with a
- * fraction in four digits. */
+ * sheet_end() prints them. In columns, text is left-aligned, numbers are right-aligned, and a
+ * fraction has four digits. */
 FILE *sheet_begin(sheet *s, FILE *out, bool csv);
 void sheet_end(sheet *s, FILE *rows);
 

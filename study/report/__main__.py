@@ -20,7 +20,7 @@ from study.report.pictures import draw
 from study.report.sheets import ROOT, Sheet, complain, number, shown, write
 
 HERE = Path(__file__).resolve().parent
-# What stands on the page, in its order. Of a figure: its CSV, its title, and whether the docs show
+# What is on the page, in its order. Of a figure: its CSV, its title, and whether the docs show
 # it, in docs/figures, with its CSV in docs/figures/data.
 CONTENTS = Sheet(HERE / "contents.csv").rows
 FIGURES = {
@@ -110,7 +110,7 @@ def derive_speedup(options, data):
 
 def same_module(data, config):
     """Whether the counts are of the file that was timed; if not, the report says why it prints no
-    share of the bound.
+    fraction of the bound.
     """
     what = f"module {config}"
     timed, counted = (data[name].notes.get(what) for name in ("cycles", "bounds"))
@@ -183,8 +183,8 @@ def derive_performance(options, data):
 
 
 def operations(data):
-    """The counts in the configuration that was timed, beside the paper's and the share of the bound
-    at N = 1000, in per cent.
+    """The counts in the configuration that was timed, next to the paper's and the fraction of the
+    bound at N = 1000, in per cent.
     """
     rows = []
     for row in data["bounds"].rows:

@@ -8,8 +8,8 @@ SCALAR = "base,rsqrt,recmass,cse,reorder,sepwhile,double,float"
 FIVE = "base,double,float,double_vec,float_vec"
 LANES = "double_lanes_avx2,float_lanes_avx2,double_lanes_avx512,float_lanes_avx512"
 
-# NAME.csv: its share of the budget in per cent, 0 for what is computed; the command, to which `-o
-# NAME.csv` is added.
+# NAME.csv: its fraction of the budget in per cent, 0 for what is computed; the command, to which
+# `-o NAME.csv` is added.
 DATA = {
     "kernels": (0, "carom-lab kernels --csv"),
     "experiments": (0, "carom-lab experiments --csv"),

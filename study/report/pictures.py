@@ -8,8 +8,8 @@ from study.report.sheets import Sheet, complain
 
 
 def draw(folder, name, source, title, script):
-    """NAME.svg of the folder, by a gnuplot script from SOURCE.csv beside it, with ids of its own, so
-    that many can stand in one page. Without rows there is no picture.
+    """NAME.svg of the folder, by a gnuplot script from SOURCE.csv next to it, with ids of its own,
+    so that many can be in one page. Without rows there is no picture.
     """
     target = folder / f"{name}.svg"
     target.unlink(missing_ok=True)

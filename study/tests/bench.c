@@ -28,7 +28,7 @@ TEST(summaries) {
   ck_assert(isnan(s.median) && isnan(s.min) && isnan(s.max) && isnan(s.spread));
 }
 
-/* A machine made of a number: its clock stands still but while a subject works. */
+/* A machine made of a number: its clock only advances while a subject works. */
 static double made_up_now;
 static char order[64];
 static size_t ordered;

@@ -1,6 +1,6 @@
 /* Hardware counters: the table of events, which processor has which, and the whole path by events
  * that Linux counts by itself, so that it is tested in virtual machines too. The system call is
- * wrapped, to refuse, and to be a processor that holds two events at a time. */
+ * wrapped, to reject, and to be a processor that holds two events at a time. */
 #define _GNU_SOURCE /* MAP_ANONYMOUS, madvise() */
 #include "counters.h"
 #include "rounds.h"
@@ -224,7 +224,7 @@ TEST(refusals_have_reasons) {
     ck_assert_ptr_nonnull(strstr(text, "perf_event_paranoid"));
     ck_assert_ptr_null(strstr(text, "counted per collision"));
     free(text);
-    bench_figure figure; /* the clock goes on */
+    bench_figure figure; /* the clock continues */
     bench(set, 1, &figure);
     for (int c = 0; c < COUNTER_COLUMNS; c++)
       ck_assert(isnan(figure.counted[c]));

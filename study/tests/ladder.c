@@ -111,7 +111,7 @@ static carom_impact head_on(void) {
 }
 
 /* Every rung of every module must give this status, and NaN or the state before with it; and
- * must come back at all. */
+ * must return at all. */
 static void expect(carom_impact impact, int steps, carom_status expected) {
   const carom_options options = pooltool(steps);
   FOR_EACH_MODULE(module)
@@ -129,7 +129,7 @@ static void expect(carom_impact impact, int steps, carom_status expected) {
   }
 }
 
-/* Head-on collisions whose speeds and sizes are extreme are refused or solved. */
+/* Head-on collisions whose speeds and sizes are extreme are rejected or solved. */
 TEST(what_cannot_be_solved_is_refused_and_the_rest_ends) {
   static const struct {
     double v_a, v_b;
@@ -221,7 +221,7 @@ TEST(single_precision_takes_fewer_steps) {
 
 enum { MOST_PAIRS = 100 };
 
-/* Pairs of equal mass. Every fifth approaches and is refused (masses differ), and every seventh
+/* Pairs of equal mass. Every fifth approaches and is rejected (masses differ), and every seventh
  * separates, if `mixed`. */
 static void draw_pairs(carom_impact pair[MOST_PAIRS], random_source *source, bool mixed) {
   for (int k = 0; k < MOST_PAIRS; k++) {
@@ -238,8 +238,8 @@ static void draw_pairs(carom_impact pair[MOST_PAIRS], random_source *source, boo
 }
 
 /* A lane has the same bits whatever the other lanes hold: a batch of any size and any mixture has
- * those of the pair alone, whose other lanes are copies of it. So a lane that has ended keeps its
- * final state while slower ones run. */
+ * the bits of the single pair, whose other lanes are copies of it. So a lane that has ended keeps
+ * its final state while slower ones run. */
 TEST(a_lane_depends_on_no_other) {
   random_source source = {test_seed()};
   carom_impact pair[MOST_PAIRS];
@@ -280,7 +280,7 @@ TEST(a_lane_depends_on_no_other) {
   }
 }
 
-/* Grazing and slow pairs beside fast ones: single precision refuses them row by row, and the rest
+/* Grazing and slow pairs next to fast ones: single precision rejects them row by row, and the rest
  * agree with the parent. */
 TEST(lanes_beside_refused_ones_agree_with_the_parent) {
   random_source source = {test_seed()};
@@ -319,7 +319,7 @@ TEST(lanes_beside_refused_ones_agree_with_the_parent) {
   }
 }
 
-/* Linking with -ffast-math makes a library switch the whole process to flushing subnormal
+/* Linking with -ffast-math makes a library switch the complete process to flushing subnormal
  * numbers when it is loaded. */
 TEST(loading_leaves_arithmetic_alone) {
 #if defined(__x86_64__)

@@ -2,7 +2,7 @@
 or `kept`, where a name should be a noun of the field. Red from 5 in 1,000 names on, in C, in
 TypeScript and in Python.
 
-Every name in the code counts, each time that it stands there; comments, strings and keywords do
+Every name in the code counts, each time that it is there; comments, strings and keywords do
 not, nor do folders of tests. Nouns such as `first`, `last`, `found` and `left` are not in the list.
 """
 

@@ -22,7 +22,7 @@ function gzip(text: string): Buffer {
   return zopfli.status === 0 ? zopfli.stdout : gzipSync(text, { level: 9 });
 }
 
-/** The file of a package with its licence, however its author spells the word. */
+/** The file of a package with its licence, in either spelling. */
 function licenceFile(folder: string): string {
   const name = readdirSync(folder).find((file) => /^licen[cs]e/i.test(file));
   if (name === undefined) throw new Error(`one-file: ${folder} has no licence`);

@@ -1,7 +1,7 @@
-// A ball as it is seen from above: its colour, its stripe, number or dots as it has turned, and the
-// light on it.
+// A ball seen from above: its colour, its stripe, number or dots as it is turned, and the light on
+// it.
 import { disc } from "./table.js";
-import { colourOf, IVORY, POOL } from "./words.js";
+import { IVORY, lookOf, POOL } from "./words.js";
 
 /** @import { Point, Pose } from "./words.js" */
 /** @import { View } from "./table.js" */
@@ -117,7 +117,7 @@ export function drawBall(g, view, { name, radius: R }, k, { r, q }, alpha, ring)
   const centre = view.place(r[0], r[1]);
   // One that flies looks larger, one that falls in a pocket smaller.
   const radius = Math.max(R * view.scale * (1 + (r[2] > R ? 1 : 3) * (r[2] - R)), 3);
-  const colour = colourOf(name, k, R);
+  const { colour, path } = lookOf(name, k, R);
   const number = Number(name);
   const axes = axesOf(q);
   g.globalAlpha = alpha;
@@ -155,16 +155,16 @@ export function drawBall(g, view, { name, radius: R }, k, { r, q }, alpha, ring)
     g.fillStyle = `rgb(0 0 0 / ${Math.min(-r[2] / DARK, 0.9)})`;
     disc(g, view, r, radius);
   }
-  // The light, and the rim.
+  // The light, and the rim, which is bright enough for a dark ball to be seen on the cloth.
   if (radius >= 5)
     g.drawImage(lightOf(), centre[0] - radius, centre[1] - radius, 2 * radius, 2 * radius);
   for (const [colour, beyond] of /** @type {[string, number][]} */ (
     ring
       ? [
-          ["#000a", 0],
+          [path, 0],
           [ring, 1.5],
         ]
-      : [["#000a", 0]]
+      : [[path, 0]]
   )) {
     g.strokeStyle = colour;
     g.lineWidth = beyond || 1;

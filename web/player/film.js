@@ -1,42 +1,19 @@
-// The pictures of a film: its trails and its balls at a time; and the film of a page that the
-// command wrote.
+// Draws the frames of a film, with trails and balls at a time, and reads the film of a page that
+// the command wrote.
 import { drawBall } from "./ball.js";
 import { line } from "./table.js";
-import { colourOf, IVORY, POOL, product, wordsOf } from "./words.js";
+import { colourOfShot, IVORY, lookOf, product, wordsOf } from "./words.js";
 
 /** @import { Film, Point, Table } from "./words.js" */
 /** @import { View } from "./table.js" */
 
-/** Of trails, which have to be bright on the cloth. @type {Record<string, string>} */
-const BRIGHT = {
-  [POOL[0]]: "#ffd84a",
-  [POOL[1]]: "#8fc1ff",
-  [POOL[2]]: "#ff8d80",
-  [POOL[3]]: "#d3b3ff",
-  [POOL[4]]: "#ffb466",
-  [POOL[5]]: "#b6f09c",
-  [POOL[6]]: "#f2a0bd",
-  "#7b4a21": "#c9a27a",
-};
-/** Of shots over each other, as in the picture below the film. */
-const SHOTS = [
-  "#ffffff",
-  "#ffd84a",
-  "#8fc1ff",
-  "#ff8d80",
-  "#d3b3ff",
-  "#ffb466",
-  "#b6f09c",
-  "#f2a0bd",
-];
-
 /**
- * The trails, to the pocket that takes the ball. @param {Film} film
+ * The trails, up to the pocket that a ball falls into. @param {Film} film
  */
 export const trailsOf = ({ balls, shots, apart = false }) =>
   shots.flatMap(({ paths }, index) =>
     paths.map(({ ball, xyz }) => {
-      const colour = colourOf(balls[ball].name, ball, balls[ball].radius);
+      const { colour, path } = lookOf(balls[ball].name, ball, balls[ball].radius);
       /** @type {Point[]} */
       const points = [];
       for (let k = 0; k < xyz.length; k += 3) {
@@ -45,7 +22,7 @@ export const trailsOf = ({ balls, shots, apart = false }) =>
       }
       return {
         points,
-        colour: apart ? SHOTS[index % 8] : (BRIGHT[colour] ?? colour),
+        colour: apart ? colourOfShot(index) : path,
         width: 1.6,
         isDashed: apart && colour !== IVORY,
       };
@@ -55,7 +32,6 @@ export const trailsOf = ({ balls, shots, apart = false }) =>
 export function drawTrails(g, view, film) {
   g.lineJoin = "round";
   g.lineCap = "round";
-  g.globalAlpha = 0.8;
   for (const { points, colour, width, isDashed } of trailsOf(film)) {
     g.strokeStyle = colour;
     g.lineWidth = width;
@@ -63,7 +39,6 @@ export function drawTrails(g, view, film) {
     line(g, view, points);
   }
   g.setLineDash([]);
-  g.globalAlpha = 1;
 }
 
 /** The balls at a time. Shots over each other: the first is plain, the others are seen through.
@@ -82,7 +57,7 @@ export function drawBalls(g, view, { balls, shots, apart = false }, time) {
             k,
             pose,
             index === 0 || apart ? 1 : 0.6,
-            apart ? SHOTS[index % 8] : undefined,
+            apart ? colourOfShot(index) : undefined,
           ),
       );
   });

@@ -1,5 +1,5 @@
-// The player of films: a table seen from above, and a clock to play shots by. The page and what
-// `carom shoot --animate` writes both show it.
+// The film player: a table seen from above, and a clock that plays shots. The page and the output
+// of `carom shoot --animate` both contain it.
 import { drawBall } from "./ball.js";
 import { drawBalls, drawTrails } from "./film.js";
 import { clothFor, fitTable, viewOf } from "./table.js";
@@ -65,14 +65,14 @@ function parts() {
   ]);
   const pace = make(
     "select#rate",
-    { "aria-label": translate("Speed of the film") },
+    { "aria-label": translate("Playback speed") },
     ...paces.map(([value, text]) => make("option", { value }, text)),
   );
   const slider = make("input#time", {
     type: "range",
     min: "0",
     step: "0.001",
-    "aria-label": translate("Time of the film"),
+    "aria-label": translate("Playback time"),
   });
   const output = make("output#time-value", { for: "time" });
   const controls = make("div.row.film", play, back, forward, pace, slider, output);
@@ -85,7 +85,7 @@ function parts() {
   return { canvas, play, back, forward, pace, slider, output, controls, list, events };
 }
 
-/** Tells the time, and marks the event that was last. @param {Parts} of @param {Clock} clock */
+/** Shows the time, and marks the last event. @param {Parts} of @param {Clock} clock */
 function tellTime({ slider, output, list, events }, { time, allEvents }) {
   slider.value = String(time);
   output.textContent = `${time.toFixed(2)} s`;

@@ -1,4 +1,5 @@
 // The table without balls, and where it lies on its canvas.
+import { PALETTE } from "./palette.js";
 
 /** @import { Point, Table } from "./words.js" */
 /** @typedef {ReturnType<typeof viewOf>} View */
@@ -189,7 +190,7 @@ function drawLight(g, view, table) {
   const [x, y] = view.place(table.width / 2, table.length / 2);
   const far = 0.62 * table.length * view.scale;
   const lamp = g.createRadialGradient(x, y, 0.1 * far, x, y, far);
-  lamp.addColorStop(0, "#ffffff1c");
+  lamp.addColorStop(0, "#00000000"); // paths need the cloth as dark as PALETTE has it
   lamp.addColorStop(0.6, "#00000010");
   lamp.addColorStop(1, "#00000058");
   g.fillStyle = lamp;
@@ -285,7 +286,7 @@ function drawCloth(g, view, table, bed) {
   g.lineCap = "round";
   drawPockets(g, view, table, bed);
   drawLight(g, view, table);
-  g.strokeStyle = "#0b2d25";
+  g.strokeStyle = PALETTE.part.nose;
   g.lineWidth = Math.max(2, 0.006 * view.scale);
   for (const { p, q } of table.rails) line(g, view, [p, q]);
   for (const jaw of table.jaws) line(g, view, arcOf(table, jaw));
@@ -305,7 +306,7 @@ function drawCloth(g, view, table, bed) {
  */
 function drawDiamonds(g, view, table) {
   if (table.length > 3) return;
-  g.fillStyle = "#e8dcc0";
+  g.fillStyle = PALETTE.part.mark;
   for (const side of [0, 1]) {
     const out = ((side === 0 ? -1 : 1) * (CUSHION + WOOD)) / 2;
     for (let k = 1; k < 8; k++)
@@ -338,9 +339,9 @@ function drawWood(g, width, height, wood, scale) {
 
 /** The colours of cloth and wood by discipline: as they are drawn, and the dye below the lamp. */
 const STYLES = {
-  pool: { cloth: "#0c7189", dye: "#1391b6", wood: "#5f3721" },
-  snooker: { cloth: "#1d7a43", dye: "#129c50", wood: "#5f2814" },
-  carom: { cloth: "#1a5f9e", dye: "#1472c8", wood: "#3a2418" },
+  pool: { cloth: PALETTE.cloth.pool, dye: "#1391b6", wood: PALETTE.wood.pool },
+  snooker: { cloth: PALETTE.cloth.snooker, dye: "#129c50", wood: PALETTE.wood.snooker },
+  carom: { cloth: PALETTE.cloth.carom, dye: "#1472c8", wood: PALETTE.wood.carom },
 };
 /** The discipline that a table is of. @param {Table} table @returns {keyof typeof STYLES} */
 export function disciplineOf({ length, pockets }) {

@@ -2,6 +2,7 @@
 // stands here for all modules of the player, which the page imports, and which the command writes
 // one behind the other into the pages of `carom shoot --animate`: no two of them have one name for
 // two things.
+import { PALETTE } from "./palette.js";
 
 /** @typedef {readonly [number, number]} Point */
 /**
@@ -44,42 +45,31 @@ export const product = ({ 0: w, 1: i, 2: j, 3: n }, { 0: c, 1: x, 2: y, 3: z }) 
   w * z + i * y - j * x + n * c,
 ];
 
-export const IVORY = "#fbfaf5";
-export const POOL = [
-  "#e3b505",
-  "#1446a0",
-  "#c8102e",
-  "#5b2a86",
-  "#e8702a",
-  "#12664f",
-  "#7a1f2b",
-  "#16181b",
-];
-/** @type {Record<string, string>} */
-const NAMED = {
-  cue: IVORY,
-  white: IVORY,
-  yellow: POOL[0],
-  green: POOL[5],
-  brown: "#7b4a21",
-  blue: POOL[1],
-  pink: "#e58fa5",
-  black: POOL[7],
-  red: POOL[2],
-  maroon: POOL[6],
-};
+/** @typedef {{ name: string, colour: string, path: string }} Look */
+/** The cue ball, and then 1 to 8. @type {readonly Look[]} */
+const NUMBERED = PALETTE.balls.slice(0, 9);
+export const IVORY = NUMBERED[0].colour;
+export const POOL = NUMBERED.slice(1).map(({ colour }) => colour);
+/** @type {Record<string, Look>} */
+const NAMED = Object.fromEntries(PALETTE.balls.map((ball) => [ball.name, ball]));
+NAMED.cue = NAMED.white;
 
 /** Balls of this radius, m, and larger are those of pyramid: white ones and a yellow cue ball. */
 const PYRAMID = 0.0335;
 
 /**
- * The colour of a ball, by its name, and of pyramid's balls by their radius, m. @param {string} name
- * @param {number} k @param {number} radius
+ * The colours of a ball and of its path, by its name, and of pyramid's balls by their radius, m.
+ * @param {string} name @param {number} k @param {number} radius
  */
-export function colourOf(name, k, radius) {
-  if (radius >= PYRAMID) return k === 0 ? POOL[0] : IVORY;
-  return NAMED[name.split(" ")[0]] ?? (k === 0 ? IVORY : POOL[((Number(name) || k) - 1) % 8]);
+export function lookOf(name, k, radius) {
+  if (radius >= PYRAMID) return k === 0 ? NAMED.yellow : NAMED.white;
+  const number = Number(name) || k;
+  return NAMED[name.split(" ")[0]] ?? NUMBERED[number > 0 ? 1 + ((number - 1) % 8) : 0];
 }
+/** The colour of a ball. @param {string} name @param {number} k @param {number} radius */
+export const colourOf = (name, k, radius) => lookOf(name, k, radius).colour;
+/** The colour of shot k of several that are over each other. @param {number} k */
+export const colourOfShot = (k) => NUMBERED[k % 8].path;
 
 /**
  * Where a pocket of a rectangle is for a player at the head, as carom_pocket_name() says:
@@ -97,7 +87,7 @@ export function pocketName({ width, length, pockets }, pocket) {
  * empty. @type {Record<string, string>}
  */
 export const DICTIONARY = {};
-/** A word in the reader's language; one that is not known stays English. @param {string} word */
+/** A text in the reader's language; an unknown one stays English. @param {string} word */
 export const translate = (word) =>
   DICTIONARY[word] ?? word.replace(/^\w+(?= \d)/, (colour) => DICTIONARY[colour] ?? colour);
 

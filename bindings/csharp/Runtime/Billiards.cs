@@ -6,7 +6,7 @@ using System.Runtime.InteropServices;
 using System.Text;
 
 namespace Carom {
-  /// <summary>A call that could not be served.</summary>
+  /// <summary>The error of a call.</summary>
   public sealed class CaromException : Exception {
     public readonly Status Status;
 
@@ -22,19 +22,19 @@ namespace Carom {
 
   /// <summary>A shot that was played.</summary>
   public sealed unsafe class PlayedShot {
-    /// <summary>Ok; or StoppedAtTime or StoppedAtEvent, as the options ask.</summary>
+    /// <summary>Ok; or StoppedAtTime or StoppedAtEvent, as the options request.</summary>
     public Status Status { get; internal set; }
     /// <summary>All events, in the order in which they happened.</summary>
     public ShotEvent[] Events { get; internal set; }
     /// <summary>The states at the end, one for each ball.</summary>
     public BallState[] Final { get; internal set; }
-    /// <summary>Up to when the shot was followed, s.</summary>
+    /// <summary>The time up to which the shot was followed, s.</summary>
     public double Time { get; internal set; }
-    /// <summary>What rules ask about.</summary>
+    /// <summary>The facts for rules.</summary>
     public Facts Facts { get; internal set; }
     internal Table table;
     internal ShotBall[] balls;
-    ShotState[] state; // of a shot that its options may stop
+    ShotState[] state; // for a shot that its options may stop
 
     internal PlayedShot(Table on, ShotBall[] layout, bool stops) {
       table = on;
@@ -47,7 +47,7 @@ namespace Carom {
     internal delegate Status Playing(Shot *to);
 
     /// <summary>Plays a stroke of a recording or a match from `balls`, with room for all its
-    /// events: `takeBack` undoes a try that had too little. `last` becomes the shot.</summary>
+    /// events: `takeBack` undoes a try that had too little room. `last` becomes the shot.</summary>
     internal static Status Recorded(Record *of, ShotBall *balls, ref PlayedShot last, bool goesOn,
                                     Playing play, Action takeBack) {
       var shot = new PlayedShot(of->table, Billiards.Copy(balls, of->count), false);
@@ -76,8 +76,8 @@ namespace Carom {
       }
     }
 
-    /// <summary>Goes on with a shot that its options stopped, with the bits of the unbroken one;
-    /// `options` say when to stop again. After an error the shot is as before.</summary>
+    /// <summary>Continues a shot that its options stopped, with the bits of the uninterrupted shot;
+    /// `options` set when to stop again. After an error the shot is as before.</summary>
     public Status Resume(Table table, ShotOptions options = default(ShotOptions)) {
       if (state == null)
         throw new CaromException(Status.ErrorState);
@@ -88,8 +88,8 @@ namespace Carom {
       return Billiards.Check(status);
     }
 
-    /// <summary>Plays from where the shot is, with room for so many events; once more from there
-    /// where there were more. Without a cue it goes on.</summary>
+    /// <summary>Plays from the current state of the shot, with room for `room` events; plays again
+    /// if there were more. Without a cue it continues the shot.</summary>
     internal Status Follow(long room, Table *table, Cue *cue, ShotOptions *options) {
       for (;;) {
         var events = new ShotEvent[room];
@@ -120,7 +120,7 @@ namespace Carom {
       }
     }
 
-    /// <summary>The layout that it leaves.</summary>
+    /// <summary>The layout after the shot.</summary>
     public ShotBall[] Layout() {
       var layout = (ShotBall[])balls.Clone();
       for (int k = 0; k < layout.Length; k++)
@@ -140,8 +140,8 @@ namespace Carom {
       return states;
     }
 
-    /// <summary>How fast surfaces pass each other in an event, m/s: with its impulse, how it
-    /// sounds.</summary>
+    /// <summary>The slip between the surfaces in an event, m/s. Together with the impulse it
+    /// determines the sound.</summary>
     public double Slip(ShotEvent of) {
       return Calls.EventSlip(table, balls, of);
     }
@@ -166,16 +166,16 @@ namespace Carom {
     }
   }
 
-  /// <summary>A film of shots, for drawing, in which pocketed balls fall: each frame goes on from
-  /// the one before, where that was of the same shot and earlier.</summary>
+  /// <summary>The frames of shots, for drawing, in which pocketed balls fall: each frame continues
+  /// from the previous one if that was earlier in the same shot.</summary>
   public sealed unsafe class Film {
     readonly Frames[] onward = new Frames[1];
 
     /// <summary>The states of all balls at the time of the last call. The next one writes into the
     /// same array.</summary>
     public BallState[] States { get; private set; }
-    /// <summary>How they have turned since the start of the shot: w, x, y, z of each, one behind
-    /// the other.</summary>
+    /// <summary>How the balls have turned since the start of the shot: w, x, y, z of each,
+    /// consecutively.</summary>
     public double[] Turned { get; private set; }
 
     /// <summary>Goes to a time of a shot, s.</summary>
@@ -197,8 +197,8 @@ namespace Carom {
     }
   }
 
-  /// <summary>A number of a ball, a cue or a table, or an option: its names, unit, range in words,
-  /// default, and what it is.</summary>
+  /// <summary>A number of a ball, a cue or a table, or an option: its names, unit, range as a text,
+  /// default, and description.</summary>
   public sealed class Row {
     public string Name, Key, Unit, Range, Text;
     public double Low, High, Other;
@@ -207,7 +207,7 @@ namespace Carom {
   /// <summary>What the library offers to a game.</summary>
   public static unsafe class Billiards {
     /// <summary>The revision of the physics: players in lockstep agree only with the same
-    /// number.</summary>
+    /// revision.</summary>
     public static int PhysicsRevision {
       get { return Calls.PhysicsRevision(); }
     }
@@ -227,8 +227,8 @@ namespace Carom {
       return Calls.TableMeasures(kind);
     }
 
-    /// <summary>A table by its measures, checked for balls of a radius, m. The exception names the
-    /// measure that is wrong.</summary>
+    /// <summary>A table from its measures, checked for balls of a radius, m. The exception names
+    /// the invalid measure.</summary>
     public static Table Table(Measures measures, double radius = 0.028575) {
       Table table;
       TableFault fault;
@@ -239,8 +239,8 @@ namespace Carom {
       return table;
     }
 
-    /// <summary>A rack, with the cue ball first. `gap`, m, is left between neighbours; `seed` draws
-    /// the rest.</summary>
+    /// <summary>A rack, with the cue ball first. `gap`, m, is between neighbours; `seed` draws the
+    /// displacements.</summary>
     public static ShotBall[] Rack(RackKind kind, Table table, double gap = 1e-4, ulong seed = 1) {
       var balls = new ShotBall[Calls.RackSize(kind)];
       fixed(ShotBall *to = balls)
@@ -267,8 +267,8 @@ namespace Carom {
     }
 
     /// <summary>Aims a pot: `cue.phi` becomes the direction in which `pot.ball` goes to the middle
-    /// of `pot.pocket`, by way of `pot.via`. `pot.outcome` tells what the other balls and the jaws
-    /// make of it.</summary>
+    /// of `pot.pocket`, by way of `pot.via`. `pot.outcome` is the result with the other balls and
+    /// the jaws.</summary>
     public static void Aim(Table table, ShotBall[] balls, ref Pot pot, ref Cue cue,
                            ShotOptions options = default(ShotOptions)) {
       Pot of = pot;
@@ -287,8 +287,8 @@ namespace Carom {
       return Calls.PlanRulesOf(kind);
     }
 
-    /// <summary>What a shot that was played comes to by the rules, with the state of the game
-    /// before it.</summary>
+    /// <summary>The ruling of a played shot; the rules have the state of the game before
+    /// it.</summary>
     public static Ruling Referee(PlanRules rules, PlayedShot shot, Call? call = null,
                                  int cueBall = 0) {
       Ruling made;
@@ -303,20 +303,20 @@ namespace Carom {
       return made;
     }
 
-    /// <summary>A ruling in words.</summary>
+    /// <summary>The text of a ruling.</summary>
     public static string Words(ref Ruling of) {
       return Calls.RulingString(ref of);
     }
 
-    /// <summary>The stroke that a player makes who means `cue`: with errors drawn from `seed` and
-    /// the number of the stroke.</summary>
+    /// <summary>The stroke of a player who intends `cue`, with errors drawn from `seed` and the
+    /// number of the stroke.</summary>
     public static Cue Strike(Player player, ulong seed, ulong number, Cue cue) {
       Calls.PlayerStrike(player, seed, number, ref cue);
       return cue;
     }
 
-    /// <summary>Ball in hand: puts a ball at rest at x, y (m). False where that place is not free;
-    /// `inTheWay` is what is there, and the ball stays.</summary>
+    /// <summary>Ball in hand: puts a ball at rest at x, y (m). False if that position is not free;
+    /// `inTheWay` is the ball or part in the way, and the ball does not move.</summary>
     public static bool Place(Table table, ShotBall[] balls, int ball, double x, double y,
                              out Part inTheWay) {
       Part part;
@@ -330,7 +330,7 @@ namespace Carom {
       return true;
     }
 
-    /// <summary>Puts a ball back as the rules of a rack's game ask.</summary>
+    /// <summary>Spots a ball by the rules of a rack's game.</summary>
     public static void Spot(RackKind kind, Table table, ShotBall[] balls, int ball) {
       Calls.SpotBallOf(kind, table, balls, ball);
     }
@@ -349,12 +349,12 @@ namespace Carom {
       return rows.ToArray();
     }
 
-    /// <summary>The word of a value, such as "han"; null where it has none.</summary>
+    /// <summary>The word of a value, such as "han"; null if it has none.</summary>
     public static string Word(Words of, int value) {
       return Calls.Word(of, value);
     }
 
-    /// <summary>The exception of a shot, with the number at fault where there is one.</summary>
+    /// <summary>The exception of a shot, with the invalid number if there is one.</summary>
     static CaromException Refused(Status status, Table *table, ShotBall *balls, int count, Cue *cue,
                                   ShotOptions *options) {
       Fault fault;
@@ -406,8 +406,8 @@ namespace Carom {
       get { return record != null ? record : throw new ObjectDisposedException("Recording"); }
     }
 
-    /// <summary>Begins a game, and returns its lines up to that of the balls. All lines end with an
-    /// end of line.</summary>
+    /// <summary>Begins a game, and returns its lines up to the line of the balls. All lines end
+    /// with an end of line.</summary>
     public string Begin(Table table, ShotBall[] balls, ShotOptions options = default(ShotOptions)) {
       if (balls.Length > Native.CAROM_BALLS_MOST)
         Billiards.Check(Status.ErrorBalls);
@@ -427,7 +427,7 @@ namespace Carom {
       return Line(RecordKind.Shot);
     }
 
-    /// <summary>The last shot that was played or read, with its events; of one that went on, from
+    /// <summary>The last shot that was played or read, with its events; for a continued shot, from
     /// its start.</summary>
     public PlayedShot Last {
       get { return last; }
@@ -453,7 +453,7 @@ namespace Carom {
       return Line(RecordKind.Place);
     }
 
-    /// <summary>A ball comes in hand, and is out of play until it is placed. Returns the
+    /// <summary>Takes a ball in hand; it is out of play until it is placed. Returns the
     /// line.</summary>
     public string Hand(int ball) {
       Billiards.Check(Native.carom_record_hand(Open, ball));
@@ -471,7 +471,7 @@ namespace Carom {
       return Billiards.Copy((ShotBall *)&record->balls, record->count);
     }
 
-    /// <summary>What rules ask about, of the last shot.</summary>
+    /// <summary>The facts of the last shot, for rules.</summary>
     public Facts Facts {
       get { return Open->facts; }
     }
@@ -482,7 +482,7 @@ namespace Carom {
       fixed(byte *to = line) size =
           (int)Native.carom_record_write(Open, kind, to, (UIntPtr)line.Length);
       if (size == 0)
-        throw new CaromException(Status.ErrorRecord, "this line cannot stand here");
+        throw new CaromException(Status.ErrorRecord, "this line is not allowed here");
       return Encoding.ASCII.GetString(line, 0, size);
     }
 
@@ -510,7 +510,7 @@ namespace Carom {
     }
 
     /// <summary>Reads lines up to a shot with other bits than were recorded, and returns false
-    /// there. A game that was saved without its end goes on.</summary>
+    /// there. A game that was saved without its end can be continued.</summary>
     public bool Load(string lines) {
       foreach (var line in lines.Split('\n'))
         if (!Read(line))

@@ -5,17 +5,19 @@ using System.Runtime.InteropServices;
 using System.Text;
 
 namespace Carom {
-  /// <summary>A match, as carom_match.h has it. An act that the rules forbid is a CaromException
-  /// that says what would be right; then nothing has changed.</summary>
+  /// <summary>A match of carom_match.h. An act that the rules forbid throws a CaromException that
+  /// describes what would be right, and changes nothing.</summary>
   public sealed unsafe partial class LiveMatch : IDisposable {
     Match *match;
     Record *scratch;
+    Match *room;
     readonly StringBuilder lines = new StringBuilder();
     readonly Stack<string> undone = new Stack<string>();
 
     LiveMatch() {
       match = (Match *)Zeros(sizeof(Match));
       scratch = (Record *)Zeros(sizeof(Record));
+      room = (Match *)Zeros(sizeof(Match));
     }
 
     static IntPtr Zeros(int size) {
@@ -31,7 +33,7 @@ namespace Carom {
     string Text() {
       return Encoding.UTF8.GetString(match->text, (int)match->size);
     }
-    /// Keeps the lines of an act; throws what was refused.
+    /// Keeps the lines of an act; throws an exception for a rejected act.
     Status Told(Status status) {
       if (match->size > 0)
         undone.Clear();
@@ -45,7 +47,7 @@ namespace Carom {
     }
 
     /// <summary>Begins a match with the rack of a game; `player`, 0 or 1, breaks. `target` points
-    /// win, 0: those of the game; with `equalInnings` the match may be drawn.</summary>
+    /// win, 0: the usual target of the game; with `equalInnings` the match may be drawn.</summary>
     public static LiveMatch Begin(RulesKind rules, Table table, ulong seed, int player = 0,
                                   int target = 0, bool equalInnings = false) {
       var made = new LiveMatch();
@@ -54,7 +56,7 @@ namespace Carom {
       return made;
     }
 
-    /// <summary>The same from any layout, by the rules of this kind; the cue ball is in hand where
+    /// <summary>The same from any layout, by the rules of this kind; the cue ball is in hand if
     /// `leave` says so.</summary>
     public static LiveMatch Begin(RulesKind rules, Table table, ShotBall[] balls,
                                   Leave leave = Leave.After, int player = 0) {
@@ -64,8 +66,8 @@ namespace Carom {
       return made;
     }
 
-    /// <summary>The same of any seats, which carom_seating_make() begins: with names, sides,
-    /// handicaps, cues and limits; and of a set, where there is one.</summary>
+    /// <summary>The same with any seats, which carom_seating_make() initializes: names, sides,
+    /// handicaps, cues and limits; and optionally with a set.</summary>
     public static LiveMatch Begin(RulesKind rules, Table table, ulong seed, Seating seating,
                                   Set? set = null, int side = 0, int target = 0,
                                   bool equalInnings = false) {
@@ -83,8 +85,8 @@ namespace Carom {
       return made;
     }
 
-    /// <summary>Reads and judges the lines of a match. Its last shot has all its events, also where
-    /// it still moves and goes on.</summary>
+    /// <summary>Reads and judges the lines of a match. The last shot has all its events, also if
+    /// balls are still moving.</summary>
     public static LiveMatch Load(string lines) {
       if (lines.Length == 0)
         throw new CaromException(Status.ErrorRecord,
@@ -97,24 +99,43 @@ namespace Carom {
       *match = default(Match);
       lines.Clear();
       foreach (var line in text.Split(new[] { '\n' }, StringSplitOptions.RemoveEmptyEntries))
-        ReadLine(line, -1);
+        ReadLine(line);
       lines.Append(Text());
       Replay();
     }
-    void ReadLine(string line, int sender) {
+    void ReadLine(string line) {
       var bytes = Encoding.UTF8.GetBytes(line);
       fixed(byte *at = bytes)
-          Refused(Native.carom_match_read_from(match, scratch, at, (UIntPtr)bytes.Length, sender));
+          Refused(Native.carom_match_read(match, scratch, at, (UIntPtr)bytes.Length));
       lines.Append(line.TrimEnd('\n')).Append('\n');
     }
 
-    /// <summary>Reads a line that a seat has sent, as carom_match_read_from() does; -1:
-    /// anyone.</summary>
-    public void Read(string line, int sender = -1) {
+    /// <summary>Reads the next line of a file. Nothing is read behind a line that is not by the
+    /// rules.</summary>
+    public void Read(string line) {
       var shots = Shots;
-      ReadLine(line, sender);
+      ReadLine(line);
       if (Shots != shots)
         Replay();
+    }
+
+    /// <summary>Judges a line that a peer of this seat has sent, as carom_match_receive() does;
+    /// null: a sender that may send every line. A line that is refused, with a CaromException,
+    /// leaves the match as it was. Returns whether the match has changed; Lines then has new
+    /// ones.</summary>
+    public bool Receive(string line, int? seat) {
+      var shots = Shots;
+      var lineCount = Open->record.line;
+      var bytes = Encoding.UTF8.GetBytes(line + "\n");
+      fixed(byte *at = bytes)
+          Refused(Native.carom_match_receive(match, room, at, (UIntPtr)bytes.Length, seat ?? -1));
+      if (match->record.line == lineCount)
+        return false;
+      undone.Clear();
+      lines.Append(match->size > 0 ? Text() : line.Trim() + "\n");
+      if (Shots != shots)
+        Replay();
+      return true;
     }
 
     /// <summary>Undoes the last act. False: there is none.</summary>
@@ -128,14 +149,14 @@ namespace Carom {
       ReadAll(Encoding.UTF8.GetString(bytes, 0, size));
       return true;
     }
-    /// <summary>Does the act again that was undone last. False: there is none.</summary>
+    /// <summary>Repeats the act that was undone last. False: there is nothing to repeat.</summary>
     public bool Redo() {
       if (Open->phase == 0 || undone.Count == 0)
         return false;
       ReadAll(Lines + undone.Pop());
       return true;
     }
-    /// <summary>The same match, which goes on alone.</summary>
+    /// <summary>A copy of the match, independent of this one.</summary>
     public LiveMatch Copy() {
       var made = new LiveMatch();
       *made.match = *Open;
@@ -144,7 +165,7 @@ namespace Carom {
       return made;
     }
 
-    /// <summary>All that is known of the match: its phase, choices, bounds and record.</summary>
+    /// <summary>The complete state of the match: phase, choices, bounds and record.</summary>
     public Match State {
       get { return *Open; }
     }
@@ -162,12 +183,12 @@ namespace Carom {
       get { return Open->ruling; }
     }
 
-    /// <summary>The balls as they lie; of a shot that moves, those before it.</summary>
+    /// <summary>The balls; while a shot is moving, the balls before it.</summary>
     public ShotBall[] Layout() {
       return Billiards.Copy((ShotBall *)&Open->record.balls, match->record.count);
     }
 
-    /// <summary>The last ruling in words.</summary>
+    /// <summary>The text of the last ruling.</summary>
     public string Words {
       get { return Billiards.Words(ref Open->ruling); }
     }
@@ -177,8 +198,8 @@ namespace Carom {
     }
     PlayedShot last;
 
-    /// <summary>The position of the player at the table, of a rating, for plans; in hand, with the
-    /// bounds of the match.</summary>
+    /// <summary>The position of the player at the table, for plans of a player with a rating; in
+    /// hand, with the bounds of the match.</summary>
     public Position Position(Cue cue, double rating) {
       cue.ball = Open->cueBall;
       var balls = Billiards.Copy((ShotBall *)&match->record.balls, match->record.count);
@@ -190,14 +211,14 @@ namespace Carom {
       return of;
     }
 
-    /// <summary>Plays a stroke; `stop` says when to stop its shot. Returns whether the shot has
-    /// ended, and is ruled.</summary>
+    /// <summary>Plays a stroke; `stop` sets when its shot is stopped. Returns whether the shot has
+    /// ended, and was judged.</summary>
     public bool Stroke(Cue cue, ShotOptions stop = default(ShotOptions)) {
       Cue *by = &cue;
       ShotOptions *until = &stop;
       return Play(false, to => Native.carom_match_stroke(match, Seat, by, until, to));
     }
-    /// <summary>Goes on with a stopped shot, likewise.</summary>
+    /// <summary>Continues a stopped shot in the same way.</summary>
     public bool GoOn(ShotOptions stop = default(ShotOptions)) {
       ShotOptions *until = &stop;
       return Play(true, to => Native.carom_match_continue(match, until, to));
@@ -215,12 +236,12 @@ namespace Carom {
         PlayedShot.Recorded(&match->record, (ShotBall *)&match->before, ref last, false,
                             to => Native.carom_match_replay(match, to), () => {});
     }
-    /// <summary>A player, 0 or 1, gives the game to the other.</summary>
+    /// <summary>A player, 0 or 1, concedes the game.</summary>
     public void Concede(int player) {
       Told(Native.carom_match_concede(Open, player));
     }
-    /// <summary>Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is
-    /// the stroke as the player makes it; `stop` as of a stroke.</summary>
+    /// <summary>Plays a choice of a plan: places, calls and plays its stroke, or passes. `cue` is
+    /// the stroke as the player makes it; `stop` as for a stroke.</summary>
     public void Take(PlanStroke best, Cue cue, ShotOptions stop = default(ShotOptions)) {
       Prepare(best);
       if (best.kind != (int)PlanKind.Pass)
@@ -230,8 +251,10 @@ namespace Carom {
     public void Dispose() {
       Marshal.FreeHGlobal((IntPtr)match);
       Marshal.FreeHGlobal((IntPtr)scratch);
+      Marshal.FreeHGlobal((IntPtr)room);
       match = null;
       scratch = null;
+      room = null;
       GC.SuppressFinalize(this);
     }
     ~LiveMatch() {

@@ -1,22 +1,23 @@
-// Plans: which stroke to play, by built-in rules or by those of the caller.
+// Plans: which stroke to play, by built-in or custom rules.
 using System;
 using System.Collections.Generic;
 using System.Runtime.ExceptionServices;
 using System.Runtime.InteropServices;
 
 namespace Carom {
-  /// <summary>Marks a static method that C calls, as IL2CPP asks.</summary>
+  /// <summary>Marks a static method that C calls, as IL2CPP requires.</summary>
   [AttributeUsage(AttributeTargets.Method)]
   sealed class MonoPInvokeCallbackAttribute : Attribute {
     public MonoPInvokeCallbackAttribute(System.Type type) {
     }
   }
 
-  /// <summary>Rules of a game of the caller's. Sets of balls have bit k for ball k. The methods may
-  /// be called from several threads at once, and depend on their arguments only; `user` are the
-  /// seven words of the state that are theirs, as the player at the table has them; the eighth
-  /// names the object, which lives as long as the program. An exception of theirs goes to the
-  /// caller of the plan or of the ruling, at its end. carom_plan.h describes the methods.</summary>
+  /// <summary>Custom rules of a game. Sets of balls have bit k for ball k. The methods may be
+  /// called from several threads at once, and must depend only on their arguments; `user` has seven
+  /// integers of the state for the rules, from the view of the player at the table; the eighth
+  /// identifies the object, which lives as long as the program. An exception of a method is thrown
+  /// at the end of the call that made the plan or the ruling. carom_plan.h describes the
+  /// methods.</summary>
   public abstract unsafe class GameRules {
     const int Own = 7;
     static readonly List<GameRules> all = new List<GameRules>();
@@ -29,34 +30,34 @@ namespace Carom {
     static readonly Native.carom_rules_settle settle = SettleOf;
     readonly ulong number;
     Exception failure; // the last one
-    int failures;      // how many there were
+    int failures;      // their number
 
     /// <summary>The balls that may be met first, and potted.</summary>
     protected abstract uint On(ulong[] user, uint inPlay);
-    /// <summary>The outcome of a shot; it leaves `user` as the next player has it.</summary>
+    /// <summary>The outcome of a shot; it leaves `user` from the view of the next player.</summary>
     protected abstract Turn Judge(ulong[] user, uint inPlay, int cueBall, Facts facts, Call call);
-    /// <summary>How many balls the player at the table, [0], and the other one, [1], have to pot to
+    /// <summary>How many balls the player at the table, [0], and the opponent, [1], have to pot to
     /// win; in a race for points, how many points.</summary>
     protected abstract int[] Left(ulong[] user, uint inPlay);
 
-    // The library has its own of those below, which rules override that need others.
+    // The library has defaults for the methods below. Override those that your rules need.
 
     /// <summary>The pockets in which balls count for the player at the table, as a set.</summary>
     protected virtual uint Pockets(ulong[] user) {
       throw new NotImplementedException();
     }
-    /// <summary>The chance that the player at the table wins, 0 to 1; without an opponent, how many
-    /// balls this player is still going to pot.</summary>
+    /// <summary>The chance that the player at the table wins, 0 to 1; without an opponent, the
+    /// expected number of balls that this player still pots.</summary>
     protected virtual double Value(ulong[] user, BallState[] layout, bool inHand) {
       throw new NotImplementedException();
     }
-    /// <summary>In a race for points, those of a ball that falls in the next stroke; of ball -1,
-    /// the mean of a later pot.</summary>
+    /// <summary>In a race for points, the points of a ball that falls in the next stroke; for ball
+    /// -1, the mean of a later pot.</summary>
     protected virtual double Points(ulong[] user, uint inPlay, int ball) {
       throw new NotImplementedException();
     }
-    /// <summary>Does what depends on the places of the balls after a stroke that was judged, and
-    /// puts back the balls of turn.spot, as by Billiards.Spot().</summary>
+    /// <summary>Applies the rules that depend on the positions of the balls after a stroke was
+    /// judged, and spots the balls of turn.spot, as Billiards.Spot() does.</summary>
     protected virtual void Settle(ulong[] user, Table table, ShotBall[] balls, ref Turn turn) {
       throw new NotImplementedException();
     }
@@ -69,7 +70,7 @@ namespace Carom {
       }
     }
 
-    /// <summary>The rules with a state that is all 0; `calls`, `race` and the like can be
+    /// <summary>The rules with a state that is all 0; `calls`, `race` and other members can be
     /// set.</summary>
     public PlanRules Data() {
       var data = new PlanRules {
@@ -170,7 +171,7 @@ namespace Carom {
       }
     }
 
-    /// <summary>What throws the exceptions of a caller's rules since it was made.</summary>
+    /// <summary>Throws the exceptions of custom rules that occurred since it was made.</summary>
     internal struct Watch {
       readonly GameRules rules;
       readonly int before;
@@ -211,16 +212,16 @@ namespace Carom {
     public ShotOptions Shot;
     /// <summary>`opponent` and `stop` of it are not read.</summary>
     public PlanOptions Options;
-    /// <summary>Where the cue ball may be put in hand, as in a match. Null: where the game lets it
-    /// be put after a foul, if a plan is made in hand. After a scratch on the break of eight-ball
-    /// give those of the ruling, because the rules do not know of the stroke before.</summary>
+    /// <summary>The bounds of a cue ball in hand, as in a match. Null: the bounds of the game after
+    /// a foul, if a plan is made in hand. After a scratch on the break of eight-ball, set the
+    /// bounds of the ruling, because the rules do not know the previous stroke.</summary>
     public HandBounds? Bounds;
-    /// <summary>Within which bounds the cue ball was placed for this stroke: from behind the head
-    /// string it may not first meet balls that lie there too.</summary>
+    /// <summary>The bounds within which the cue ball was placed for this stroke: from behind the
+    /// head string it may not first meet balls that are there too.</summary>
     public Leave Leave;
 
-    /// <summary>Of two players of the same Fargo rating, 200 to 850, in this game. They play as
-    /// rated where the shots of the options are 0.</summary>
+    /// <summary>For two players of the same Fargo rating, 200 to 850, in this game. They play as
+    /// rated if the shots of the options are 0.</summary>
     public Position(Table table, ShotBall[] balls, Cue cue, PlanRules rules, double rating) {
       Table = table;
       Balls = balls;
@@ -229,8 +230,8 @@ namespace Carom {
       Player = Opponent = Calls.PlayerRated(rating, (RulesKind)(rules.learned - 1));
     }
 
-    /// <summary>The best strokes, best first, at most `most`; in hand, with the places of the cue
-    /// ball.</summary>
+    /// <summary>The best strokes, best first, at most `most`; in hand, with the positions of the
+    /// cue ball.</summary>
     public PlanStroke[] Plan(int most = 1, bool inHand = false) {
       using (var all = Think(0, most, inHand)) {
         all.GoOn();
@@ -238,13 +239,13 @@ namespace Carom {
       }
     }
 
-    /// <summary>A plan of the position as it is now, made in slices of so many events, about (500
+    /// <summary>A plan of the position as it is now, made in slices of about `slice` events (500
     /// take 1 ms), between the frames of a game.</summary>
     public Thinking Think(long slice, int most = 1, bool inHand = false) {
       return new Thinking(this, slice, most, inHand || Bounds != null);
     }
 
-    /// <summary>The chances of strokes of the caller's, in their order.</summary>
+    /// <summary>The chances of the caller's strokes, in their order.</summary>
     public PlanStroke[] Chances(Cue[] cues) {
       var told = new PlanStroke[cues.Length];
       using (var held = new Held(this, 0)) fixed(Cue * of = cues) fixed(PlanStroke * to = told)
@@ -261,7 +262,8 @@ namespace Carom {
     }
   }
 
-  /// <summary>What the library reads of a position, where the collector does not move it.</summary>
+  /// <summary>The members of a position that the library reads, pinned so that the collector does
+  /// not move them.</summary>
   sealed unsafe class Held : IDisposable {
     struct Parts {
       public PlanJob job;
@@ -318,7 +320,7 @@ namespace Carom {
     }
   }
 
-  /// <summary>A plan on its way.</summary>
+  /// <summary>A plan in progress.</summary>
   public sealed unsafe class Thinking : IDisposable {
     readonly Held held;
     readonly PlanStroke[] room;
@@ -326,7 +328,7 @@ namespace Carom {
     readonly bool inHand;
     bool begun;
 
-    /// <summary>Whether it has ended, also by an error.</summary>
+    /// <summary>Whether it has ended, with or without an error.</summary>
     public bool Ended { get; private set; }
     /// <summary>The best strokes, best first; empty until the end.</summary>
     public PlanStroke[] Choices { get; private set; } = new PlanStroke[0];

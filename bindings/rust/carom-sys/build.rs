@@ -1,5 +1,5 @@
-// Compiles the library, whose one file this crate has. Where CAROM_LIB_DIR names a folder, links
-// libcarom from there instead.
+// Compiles the library, which this crate contains as one file. If CAROM_LIB_DIR names a folder,
+// links libcarom from there instead.
 use std::{env, path::Path, process::Command};
 
 fn main() {
@@ -29,7 +29,7 @@ fn main() {
         "-o",
     ])
     .arg(&object);
-    // Last, so that they may change those above.
+    // Last, so that they may override the flags above.
     cc.args(env::var("CFLAGS").unwrap_or_default().split_whitespace());
     run(cc);
     let mut ar = tool("AR");
@@ -43,8 +43,8 @@ fn main() {
 }
 
 /// The compiler or archiver for the target, CC or AR: the program that CC_TARGET names, with the
-/// target's dashes or with underscores, or TARGET_CC where another machine is the target, or CC;
-/// else the usual one of the target.
+/// target's dashes or with underscores, or TARGET_CC when cross-compiling, or CC; otherwise the
+/// usual one of the target.
 fn tool(kind: &str) -> Command {
     let of_cargo = |name: &str| env::var(name).expect("cargo sets TARGET and HOST");
     let (target, host) = (of_cargo("TARGET"), of_cargo("HOST"));
@@ -65,8 +65,8 @@ fn tool(kind: &str) -> Command {
     usual_tool(kind, &target, &host)
 }
 
-/// cc and ar on this machine; for another one gcc's names, as aarch64-linux-gnu-gcc, and for Apple
-/// and Android clang, which knows all targets.
+/// cc and ar on this machine; for another one gcc's names, such as aarch64-linux-gnu-gcc, and for
+/// Apple and Android clang, which supports all targets.
 fn usual_tool(kind: &str, target: &str, host: &str) -> Command {
     if target == host {
         return Command::new(kind.to_lowercase());

@@ -1,7 +1,7 @@
-/* The one place where the arguments of a collision are checked.
+/* The only place where the arguments of a collision are checked.
  *
- * Two passes: a branch-free one that every call takes and nearly every call passes, and a slow
- * one that finds the first field at fault and names it. Both state the same conditions, those of
+ * Two passes: a branch-free one that every call takes and nearly every call passes, and a slow one
+ * that finds the first field at fault and names it. Both state the same conditions, which are in
  * the field comments in carom.h.
  */
 #include "ball_ball/arguments.h"
@@ -13,8 +13,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Radii, heights and vertical velocities come out of other programs' arithmetic; an amount below
- * this share of the radius, of the distance or of the speed moves no result beyond rounding of
+/* Radii, heights and vertical velocities are results of other programs' arithmetic; an amount below
+ * this fraction of the radius, of the distance or of the speed moves no result beyond rounding of
  * the solvers' own size. */
 static const double level = 1e-9;
 
@@ -45,7 +45,7 @@ static bool heights_differ(const carom_impact *in) {
   return fabs(dz) > level * (fabs(dx) + fabs(dy));
 }
 
-/* Two radii: that of ball a is the one that is computed with. */
+/* Two radii: the computation uses ball a's. */
 static bool radii_differ(const carom_impact *in) {
   return !(fabs(in->b.radius - in->a.radius) <= level * in->a.radius);
 }

@@ -7,7 +7,7 @@
  *                 does, which is most of them
  *     lists       rows that need another step, by its kind: from their start, where their
  *                 numbers are enough, as the rows are in the cache; or from where they stand
- *     one by one  rows that collocation refuses or that are not good: carom_collide_one(), which
+ *     one by one  rows that collocation rejects or that are not good: carom_collide_one(), which
  *                 tries collocation again, and then the precise solver
  *
  * A list is worked off when it fills a register, and all of them at the end. Batches of few rows
@@ -58,7 +58,7 @@ static int room_of(const work *w) {
   return w->precision == CAROM_F64 ? ROOM / 2 : ROOM;
 }
 
-/* The state of a row on its way, between its place in a list and a lane. */
+/* The state of a row on its way, between its position in a list and a lane. */
 static void put_state(work *w, enum step_kind kind, int place, lane_state lanes, int lane) {
   if (w->precision == CAROM_F64)
     for (int c = 0; c < LANE_COLUMNS; c++)
@@ -75,7 +75,7 @@ static void take_state(const work *w, enum step_kind kind, int place, lane_state
     for (int c = 0; c < LANE_COLUMNS; c++)
       lanes[c].single_numbers[lane] = w->state[kind].single_numbers[c][place];
 }
-/* The same for all lanes, of places one behind the other. */
+/* The same for all lanes, of rows consecutively. */
 static void take_states(const work *w, enum step_kind kind, int first, int lanes,
                         lane_state gathered) {
   const size_t numbers = (size_t)lanes;
@@ -296,7 +296,7 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
   const size_t first_bad = carom_in_threads(solve_rows, &job, n, opt->threads, least_part(opt));
   if (first_bad == n)
     return CAROM_OK;
-  /* Only its index came back through the threads; doing the pair again tells its status. */
+  /* The threads only returned its index; resolving the pair again returns its status. */
   carom_result unused;
   return carom_collide_one(precision, job.in + first_bad * carom_impact_size(precision), opt,
                            &unused);

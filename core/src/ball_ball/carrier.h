@@ -55,8 +55,8 @@ enum { MOST_REGS = MOST_NODES / REG_NODES };
 #define QUAD_AT(row) ((quad) * (const quad_unaligned *)(row))
 /* Any of its numbers, where all are the same. */
 #define ONE_OF(x) ((x)[0])
-/* A number at nodes replaced: in the lanes of a mask, where a collision is in a lane of its own;
- * a single call does not come here if not. */
+/* A number at nodes replaced: in the lanes of a mask, if a collision has its own lane; a single
+ * call only gets here if so. */
 #define REG_MOVE(m, to, x) (*(to) = (x))
 #else
 typedef vreal reg;
@@ -69,8 +69,8 @@ enum { MOST_REGS = MOST_NODES };
 #define REG_MOVE(m, to, x) (*(to) = v_select(m, x, *(to)))
 #endif
 
-/* For every register of n nodes. Eight registers in turn would not stay in the
- * cache of instructions. */
+/* For every register of n nodes. Code for eight registers in sequence would not stay in the
+ * instruction cache. */
 #define EACH_REG(k, n) EACH_REG_(k, n)
 #define EACH_REG_(k, n) _Pragma("GCC unroll 4") for (int k = 0; k < REGS(n); k++)
 
@@ -111,7 +111,7 @@ always reg reg_fma(reg a, reg b, reg c) {
 #endif
 }
 
-/* The square root, as IEEE asks. */
+/* The square root, as IEEE requires. */
 always reg reg_sqrt(reg x) {
 #if LANES_X86 && defined(CAROM_LANES_F32) && REG_NODES == 8
   return (reg)_mm256_sqrt_ps((__m256)x);
@@ -217,7 +217,7 @@ always vreal sum_of(const reg *x, int n) {
   const quad sum = n == 6 ? __builtin_shufflevector(both, low, 0, 1, 6, 7) : both;
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
-/* Sum over the nodes of weight times x; the weights those of a rule, or computed. */
+/* Sum over the nodes of weight times x; the weights of a rule, or computed ones. */
 always vreal dot(const real *weight, const reg *x, int n) {
   reg product[MOST_REGS];
   EACH_REG(k, n) product[k] = AT(weight, k) * x[k];
@@ -346,7 +346,7 @@ always void apply(const node_row *M, const reg *x, reg *out, int n) {
 
 /* ---- Functions over both --------------------------------------------------------------------- */
 
-/* sqrt(x) for x > 0, in single precision to that of its reciprocal. */
+/* sqrt(x) for x > 0, in single precision as accurate as its reciprocal. */
 always vreal root(vreal x) {
   return V_HASTY ? x * v_reciprocal_sqrt(x) : v_sqrt(x);
 }
@@ -361,7 +361,7 @@ static const lane_int BITS_OF_ROOT_HALF = 0x3f3504f3; /* sqrt(1/2) */
 /* log(2) in two parts, the first of few digits */
 static const real LOG_2_HIGH = REAL(0.693145752);
 static const real LOG_2_LOW = REAL(1.42860677e-6);
-/* terms of the series of e^x, and of that of log(x) */
+/* terms of the series of e^x, and of log(x) */
 enum { EXPONENTIAL_TERMS = 6, LOGARITHM_TERMS = 4 };
 #else
 enum { FRACTION_BITS = 52 };
@@ -378,7 +378,7 @@ always reg exponential(reg x) {
       1 / REAL(24.0),        1 / REAL(120.0),       1 / REAL(720.0),     1 / REAL(5040.0),
       1 / REAL(40320.0),     1 / REAL(362880.0),    1 / REAL(3628800.0), 1 / REAL(39916800.0),
       1 / REAL(479001600.0), 1 / REAL(6227020800.0)};
-  /* adding 1.5 2^FRACTION_BITS rounds to an integer, which then stands in the lowest bits */
+  /* adding 1.5 2^FRACTION_BITS rounds to an integer, which then is in the lowest bits */
   const real rounder = REAL(1.5) * (real)((lane_int)1 << FRACTION_BITS);
   const reg shifted = MADD(x, REAL(1.4426950408889634), rounder), n = shifted - rounder;
   const reg r = MADD(n, -LOG_2_LOW, MADD(n, -LOG_2_HIGH, x));

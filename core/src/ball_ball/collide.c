@@ -1,5 +1,5 @@
-/* The public entry points of one collision: collocation, and for other inputs: check, go to the
- * collision frame, solve, come back, say how it went. */
+/* The public entry points of one collision: collocation, and for other inputs: check, transform to
+ * the collision frame, solve, transform back, return the status. */
 #include "carom.h"
 #include "platform/arithmetic.h"
 
@@ -15,7 +15,7 @@
 
 /* ---- carom_detail ---------------------------------------- */
 
-/* The impulses over a whole collision follow from the changes. With Δ the change, C = 5/(2 M
+/* The impulses over a complete collision follow from the changes. With Δ the change, C = 5/(2 M
  * R) of each ball, P the normal impulse, P1 and P2 those of friction along x and z on ball i,
  * and those of the cloth on i and on j:
  *
@@ -236,7 +236,7 @@ static carom_status collide_single(const carom_impact_f32 *in, const carom_optio
   carom_impact wide;
   carom_result result;
   carom_options options = *opt;
-  /* double precision inside would say nothing about numbers that were rounded before */
+  /* double precision inside would be meaningless for numbers that were rounded before */
   if (options.solver == CAROM_SOLVER_EXACT)
     options.solver = CAROM_SOLVER_FAST;
   to_double(in, &wide);

@@ -1,8 +1,8 @@
-/* The exact limit by collocation: which step comes next, and the loop of steps, of one collision
- * with all nodes of a step in a register (CAROM_LANES_ONE), or of one step of many collisions,
- * one in each lane. batch.c sorts collisions by the step that they need next.
+/* The exact limit by collocation: which step is next, and the loop of steps, of one collision with
+ * all nodes of a step in a register (CAROM_LANES_ONE), or of one step of many collisions, one in
+ * each lane. batch.c sorts collisions by the step that they need next.
  *
- * THE KINDS OF STEPS. q is the share of |u| that a collision would lose up to its end at the
+ * THE KINDS OF STEPS. q is the fraction of |u| that a collision would lose up to its end at the
  * present rate. If q is small and the direction of the cloth slip is smooth, one step in the
  * impulse ends the collision: with four nodes (EASY), with six (FULL) or, where much of |u| is
  * lost, with eight graded ones (FULL_GRADED). If the balls will stick, and |u| is so small that
@@ -17,7 +17,7 @@
  *
  * ACCEPTANCE. A step is accepted if its error estimate is below the tolerance. If it is not, a
  * TURN step is tried, and then TURN steps of half the length. After MOST_ATTEMPTS steps, or if
- * they get too short, collocation refuses the collision, and the precise solver takes it. */
+ * they get too short, collocation rejects the collision, and the precise solver takes it. */
 #include "ball_ball/impulse_step.h"
 #include "ball_ball/kernels.h"
 #include "ball_ball/stick_step.h"
@@ -53,7 +53,7 @@ static const real BEND_8 = 30; /* by q^2: a way that is not straight adds this t
 static const real STICK_Q = REAL(1.05); /* q from which the balls will stick */
 static const real TURN_Q = REAL(0.5);   /* q of a TURN step */
 static const real LEFT_Q = REAL(0.5);   /* q that a PART would leave; */
-/* its share of |u|, and of q */
+/* its fraction of |u|, and of q */
 static const real LEAST_PART = REAL(0.3);
 static const real MOST_PART = REAL(0.85);
 static const real MOST_OF_WAY = REAL(0.8);
@@ -84,7 +84,7 @@ typedef struct collision {
   prediction g;   /* for that way */
   vreal share;    /* of its usual length that a TURN step may have, after refusals from this
                      state */
-  vmask careful;  /* a step from this state was refused: only TURN steps now */
+  vmask careful;  /* a step from this state was rejected: only TURN steps now */
   vreal attempts; /* steps tried so far, but for an easy step at the start */
 } collision;
 
@@ -106,7 +106,7 @@ always vreal inverse_rho(const problem *a, const state *s, const prediction *g, 
   return v_select(has_no_slip(a, s), v_splat(0), v_reciprocal(2 * sum - v_reciprocal(sum)));
 }
 
-/* The same up to the end or to stick, whichever comes first. */
+/* The same up to the end or to stick, whichever is first. */
 always vreal inverse_rho_ahead(const problem *a, const state *s, const prediction *g,
                                vreal to_end) {
   return inverse_rho(a, s, g, v_min(to_end, v_reciprocal(g->rate)));
@@ -144,7 +144,7 @@ always vreal stick_error(const problem *a, const state *s, const prediction *g, 
 }
 
 /* The TURN step from a state of a collision: where d passes nearest to zero, and how far the
- * step may go. last: the lanes in which it ends the collision; refused: those in which it would
+ * step may go. last: the lanes in which it ends the collision; rejected: those in which it would
  * be too short, or d passes too close to zero. */
 always turn_step select_turn_step(const problem *a, const collision *c, const prediction *g,
                                   vmask *last, vmask *refused) {
@@ -203,7 +203,7 @@ always turn_step select_turn_step(const problem *a, const collision *c, const pr
   p.length = v_select(whole, reach, v_min(bound, reach));
   *last = whole & v_less(q, v_splat(TURN_Q)) & v_less_equal(unit, c->share);
 
-  /* refused: d passes too close to zero on the step or, in a sensitive collision, shortly before
+  /* rejected: d passes too close to zero on the step or, in a sensitive collision, shortly before
    * it */
   const vreal least = v_select(a->sensitive, v_splat(LEAST_DELTA_SENSITIVE), v_splat(LEAST_DELTA));
   const vmask on_step =
@@ -230,7 +230,7 @@ always prediction predict_ahead(const problem *a, const collision *c) {
                  v_select(is_short, c->to_end, v_min(c->to_end, v_reciprocal(c->g.rate))));
 }
 
-/* The share of |u| that a PART takes away: so much that LEFT_Q of the rest is lost up to the
+/* The fraction of |u| that a PART takes away: so much that LEFT_Q of the rest is lost up to the
  * end; and the length that loses it.
  */
 always vreal part_share(vreal q) {
@@ -257,7 +257,7 @@ always vreal next_kind(const problem *a, const collision *c, vreal inverse, bool
       full & v_less_equal(q, v_splat(FULL_Q)) & is_smooth(FULL_NODES, a, ahead, to_end, inverse);
   const vmask stick =
       v_less(v_splat(STICK_Q), q) & v_less(u * stick_error(a, s, ahead, inverse), a->tolerance);
-  /* a part of |u|, if t is smooth on the way that takes it away */
+  /* a fraction of |u|, if t is smooth on the way that removes it */
   vmask part = v_less_equal(v_splat(TURN_Q), q) & v_not(stick | full | c->careful);
   if (v_any(part)) {
     const vreal length = part_length(ahead, to_end);
@@ -341,7 +341,7 @@ always vmask begin_collision(const problem *a, in_column *in, vmask good, collis
     if (!v_any(good & v_not(solved)))
       return solved;
   }
-  /* a call knows that its EASY step is refused; lanes take it again */
+  /* a call knows that its EASY step is rejected; lanes take it again */
   if (LANES == 1)
     c->careful = easy;
   *kind = next_kind(a, c, inverse, true, ahead);
@@ -351,7 +351,7 @@ always vmask begin_collision(const problem *a, in_column *in, vmask good, collis
 }
 
 /* Takes a step of a kind, for which *ahead has been predicted. Returns the lanes that it solved,
- * with *out; in the others the collision goes on behind the step or, where it was refused, will
+ * with *out; in the others the collision continues behind the step or, where it was rejected, will
  * be more careful, and *next is the kind of the next step, or REFUSED, with the prediction for
  * it in *ahead. */
 always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead, collision *c,
@@ -369,7 +369,7 @@ always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead,
     error = take_full_step(a, ahead, to_end, s, out);
   else if (kind == STICK)
     error = take_stick_step(a, ahead, s, out);
-  /* those with graded lengths: to the end, a part of it, or up to where the slip turns */
+  /* steps with graded lengths: to the end, a fraction of it, or up to where the slip turns */
   else if (kind == FULL_GRADED)
     error = take_graded_step(a, ahead, length_to_end(a, ahead, to_end), last, s, &behind, out);
   else if (kind == PART) {

@@ -26,16 +26,16 @@
  * Termination. pooltool's loop never ends when the steps are so small that rounding swallows
  * them. Here the number of steps is bounded. Per unit normal impulse v_n rises by 1/M_i + 1/M_j,
  * less at most k/M_p by the friction of the cloth, where p is the pressed ball and k = μ_p μ_b
- * <= 1. So v_n' lies between A = 1/M_i + 1/M_j - k/M_p > 0 and values above it, compression
+ * <= 1. So v_n' is between A = 1/M_i + 1/M_j - k/M_p > 0 and values above it, compression
  * takes at most |v_n|/A, restitution at most e |v_n|/A, and with ΔP as above the steps number at
  * most
  *
  *     (1 + e)|v_n| / (A ΔP) = 2 N / (2 - k M/M_p),
  *
- * plus one for each phase, which ends on a whole step. Where that is more than CAROM_EULER_MOST
- * N, as with strong friction and one ball far heavier than the other, nothing is begun: the
- * method is too slow, and says so. Rounding that doubles the number has swallowed the collision:
- * the method cannot resolve it, and says the same.
+ * plus one for each phase, which ends on a whole step. Where that is more than CAROM_EULER_MOST N,
+ * as with strong friction and one ball far heavier than the other, nothing is begun: the method
+ * reports that it is too slow. Rounding that doubles the number has swallowed the collision: the
+ * method cannot resolve it, and reports the same.
  *
  * Source: the 2014 paper named in carom.h, and pooltool's frictional_mathavan model for the
  * order of the operations.
@@ -127,7 +127,7 @@ carom_status carom_euler(carom_local *state, int N, int64_t most, carom_euler_ru
     b_x = local.v_jx + sR * local.w_jy;
     b_y = local.v_jy - sR * local.w_jx;
 
-    /* the work of the step; at the end of compression it tells the work in all */
+    /* the work of the step; at the end of compression it determines the total work */
     const double v_n_old = v_n;
     v_n = local.v_jy - local.v_iy;
     work += 0.5 * DP * fabs(v_n_old + v_n);

@@ -9,7 +9,7 @@
 
 enum { CAROM_EULER_MOST = 16 }; /* times N: more steps are not begun */
 
-/* How far a run came. */
+/* The progress of a run. */
 typedef struct carom_euler_run {
   int64_t steps;           /* taken */
   double step;             /* normal impulse of each, N s */
@@ -17,8 +17,8 @@ typedef struct carom_euler_run {
   double work_compression; /* of that, in compression; NaN if it has not ended */
 } carom_euler_run;
 
-/* Advances `c` from the instant of contact to the end of the collision, or through `most` steps
- * if that comes first; needs v_jy < v_iy. CAROM_OK, or CAROM_ERROR_TOO_SLOW with `c` as it was. */
+/* Advances `c` from the instant of contact to the end of the collision, or through `most` steps if
+ * that is earlier; needs v_jy < v_iy. CAROM_OK, or CAROM_ERROR_TOO_SLOW with `c` as it was. */
 carom_status carom_euler(carom_local *c, int N, int64_t most, carom_euler_run *run);
 
 #endif

@@ -39,8 +39,8 @@ typedef struct carom_local {
   double e;                            /* restitution */
   double s;                            /* sign of the spin in the cloth slip: -1 paper, +1
                                           pooltool */
-  double rounding;                     /* of velocities along axes that are not those of the
-                                          table, m/s; else 0 */
+  double rounding;                     /* of velocities along axes other than the table's, m/s;
+                                          otherwise 0 */
 } carom_local;
 
 /* s in the slip over the cloth, v_x + s R w_y and v_y - s R w_x. */
@@ -66,7 +66,7 @@ static inline carom_frame carom_frame_of(const carom_impact *in) {
   return frame;
 }
 
-/* A speed that bounds those of the ball's surface. */
+/* A speed that bounds the speeds of the ball's surface. */
 static inline double size_of_motion(const carom_ball *ball) {
   return fabs(ball->v[0]) + fabs(ball->v[1]) +
          ball->radius * (fabs(ball->w[0]) + fabs(ball->w[1]) + fabs(ball->w[2]));

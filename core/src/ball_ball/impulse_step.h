@@ -2,10 +2,9 @@
  * collocation, and the state behind it. A step ends before the collision does, or near its end,
  * to which a Taylor series leads from there.
  *
- * THE EQUATIONS are those of reduced.h. With X from 0 to 1 along the step, L its length in p, c
- * = u_x / |u|,
- * sigma = u_z / |u| and s = sigma t, the slips are linear in the integrals C, Z, S_x, S_y of c,
- * sigma, s_x, s_y over X:
+ * THE EQUATIONS are in reduced.h. With X from 0 to 1 along the step, L its length in p, c = u_x /
+ * |u|, sigma = u_z / |u| and s = sigma t, the slips are linear in the integrals C, Z, S_x, S_y of
+ * c, sigma, s_x, s_y over X:
  *
  *     u_x = u_x0 - 7/2 kappa mu_b L C - mu mu_b L S_x
  *     u_z = u_z0 - 5/2 kappa mu_b L Z - 5/2 mu mu_b L S_y
@@ -33,7 +32,7 @@
 
 /* ---- The nodes ------------------------------------------------------------------------------- */
 
-/* Where the nodes of a step lie: X, the share of its length, over the variable x of the rule. In
+/* Where the nodes of a step lie: X, the fraction of its length, over the variable x of the rule. In
  * steps of four and six nodes X is x. Those of eight nodes have one of two maps:
  *
  *     graded    drawn together towards where |u| would reach zero: 1 - q X = (1 - h x)^4
@@ -92,7 +91,7 @@ always node_map turned_map(const turn_step *p, vreal length) {
   return m;
 }
 
-/* X and its slope at the nodes of a rule from 0 to a share of x. */
+/* X and its slope at the nodes of a rule from 0 to a fraction of x. */
 always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m, vreal share,
                       mapped_nodes *target) {
   if (!turned) {
@@ -146,7 +145,7 @@ always real estimate_scale(int n, bool turned) {
 }
 
 /* Coefficients of the equations, times L (S_in_d: of S_x in u_x and S in d; ...); and q, the
- * share of |u| that the step loses at its first rate. */
+ * fraction of |u| that the step loses at its first rate. */
 typedef struct coefficients {
   vreal length, mu_b, mu_mu_b, mu_mu_b_y, S_in_d, Z_in_d_y, C_in_u_x, Z_in_u_z, S_in_u_z, q;
 } coefficients;
@@ -194,7 +193,7 @@ typedef struct impulse_step {
  *     w'' / w' = b (f_1 + h) / r       w^(3) / w' = b^2 ((f_1 + h) (f_1 + 2 h) + f_0 f_2) / r^2
  *
  * and so w = w_1 X (1 + X b (f_1 + h) / 2 + X^2 w^(3) / (6 w')). In powers of x = X / (1 - alpha
- * X) with alpha = b h / 2 about, whose singularity stands for that of 1 / r, the series w_1 x (1
+ * X) with alpha = b h / 2 about, whose singularity represents that of 1 / r, the series w_1 x (1
  * + x (second + x third)) converges faster. by_t: the term of a turning t, by_t X (X - 1). */
 typedef struct turning {
   vreal alpha, w_1, second, third, by_t;
@@ -231,7 +230,7 @@ always turning predict_turning(bool turn, const problem *a, const prediction *g,
 }
 
 /* The directions at the nodes, before any iteration. turned: d passes near zero, so that its
- * direction half way says nothing.
+ * direction half way is not informative.
  */
 always void predict_directions(int n, bool turned, impulse_step *p) {
   const prediction *const g = p->g;
@@ -339,9 +338,9 @@ always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_
   f->going = going & v_not(v_less(error, ITERATION_SHARE * a->tolerance));
 }
 
-/* After the last iteration: the means over the step of c and sigma less their values at its
- * start, and w_x, w_y. They come from the change of u, not from its direction, so that small
- * ones keep their digits. */
+/* After the last iteration: the means over the step of c and sigma less their values at its start,
+ * and w_x, w_y. They are computed from the change of u, not from its direction, so that small ones
+ * keep their digits. */
 always void end_iterations(int n, const gauss_rule *r, impulse_step *p, vreal *dc, vreal *dz) {
   const prediction *const g = p->g;
   const state *const s = p->s;
@@ -370,7 +369,7 @@ always void end_iterations(int n, const gauss_rule *r, impulse_step *p, vreal *d
 
 /* The directions c, sigma and s = sigma t at a state, and their slopes in p, by the equations.
  * bend_u, bend_d: a sixth of the second derivatives of the direction of u, about, and of s, at
- * most. fall: share of |u| that is lost per p. */
+ * most. fall: fraction of |u| that is lost per p. */
 typedef struct end_slopes {
   vreal c, z, x, y, dc, dz, dx, dy, bend_u, bend_d, fall;
 } end_slopes;
@@ -440,12 +439,12 @@ always vreal extrapolate_to_end(const problem *a, const state *s, const end_slop
  * of the second, 1 % more collisions of its regimes go to the precise solver. */
 static const real MOST_EXTRAPOLATION = REAL(0.03);
 static const real MOST_EXTRAPOLATION_TURN = REAL(0.1);
-/* The share of |u| that may be lost there. After a step with four nodes, much more of |u| is
+/* The fraction of |u| that may be lost there. After a step with four nodes, much more of |u| is
  * left. */
 static const real MOST_FALL = REAL(0.5);
 
-/* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and
- * those of c and sigma against their values at first; K at v = 0 does not change. */
+/* The state after a step of the length in *l, with the integrals of s_x and s_y over it, and of c
+ * and sigma against their initial values; K at v = 0 does not change. */
 always state state_after(const prediction *g, const coefficients *l, const state *s, vreal X,
                          vreal Y, vreal dC, vreal dZ, vreal K) {
   const vreal C = g->c + dC, Z = g->z + dZ;
@@ -463,9 +462,9 @@ always state state_after(const prediction *g, const coefficients *l, const state
   return end;
 }
 
-/* K at v = 0 by parts, so that nothing but w_y is interpolated, given v and the integral S of
- * w_y up to a point near v = 0, and that of S: int v w_y dX = v S - int S v' dX with v' = L +
- * pull_y w_y. The little that is left for a mean f. */
+/* K at v = 0 by parts, so that only w_y is interpolated, given v and the integral S of w_y up to a
+ * point near v = 0, and that of S: int v w_y dX = v S - int S v' dX with v' = L + pull_y w_y. The
+ * little that is left for a mean f. */
 always vreal K_by_parts(const coefficients *l, const state *s, vreal f, vreal v, vreal S,
                         vreal int_S) {
   const vreal by_parts = v_fma(v_fma(REAL(0.5) * l->mu_mu_b_y, S, -v), S, l->length * int_S);
@@ -628,7 +627,7 @@ always vreal end_step(int n, bool turned, impulse_step *p, vmask last, state *ne
   return v_select(in_reach | v_not(last), error, v_splat(HUGE_VALF));
 }
 
-/* A whole step, with so many iterations at most. */
+/* A complete step, with at most this many iterations. */
 always vreal take_impulse_step(int n, int most, const problem *a, const prediction *g,
                                const state *s, vreal length, const turn_step *turn, vmask last,
                                state *next, solution *out) {

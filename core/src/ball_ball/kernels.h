@@ -1,6 +1,6 @@
 /* The functions that are compiled once for every instruction set, in tables: reduction and
- * restoration of rows, collocation steps of many collisions, and one collision as a whole.
- * kernels.c has the tables. */
+ * restoration of rows, collocation steps of many collisions, and one complete collision. kernels.c
+ * has the tables. */
 #ifndef CAROM_SRC_BALL_BALL_KERNELS_H
 #define CAROM_SRC_BALL_BALL_KERNELS_H
 
@@ -24,7 +24,7 @@ typedef enum carom_precision {
 
 /* Reduced collisions, a column for each quantity of reduced.h in units of |v_n0| / kappa. */
 enum { IN_U_X, IN_U_Z, IN_D_X, IN_D_Y, IN_KAPPA, IN_MU, IN_MU_B, IN_E, IN_COLUMNS };
-/* Solutions: those of problem.h. */
+/* Solutions: see problem.h. */
 enum { OUT_J_C, OUT_J_Z, OUT_I_X, OUT_I_Y, OUT_OVERSHOOT, OUT_STICK, OUT_K_C, OUT_COLUMNS };
 /* A collision between two steps: the columns of its state (problem.h), whether v = 0 has been
  * passed (1 or 0), and the steps that were tried (collocate.c). */
@@ -40,8 +40,8 @@ typedef lane_column step_inputs[IN_COLUMNS];
 typedef lane_column step_outputs[OUT_COLUMNS];
 typedef lane_column lane_state[LANE_COLUMNS];
 
-/* Kinds of steps (collocate.c), FULL over even or over graded nodes; and the other things that may
- * come next: a collision is solved, or collocation refuses it. */
+/* Kinds of steps (collocate.c), FULL over even or over graded nodes; and the other possible
+ * results: a collision is solved, or collocation rejects it. */
 enum step_kind {
   EASY,
   FULL,
@@ -54,7 +54,7 @@ enum step_kind {
   REFUSED,
   STEP_ENDS
 };
-/* For each, the lanes for which it comes next, a bit for each. */
+/* For each, the lanes for which it is next, a bit for each. */
 typedef uint32_t lanes_by_step[STEP_ENDS];
 
 /* A ball that u_z presses less, in units of |v_n0| / kappa, is not pressed; friction between the
@@ -87,8 +87,8 @@ typedef uint32_t carom_rows_out(const row_context *context, const step_outputs s
  * step is EASY again. spin: 5/2 s. */
 typedef void carom_first_step(step_inputs in, uint32_t good, double spin, float tolerance,
                               step_outputs out, lanes_by_step next);
-/* A step of a kind, for collisions that are at their start, or stand at *at, which becomes where
- * they stand after it. */
+/* A step of a kind, for collisions that are at their start, or are at *at, which becomes their
+ * state after it. */
 typedef void carom_next_step(enum step_kind kind, int at_start, step_inputs in, double spin,
                              float tolerance, lane_state gathered, step_outputs out,
                              lanes_by_step next);
@@ -129,7 +129,7 @@ CAROM_FAMILY_ISAS(CAROM_KERNEL_PROTOTYPES)
 #undef CAROM_KERNEL_PROTOTYPES
 
 /* In a source of kernels: the build's precision; the numbers of a column; the name of a kernel of
- * the build's instruction set, of its precision or of that of collocation. */
+ * the build's instruction set, of its precision or of collocation's. */
 #ifdef CAROM_LANES_SUFFIX
 #if defined(CAROM_LANES_F32)
 #define KERNEL_SUFFIX f32
@@ -155,7 +155,7 @@ CAROM_FAMILY_ISAS(CAROM_KERNEL_PROTOTYPES)
 #define COLLOCATION_KERNEL(name) KERNEL_PASTE_EXPANDED(KERNEL_OF_SET(name), COLLOCATED_SUFFIX)
 #endif
 
-/* Those of a call with options.plain, 0 or 1. */
+/* The kernels of a call with options.plain, 0 or 1. */
 const carom_kernels *carom_kernels_of_call(int plain);
 
 /* The precision of rows in double. */

@@ -42,7 +42,7 @@
 #endif
 #endif
 
-/* WebAssembly's vectors are no instruction set of its own: PLAIN has instructions there for the
+/* WebAssembly's vectors are not a separate instruction set: PLAIN has instructions there for the
  * operations that the extensions lack, with the same bits. */
 #if defined(CAROM_LANES_PLAIN) && defined(__wasm_simd128__)
 #include <wasm_simd128.h>
@@ -84,8 +84,8 @@ typedef double collocated;
 #define lanes_rolled _Pragma("GCC unroll 1")
 #endif
 
-/* Whether a product is fused with a sum, and whether 1/x and 1/sqrt(x) are estimated. Collisions
- * in double precision do neither: every operation is rounded as IEEE asks, so all instruction sets
+/* Whether a product is fused with a sum, and whether 1/x and 1/sqrt(x) are estimated. Collisions in
+ * double precision do neither: every operation is rounded as IEEE requires, so all instruction sets
  * give equal bits, and an estimate, which has steps, cannot put them into a result. */
 #if defined(CAROM_LANES_F32) || defined(CAROM_LANES_MIXED)
 #define V_HASTY 1
@@ -142,7 +142,7 @@ typedef real vreal_unaligned
 
 static inline vreal v_splat(real x) {
 #if LANES_X86
-  return SIMD_SET1(x); /* folded into the instruction that uses it, where it comes from memory */
+  return SIMD_SET1(x); /* folded into the instruction that uses it, if it is loaded from memory */
 #else
   return x - (vreal){0}; /* keeps the sign of a zero, which 0 + x would not */
 #endif
@@ -272,7 +272,7 @@ static inline vreal v_min(vreal a, vreal b) {
 #endif
 }
 
-/* Correctly rounded, as IEEE asks. */
+/* Correctly rounded, as IEEE requires. */
 static inline vreal v_sqrt(vreal x) {
 #if LANES_X86
   return SIMD(sqrt)(x);

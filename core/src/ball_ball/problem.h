@@ -53,7 +53,7 @@ always state choose_state(vmask m, const state *yes, const state *no) {
   return s;
 }
 
-/* The solution: those integrals over the whole collision, the overshoot of p beyond 1 + e, p
+/* The solution: those integrals over the complete collision, the overshoot of p beyond 1 + e, p
  * where the balls stuck (-1: they did not), K_c. */
 typedef struct solution {
   vreal J_c, J_z, I_x, I_y, overshoot, stick, K_c;
@@ -63,7 +63,7 @@ typedef struct solution {
 typedef struct prediction {
   vreal inverse_u, c, z; /* 1 / |u| and the direction of u */
   vreal t_x, t_y;        /* direction of d half way */
-  vreal rate;            /* share of |u| lost per p; its inverse is about p to stick */
+  vreal rate;            /* fraction of |u| lost per p; its inverse is about p to stick */
 } prediction;
 
 /* sqrt(x^2 + y^2) inverted, as closely as needed. */
@@ -71,9 +71,8 @@ always vreal inverse_length(vreal x, vreal y) {
   return v_reciprocal_sqrt(v_fma(x, x, v_fma(y, y, v_splat(TINY))));
 }
 
-/* A pressed ball has no slip on the cloth if mu mu_b |d| is below this share of the tolerance;
- * in sensitive collisions, if its square is below this number, which holds of a ball that lies
- * still. */
+/* A pressed ball has no slip on the cloth if mu mu_b |d| is below this fraction of the tolerance;
+ * in sensitive collisions, if its square is below this number, which is true for a ball at rest. */
 static const real NO_SLIP = REAL(0.03);
 static const real NO_SLIP_SENSITIVE = REAL(1e-26);
 
@@ -109,7 +108,7 @@ always prediction predict(const problem *a, const state *s, vreal length) {
   const vreal i_d = v_rough_reciprocal_sqrt(v_fma(d_x, d_x, v_fma(d_y, d_y, v_splat(TINY))));
   g.t_x = d_x * i_d;
   g.t_y = d_y * i_d;
-  /* |u|' at first; as u turns towards z it falls more slowly, for which the last factor stands */
+  /* |u|' at first; as u turns towards z it falls more slowly, which the last factor represents */
   const vreal c2 = g.c * g.c, cloth = a->mu * g.z * v_fma(REAL(2.5) * g.t_y, g.z, g.t_x * g.c);
   g.rate = (a->mu_b * g.inverse_u) * v_fma(a->kappa, REAL(2.5) + c2, cloth) *
            v_fma(REAL(-0.182) * c2, 1 - c2, v_splat(1));

@@ -27,7 +27,7 @@
  *     w C r (-Q_2, 0, Q_1)
  *
  * which makes the balance of momentum exact. The work of the normal force is M_pressed int |v_n|
- * dp; the collision ends once e^2 of the work of compression has been given back.
+ * dp; the collision ends once e^2 of the work of compression has been returned.
  *
  * Source: the 2014 paper named in carom.h; the reduction is derived in
  * docs/understanding/method.md. */
@@ -92,7 +92,7 @@ static inline void carom_restore(const carom_reduced *reduced, const carom_integ
 }
 
 /* ---- In the terms of contact_law/law.h, for the precise solver: it solves inputs that the fast
- * steps refuse, and follows traces ---- */
+ * steps reject, and follows traces ---- */
 
 static inline carom_law carom_law_of_balls(const carom_reduced *reduced) {
   return (carom_law){.K_x = 3.5 * reduced->kappa,
@@ -133,7 +133,7 @@ static inline carom_integrals carom_precise_integrals(const carom_reduced *reduc
                            .F_y = unit * impulses.F_y};
 }
 
-/* The whole collision, at the cost that a call may have. */
+/* The complete collision, at the cost that a call may have. */
 static inline carom_status carom_precise(const carom_reduced *reduced, double tolerance, int plain,
                                          carom_trajectory *path) {
   carom_precise_begin(reduced, tolerance, plain, path);

@@ -1,6 +1,5 @@
-/* Rows of memory as columns in lanes, and their checks: those of arguments.c that depend on a
- * row's own numbers, but for motion that is not finite, which leaves numbers in the result that
- * are not. */
+/* Rows of memory as columns in lanes, and their checks: the checks of arguments.c that depend on a
+ * row's own numbers, except for motion that is not finite, which makes the result not finite. */
 #ifndef CAROM_SRC_BALL_BALL_ROWS_H
 #define CAROM_SRC_BALL_BALL_ROWS_H
 

@@ -1,6 +1,6 @@
-/* The vocabulary of lanes.h for a single collision: a vreal is one number, a vmask is 0 or 1.
- * Every function does to it the same as its namesake there to each lane, with the same bits; the
- * estimates are those of the same instructions on one number. */
+/* The vocabulary of lanes.h for a single collision: a vreal is one number, a vmask is 0 or 1. Every
+ * function does to it the same as its namesake there to each lane, with the same bits; the
+ * estimates are from the same instructions on one number. */
 #ifndef CAROM_SRC_BALL_BALL_SCALAR_H
 #define CAROM_SRC_BALL_BALL_SCALAR_H
 

@@ -61,8 +61,8 @@ always vreal K_at_v_0_to_stick(const problem *a, const stick_rule *r, const stat
   sum_polynomials(r->basis, n, tau_y, tau_power);
   sum_polynomials(r->basis, n, W, W_power);
 
-  /* |u| falls as lambda^(5 + 2 c^2) at first and more slowly then, so Newton's method comes from
-   * one side */
+  /* |u| falls as lambda^(5 + 2 c^2) at first and more slowly then, so Newton's method converges
+   * from one side */
   const vreal left = v_max(v * v_reciprocal(v - s->v), v_splat(REAL(1e-10))),
               power = v_reciprocal(v_fma(2 * c, c, v_splat(5)));
   vreal x_c = v_min(1 - ONE_OF(exponential(SPREAD(power) * logarithm(SPREAD(left)))), v_splat(1));
@@ -129,7 +129,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
     const reg l2 = SPREAD(AT(r->lambda_2, k)), log_l = SPREAD(AT(r->log, k)),
               passed = SPREAD(AT(r->gone, k));
     lambda_5[k] = SPREAD(AT(r->lambda_5, k));
-    /* tau where d has come along the straight line at this lambda */
+    /* tau that d has reached along the straight line at this lambda */
     tau_of(a, MADD(-passed, d_change_x, s->d_x), MADD(-passed, d_change_y, s->d_y), &tau_x[k],
            &tau_y[k]);
     /* lambda^-b; the factor of T's integrand, whose rule has lambda^-3 and the factor lambda^2
@@ -138,7 +138,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
     T_factor[k] = mu * reg_reciprocal(lambda_b[k]);
     W_homogeneous[k] = MADD(s->u_x - A, l2 * lambda_b[k], A);
     /* the predictor of W: tau has the weight lambda^-3 in W, so that the mean of a linear tau
-     * lies at 2 lambda / (1 + lambda)
+     * is at 2 lambda / (1 + lambda)
      */
     const reg passed_mean = SPREAD(AT(r->gone_mean, k));
     reg mean_tau_x, mean_tau_y;
@@ -192,7 +192,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
       break;
   }
 
-  /* over the whole step: p, F and v, with v' / lambda^4 at the nodes */
+  /* over the complete step: p, F and v, with v' / lambda^4 at the nodes */
   reg work[MOST_REGS], slope_v[MOST_REGS];
   EACH_REG(k, n) {
     slope[k] = reg_root(MADD(W[k], W[k], u_z2)) * MADD(-mu, tau_y[k], REAL(1.0));

@@ -60,7 +60,7 @@ static carom_status trace_exact(const carom_frame *frame, const carom_local *sta
   return CAROM_OK;
 }
 
-/* `total` is the number of steps that the whole collision takes. */
+/* `total` is the number of steps that the complete collision takes. */
 static carom_status trace_euler(const carom_frame *frame, const carom_local *start, int steps,
                                 int64_t total, size_t count, carom_trace_point *points) {
   for (size_t sample = 0; sample < count; sample++) {

@@ -1,4 +1,4 @@
-/* What closes a push, and what comes next in one where nothing acts.
+/* What closes a push, and what is next in one where nothing acts.
  *
  * A push is open while the tip or a contact of balls acts. The slate keeps it open only if it would
  * bring the struck ball back to the tip. With v_z' the speed at which it would let that ball go,
@@ -7,9 +7,9 @@
  *
  * Otherwise the slate lets go at once. So its part goes to 0 with c'_z, and a level cue is the
  * limit of a raised one. Then only what touches within the recovery of the tip belongs to the push,
- * and balls above the slate come down to it. A tip that would close without the impulse of the
- * slate too touches again as it follows through (shot/follow_through.c). All else is met in flight,
- * from places that make both the same: places.c. */
+ * and balls above the slate fall to it. A tip that would close without the impulse of the slate too
+ * touches again as it follows through (shot/follow_through.c). All else is met in flight, from
+ * positions that make both the same: places.c. */
 #ifndef CAROM_SRC_CLUSTER_CLOSING_H
 #define CAROM_SRC_CLUSTER_CLOSING_H
 
@@ -28,7 +28,7 @@ static inline double strike_step(const carom_cluster_state *cluster) {
   const double duration = open ? carom_greater(tip->duration, long_tip) : tip->duration;
   const bool far = open && tip->overlap < -far_behind * duration * tip->first;
 
-  /* the shorter of those of the tip, and of each slate that acts or carries the struck ball */
+  /* the shorter of the times of the tip, and of each slate that acts or carries the struck ball */
   double step = far ? INFINITY : push_step(cluster, duration, tip->restitution);
   for (int index = 0; cluster->on_slate && index < cluster->balls; index++)
     if (cluster->slate[index].restitution > 0.0 &&
@@ -45,7 +45,7 @@ static inline bool slate_ends(carom_cluster_state *cluster, double step) {
   const carom_cluster_ball *ball = &cluster->ball[tip->ball];
   const double least = too_slow * tip->first, closing = tip_closing(tip, ball),
                up = slate_releases(&cluster->slate[tip->ball], ball->v[2], step) - ball->v[2];
-  /* the condition of the head: the ball would come back to the tip */
+  /* the condition of the head: the ball would return to the tip */
   if (!tip->gone && closing <= least && closing - tip_upward(tip) * up > least)
     return false;
   slate_lets_go(cluster, step);
@@ -68,7 +68,7 @@ static inline bool follows_through(const carom_cluster_state *cluster) {
   return tip_closing(tip, ball) - by_slate > too_slow * tip->first;
 }
 
-/* Nothing acts: all goes on to the next touch of balls, which need `of_balls`, or under a raised
+/* Nothing acts: all continues to the next touch of balls, which need `of_balls`, or under a raised
  * cue of tip or slate. Returns whether there is one in the push. */
 static inline bool go_to_touch(bool flat, carom_cluster_state *cluster, double of_balls,
                                double *tau) {

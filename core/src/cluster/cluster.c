@@ -27,7 +27,7 @@
  *     h = (sum (steps/(e T))^32)^(-1/32)
  *
  * So which of equal contacts comes first does not count, and h has the derivatives of all. A step
- * in which others touch is taken again, as short as these ask for. Where nothing acts, contacts
+ * in which others touch is taken again, as short as these require. Where nothing acts, contacts
  * that have touched and close again at `slow` or faster touch at once, as positions stay. It ends
  * where there are none: contacts that never touched are met later, as other events.
  *
@@ -53,9 +53,9 @@ typedef carom_cluster_ball ball_state;
 
 enum { ITERATIONS = 2 };
 
-/* The contacts that are pressed in a step, those of them that act, and the balls of these. */
+/* The contacts that are pressed in a step, the ones that act, and their balls. */
 typedef struct pushes {
-  int pressed, contacts, balls; /* how many; their places in contact[] and ball[]: */
+  int pressed, contacts, balls; /* how many; their positions in contact[] and ball[]: */
   uint8_t press[CAROM_CLUSTER_CONTACTS], push[CAROM_CLUSTER_CONTACTS], pushed[CAROM_CLUSTER_BALLS];
 } pushes;
 
@@ -66,13 +66,13 @@ static const double open_overlap = 1e-12;
  * back within the step. */
 #define CAROM_MAY_TURN_BACK 16.0
 /* Rounding, by which a little more is taken from the energy than it has risen: of speeds, and of an
- * impulse that comes of a difference of near numbers. */
+ * impulse that is a difference of close numbers. */
 #define CAROM_ROUNDED_SPEED 1e-15
 #define CAROM_ROUNDED_IMPULSE 1e-12
 
 /* ---- A contact's geometry and motion */
 
-/* All go on along their velocities: s of a time. */
+/* All continue along their velocities: s of a time. */
 static inline void move(bool flat, cluster_state *cluster, double time) {
   for (int index = 0; index < cluster->balls; index++)
     cluster_add(flat, cluster->ball[index].s, time, cluster->ball[index].v);
@@ -174,8 +174,8 @@ static inline passing passing_of(bool flat, const contact_state *contact) {
   return pass;
 }
 
-/* Where two balls that were apart have come together within the last half step, all moved by s:
- * the normal of the contact from then on, which is that of the touch, at most a step ago. */
+/* If two balls that were apart have met within the last half step, in which all moved by s: the
+ * normal of the contact from then on, which is the normal at the touch, at most a step ago. */
 static void touch(bool flat, contact_state *contact, double half) {
   const passing pass = passing_of(flat, contact);
 
@@ -266,7 +266,7 @@ static inline double find_pressed(bool flat, cluster_state *cluster, double step
     if (overlap + 0.5 * step * closing <= open_overlap)
       continue;
 
-    /* it is pressed by now, or will be at the end of the step: its size asks for a step */
+    /* it is pressed by now, or will be at the end of the step: its size requires a step */
     if (overlap > open_overlap && (meets || !first))
       pushed->press[pushed->pressed++] = (uint8_t)index;
     contact->size = closing > 0.0
@@ -295,7 +295,7 @@ static inline void begin_contact(bool flat, cluster_state *cluster, contact_stat
   contact->greatest_slip = -1.0; /* less than any slip: the first one sets mu */
   contact->friction[0] = contact->friction[1] = 0.0;
 
-  /* the instant, and how far the two have come together until then */
+  /* the instant, and how far the two have approached until then */
   const double time = carom_greater(tau - (closing > 0.0 ? overlap / closing : 0.0), 0.0);
   contact->touch = carom_cluster_begin_touch(cluster, (int)(contact - cluster->contact),
                                              contact->time < 0.0 ? -1 : contact->touch, time,
@@ -304,8 +304,8 @@ static inline void begin_contact(bool flat, cluster_state *cluster, contact_stat
     contact->time = time;
 }
 
-/* Those of the pressed contacts that act, and their impulses. *norm becomes that of all that
- * overlap. Returns whether any does. */
+/* The pressed contacts that act, and their impulses. *norm becomes the norm over all that overlap.
+ * Returns whether any does. */
 static inline bool find_acting(bool flat, cluster_state *cluster, double step, double tau,
                                pushes *pushed, double *norm) {
   bool acts = false;
@@ -510,7 +510,7 @@ static inline void begin_step(bool flat, cluster_state *cluster, pushes *pushed)
     cluster_add(flat, contact->ball_j->v, contact->J * contact->ball_j->inverse_mass, contact->n);
   }
 
-  /* those of tip and slate, which is the load of the cloth's friction */
+  /* the impulses of tip and slate; the slate's is the load of the cloth's friction */
   if (cluster->struck)
     tip_push(flat, cluster);
   for (int index = 0; cluster->on_slate && index < cluster->balls; index++) {
@@ -524,7 +524,7 @@ static inline void begin_step(bool flat, cluster_state *cluster, pushes *pushed)
 static inline void rub_all(bool flat, cluster_state *cluster, const pushes *pushed) {
   double change[CAROM_CLUSTER_CONTACTS][2];
 
-  /* first that of the step before */
+  /* initially the previous step's */
   for (int index = 0; index < pushed->contacts; index++) {
     contact_state *contact = &cluster->contact[pushed->push[index]];
     contact->friction[0] *= contact->J;
@@ -748,7 +748,7 @@ static inline bool solve(bool flat, cluster_state *cluster) {
     pushes pushed;
     move(flat, cluster, 0.5 * step);
 
-    /* a touch that is faster than what acts asks for a shorter step */
+    /* a touch that is faster than what acts requires a shorter step */
     const double longest = find_pressed(flat, cluster, step, &pushed);
     if (longest < step) {
       move(flat, cluster, 0.5 * (longest - step));

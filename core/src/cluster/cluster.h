@@ -1,9 +1,9 @@
 /* Several balls that touch, or nearly touch, at one instant: contacts that last.
  *
- * The rigid limit of Hertz's contacts with Coulomb's friction. An inner time tau orders the
- * impulses; places.c has from where the balls start then. A contact of balls i and j has an overlap
- * d, which starts at minus its gap, the unit vector n from i to j, B = 1/m_i + 1/m_j, and the slip
- * u of the surface of i on that of j. With ' = d/dtau and W = R w:
+ * The rigid limit of Hertz's contacts with Coulomb's friction. An internal time tau orders the
+ * impulses; places.c determines from where the balls start then. A contact of balls i and j has an
+ * overlap d, which starts at minus its gap, the unit vector n from i to j, B = 1/m_i + 1/m_j, and
+ * the slip u of the surface of i on that of j. With ' = d/dtau and W = R w:
  *
  *        .---.   .---.         d   overlap: here below 0, minus the gap
  *       '  i  ' '  j  '        n   from i to j
@@ -20,24 +20,24 @@
  *     |f| <= mu F, f against u;  mu = a + b exp(-c U), U the greatest |u| so far;  f on i, -f on j
  *     m v' = sum(-F n + f)      (2/5) m W' = sum(n x f)
  *
- * d_max and U are the greatest since the touch. Both branches of F together give back e^2 of the
- * work of compression, for any course. Where F has reached 0 the set that is left recovers as d
- * falls: d_max = d/(1 - e^2). A contact that closes before loads along the line of unloading, so
- * that e is paid once for each compression; one at d < 0 is open, and touches anew. A contact
- * without a force acts only while it closes at `slow` or faster. One contact alone has the law of
- * carom_collide() on the cloth, and that of carom_impact3() in space.
+ * d_max and U are the greatest since the touch. Both branches of F together return e^2 of the work
+ * of compression, for any course. Where F has reached 0 the set that is left recovers as d falls:
+ * d_max = d/(1 - e^2). A contact that closes before loads along the line of unloading, so that e is
+ * paid once for each compression; one at d < 0 is open, and touches anew. A contact without a force
+ * acts only while it closes at `slow` or faster. A single contact has the law of carom_collide() on
+ * the cloth, and of carom_impact3() in space.
  *
- * ON THE CLOTH v_z = 0 and u has no part of v_z. The friction's vertical part presses one ball
- * of a contact on the cloth:
+ * ON THE CLOTH v_z = 0 and u does not contain v_z. The friction's vertical part presses one ball of
+ * a contact on the cloth:
  *
  *     L = max(0, -sum f_z)     |g| <= mu_slide L,  g against v + z x W
  *     m v' += g,  (2/5) m W' -= z x g
  *
  * IN SPACE v_z is free and the cloth takes no part: a ball that is pressed down lands
- * afterwards, as an event of its own.
+ * afterwards, as its own event.
  *
  * BETWEEN THE TWO a contact has the freedom phi. With h the greater height of the two balls above
- * the cloth, 0 for a ball that lies on it, and n_z the tilt of the line of centres, which unlike
+ * the cloth, 0 for a ball that is on it, and n_z the tilt of the line of centres, which unlike
  * radii have too,
  *
  *     phi = min(1, h / 1 mm + (n_z / 0.1)^2).
@@ -64,7 +64,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* m: a ball that is nearer touches, as places are rounded to less than that */
+/* m: a ball that is nearer touches, because positions are rounded to less than that */
 #define CAROM_TOUCHING 1e-9
 #define CAROM_LEAST_OVERLAP 1e-15 /* m: of tip or slate where they touch anew */
 
@@ -82,12 +82,12 @@ static inline double carom_freedom_of_balls(double height, double n_z) {
 
 enum {
   CAROM_CLUSTER_BALLS = 32,
-  CAROM_CLUSTER_IN_TURN = 5,   /* balls of a cluster whose touches may be taken in turn */
+  CAROM_CLUSTER_IN_TURN = 5,   /* balls of a cluster whose touches may be resolved successively */
   CAROM_CLUSTER_CONTACTS = 76, /* that 32 balls of one radius have on the cloth at most */
   CAROM_CLUSTER_REPEATED = 15, /* touches of contacts that have touched: further ones count with
                                      the last one of theirs */
   CAROM_CLUSTER_TOUCHES = CAROM_CLUSTER_CONTACTS + 1 + CAROM_CLUSTER_REPEATED,
-  CAROM_CLUSTER_STEPS = 25,       /* of a contact's duration, where the caller does not say */
+  CAROM_CLUSTER_STEPS = 25,       /* of a contact's duration, unless the caller sets it */
   CAROM_CLUSTER_STEPS_MOST = 4000 /* of a cluster, for each of a contact's duration */
 };
 
@@ -147,7 +147,7 @@ typedef struct carom_cluster_contact_state {
 /* One touch of two balls or, as contact -1, of the tip. */
 typedef struct carom_cluster_touch {
   int contact;
-  double time, approach; /* tau at which it begins, s; how far the two have come together, m */
+  double time, approach; /* tau at which it begins, s; how far the two have approached, m */
   double P[3];   /* of balls, sums of J and of f on v; of the tip, the impulse on the ball */
   double moment; /* sum of J tau */
 } carom_cluster_touch;
@@ -158,11 +158,11 @@ typedef struct carom_cluster_tip {
   double along[3], arm[3]; /* c' and q */
   double inverse_mass, V;  /* 1/M; the speed of the cue, m/s */
   double duration, stiffness,
-      restitution;    /* duration with the ball alone, s; stiffness, N/m; restitution */
-  double reach;       /* m: how far the cue goes on after it has parted; the caller sets it */
+      restitution;    /* duration with only the ball, s; stiffness, N/m; restitution */
+  double reach;       /* m: how far the cue continues after it has parted; the caller sets it */
   int ball;           /* of ball[] */
   bool slides;        /* a further touch: n, kappa, mu and end are read, c' and q are not */
-  double n[3], kappa; /* from the place of the touch to the centre; n . c */
+  double n[3], kappa; /* from the position of the touch to the centre; n . c */
   double mu, end;     /* friction; 1/m_e */
   double place[3];    /* of the touch, from the centre, R */
   /* of the integrator */
@@ -171,7 +171,7 @@ typedef struct carom_cluster_tip {
   double travel, delay; /* int V dtau, m; how far the ball is behind, along the axis, as contacts of
                            balls last, m: places.c */
   double impulse;       /* sum of J */
-  bool gone;            /* it has parted, and does not go on */
+  bool gone;            /* it has parted, and does not continue */
   int touches, touch;   /* how many times it has touched; its last one, in touch[] */
   double first, second; /* closing speeds of the first and the second of them, m/s */
   double last;          /* tau at which it acts last */
@@ -197,7 +197,7 @@ typedef struct carom_cluster_state {
   double duration;  /* of the integration, s */
   double shared;    /* sum of the impulses in steps in which other contacts of a ball act too */
   int steps_done;   /* steps */
-  int touches, repeated; /* in touch[]; those of them that are repeated */
+  int touches, repeated; /* in touch[]; the ones that are repeated */
   carom_cluster_ball ball[CAROM_CLUSTER_BALLS];
   carom_cluster_contact_state contact[CAROM_CLUSTER_CONTACTS];
   carom_cluster_touch touch[CAROM_CLUSTER_TOUCHES];
@@ -210,23 +210,24 @@ typedef struct carom_cluster_state {
 double carom_cluster_compression(double stiffness, double mobility, double closing);
 double carom_cluster_duration(double pace, double size);
 
-/* members.c: keeps of ball[] those that a contact which begins can reach, and lists their
- * contacts. The contact is that of two balls, indices in ball[]; or, where `first` is below 0,
- * that of the fastest of the pairs that touch and close. Returns the number of contacts: 0 where
- * no pair touches and closes at `slow` or faster, -1 where there are too many. */
+/* members.c: keeps of ball[] those that a contact which begins can reach, and lists their contacts.
+ * The contact is between two balls, indices in ball[]; or, if `first` is below 0, between the
+ * fastest of the pairs that touch and close. Returns the number of contacts: 0 where no pair
+ * touches and closes at `slow` or faster, -1 where there are too many. */
 int carom_cluster_members(carom_cluster_state *cluster, int first, int second);
 
 /* members.c: keeps of ball[] the struck one, tip.ball, and those that it can reach while the cue
- * pushes it, if `most` is the speed that it gets, and lists their contacts. Returns how many
- * contacts there are, -1 where there are too many; 0: it is alone. */
+ * pushes it, if `most` is the speed that it gets, and lists their contacts. Returns the number of
+ * contacts, -1 if there are too many; 0: a single contact. */
 int carom_cluster_members_of_tip(carom_cluster_state *cluster, double most);
 
-/* push.c: the tip of a cue at ball[struck], which touches a ball that is alone for a duration.
- * cue[] has the numbers of carom_cue from speed to tip_restitution, in their order. */
+/* push.c: the tip of a cue at ball[struck], which touches a single ball for a duration. cue[] has
+ * the numbers of carom_cue from speed to tip_restitution, in their order. */
 void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double cue[8],
                           double duration);
 
-/* push.c: makes that a further touch, of a tip with the friction mu; `end_mass` is that of cue[].
+/* push.c: makes that a further touch, of a tip with the friction mu; `end_mass` is the one of
+ * cue[].
  */
 void carom_cluster_tip_slides(carom_cluster_state *cluster, const double cue[8], double mu);
 
@@ -238,8 +239,8 @@ void carom_cluster_push_alone(carom_cluster_state *cluster);
 void carom_cluster_put_on_slate(carom_cluster_state *cluster);
 double carom_cluster_slate_impulse(const carom_cluster_state *cluster, int ball);
 
-/* places.c: takes note of a touch of a contact that begins, -1 of the tip, and returns its place in
- * touch[], which for one too many is that of the `last` touch of the contact, -1 where it is the
+/* places.c: takes note of a touch of a contact that begins, -1 of the tip, and returns its position
+ * in touch[], which for one too many is that of the `last` touch of the contact, -1 where it is the
  * first; what the touches move the balls by, their `shift`; and how far the tip of a push is ahead
  * of the ball then, if both are seen to move from the start as they do after it. */
 int carom_cluster_begin_touch(carom_cluster_state *cluster, int contact, int last, double time,
@@ -253,8 +254,8 @@ static inline double carom_cluster_size_of_impulse(const carom_cluster_contact_s
               contact->rubbed[1] * contact->rubbed[1]);
 }
 
-/* places.c: 1 of a cluster whose touches do not overlap; 0 of one in which they share more than a
- * 500th of the largest impulse, of a push, and of more than CAROM_CLUSTER_IN_TURN balls. */
+/* places.c: 1 for a cluster whose touches do not overlap; 0 if they share more than a 500th of the
+ * largest impulse, for a push, and for more than CAROM_CLUSTER_IN_TURN balls. */
 double carom_cluster_separation(const carom_cluster_state *cluster);
 
 /* cluster.c: v, W and shift of ball[]; time, impulse and friction of contact[]. False where it

@@ -1,4 +1,4 @@
-/* The directions of a cue, and where its tip is that goes on after its push. */
+/* The directions of a cue, and where its tip is that continues after its push. */
 #ifndef CAROM_SRC_CLUSTER_CUE_H
 #define CAROM_SRC_CLUSTER_CUE_H
 

@@ -14,11 +14,11 @@
  *       0    (1 - e^2) d_max     d_max
  *            the set that is left
  *
- * Unloading gives back e^2 of the work of compression, for any course of d. A contact that closes
+ * Unloading returns e^2 of the work of compression, for any course of d. A contact that closes
  * at v, with B the inverse of the reduced mass, is pressed delta = (5 v^2 / (4 K B))^0.4 deep, and
  * lasts CAROM_HERTZ_DURATION delta / v.
  *
- * Tip and slate have linear branches instead, k d and k/e^2 (d - (1 - e^2) d_max), which give back
+ * Tip and slate have linear branches instead, k d and k/e^2 (d - (1 - e^2) d_max), which return
  * e^2 of the work too. */
 #ifndef CAROM_SRC_CLUSTER_HERTZ_H
 #define CAROM_SRC_CLUSTER_HERTZ_H
@@ -48,8 +48,8 @@ static inline double carom_hertz_force(double stiffness, double restitution, dou
              : 0.0;
 }
 
-/* k/m of a contact with linear branches that lasts so long alone, against the mass m, in 1/s^2.
- * Loading is a quarter of a swing at the rate sqrt(k/m), unloading e times as long. */
+/* k/m of a contact with linear branches that by itself lasts that long, against the mass m, in
+ * 1/s^2. Loading is a quarter of a swing at the rate sqrt(k/m), unloading e times as long. */
 static inline double carom_linear_stiffness(double time, double restitution) {
   const double rate = CAROM_QUARTER_TURN * (1.0 + restitution) / time;
   return rate * rate;

@@ -2,11 +2,11 @@
  * cluster.h. From ball to ball, a neighbour takes part whose gap is below 2 delta + T max(0,
  * closing speed).
  *
- * In truth a ball takes part that is touched while a contact acts, and for a full hit that
- * border lies at a gap of 1.42 delta (core/tests/physics/cluster.c, border). The integrator finds
- * it by itself, so the reach has only to be larger: 1.6 and 3 instead of 2 give the same results, 1
- * cuts a step of 2e-4 of the speed. Members touch within the cluster if their gap is below 5 delta
- * + T max(0, closing speed). Positions stay, so a ball that came from farther would be seen where
+ * In truth a ball takes part that is touched while a contact acts, and for a full hit that border
+ * is at a gap of 1.42 delta (core/tests/physics/cluster.c, border). The integrator finds it by
+ * itself, so the reach has only to be larger: 1.6 and 3 instead of 2 give the same results, 1 cuts
+ * a step of 2e-4 of the speed. Members touch within the cluster if their gap is below 5 delta + T
+ * max(0, closing speed). Positions do not change, so a ball from farther away would be seen where
  * it is not. */
 #include "carom_shot.h"
 #include "cluster/cluster.h"
@@ -26,7 +26,7 @@ static const double least_reach = 1e-3;      /* of delta: where even this has to
 
 /* The factor of Hertz's contact: delta^2.5 = 5/4 v^2/(K B). */
 #define CAROM_HERTZ_DEPTH 1.25
-/* Smaller numbers count as 0: their fifth roots are below those of any contact. */
+/* Smaller numbers count as 0: their fifth roots are below any contact's. */
 #define CAROM_LEAST_POWER 1e-300
 
 /* square^(1/5) for square >= 0, by the same operations everywhere: a fifth of the exponent, then
@@ -235,7 +235,8 @@ int carom_cluster_members_of_tip(carom_cluster_state *cluster, double most) {
   bool in[CAROM_CLUSTER_BALLS] = {false};
   int queue[CAROM_CLUSTER_BALLS] = {cluster->tip.ball};
   const int struck = cluster->ball[cluster->tip.ball].index;
-  /* as far as the ball gets in twice the duration of tip or slate, beside what a contact is deep */
+  /* as far as the ball gets in twice the duration of tip or slate, next to what a contact is
+   * deep */
   first_contact starts =
       first_of(&cluster->ball[cluster->tip.ball], &cluster->ball[cluster->tip.ball], most);
   starts.delta += most * carom_greater(cluster->tip.duration, CAROM_SLATE_TIME);

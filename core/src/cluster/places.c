@@ -1,10 +1,10 @@
 /* Where balls start after a cluster.
  *
- * In a shot a contact takes no time: it gives its impulse where two things touch, and they go on
+ * In a shot a contact takes no time: it gives its impulse where two things touch, and they continue
  * from there. A cluster hands on what such instants would have given. Each of its touches k has an
  * instant t_k, at which it would have been if those before it had given their impulses at once, at
  * theirs. With dv_l the change of velocity by touch l, v_0 the velocity before all, D_k how far the
- * two came together before they touched, and tau_k when they did,
+ * two approached before they touched, and tau_k when they did,
  *
  *     (v_0 . n) t_k + sum over l of (dv_l . n) (t_k - t_l) = D_k,     0 <= t_k <= tau_k,
  *
@@ -22,8 +22,8 @@
  *
  * so that r' + v' t is where it would have been. Balls that touch from the start have D = 0 and do
  * not move; where a gap is so wide that its contact begins as the one before ends, r' + v' t_k is
- * the place of the second of two events in turn. What slate and cloth give counts at t = 0, as in
- * the strike of a ball alone.
+ * the position of the second of two successive events. What slate and cloth give counts at t = 0,
+ * as in the strike of a single ball.
  *
  * TIP. Its first touch is at t = 0, and a later one at tau - L, L the centroid of the impulse of a
  * contact with linear branches. At the end tau_e of a push the tip is where it has gone, and the
@@ -54,7 +54,8 @@ int carom_cluster_begin_touch(carom_cluster_state *cluster, int contact_index, i
   return cluster->touches++;
 }
 
-/* Touches in the order of their times; those of one time as they were noted. */
+/* Touches in the order of their times; touches of one time in the order in which they were
+ * noted. */
 static void sort(carom_cluster_state *cluster) {
   for (int index = 1; index < cluster->touches; index++) {
     const carom_cluster_touch touch = cluster->touch[index];

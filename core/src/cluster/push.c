@@ -1,6 +1,6 @@
 /* The tip of a cue as a contact of a cluster: directions, arm and stiffness; tip.h has the law.
  *
- * The place p of a touch has the offsets a to the left of the axis c and b above it, in radii R:
+ * The position p of a touch has the offsets a to the left of the axis c and b above it, in radii R:
  *
  *          above
  *            ^        .-''''-.           seen along c, which points away from the reader
@@ -26,7 +26,7 @@
 
 static const double least_tip_restitution = 0.05; /* a tip that gives nothing back parts at once */
 
-/* The places of the numbers of a cue in cue[], which are in the order of carom_cue. */
+/* The positions of the numbers of a cue in cue[], which are in the order of carom_cue. */
 enum { SPEED, PHI, THETA, OFFSET_A, OFFSET_B, MASS, END_MASS, RESTITUTION };
 
 void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double cue[8],
@@ -53,7 +53,7 @@ void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double
   tip->inverse_mass = 1.0 / cue[MASS];
   tip->V = cue[SPEED];
   tip->duration = duration;
-  /* a restitution of 0 stands for 1, and keeps its derivatives */
+  /* a restitution of 0 means 1, and keeps its derivatives */
   tip->restitution = least_tip_restitution;
   if (cue[RESTITUTION] > least_tip_restitution)
     tip->restitution = cue[RESTITUTION];
@@ -75,7 +75,7 @@ void carom_cluster_tip_slides(carom_cluster_state *cluster, const double cue[8],
   tip->mu = mu;
   tip->end = 1.0 / cue[END_MASS];
 
-  /* from the place of the touch to the centre */
+  /* from the position of the touch to the centre */
   tip->kappa = sqrt(1.0 - cue[OFFSET_A] * cue[OFFSET_A] - cue[OFFSET_B] * cue[OFFSET_B]);
   for (int axis = 0; axis < 3; axis++)
     tip->n[axis] =
@@ -105,7 +105,7 @@ void carom_cluster_push_alone(carom_cluster_state *cluster) {
     ball->shift[axis] = 0.0;
   }
 
-  /* the impulse, as if all of it had come at its centroid */
+  /* the impulse, as if all of it had acted at its centroid */
   cluster_add(!cluster->in_space, ball->s, rest * tip->J * ball->inverse_mass, tip->along);
   tip->V -= tip->J * tip->inverse_mass;
   cluster_add(!cluster->in_space, ball->v, tip->J * ball->inverse_mass, tip->along);

@@ -2,10 +2,10 @@
  *
  * A linear contact of the slate and the foot of a ball, per unit of its mass, with the set and the
  * restitution e of the tip (tip.h); friction |g| <= mu F against the slip of the foot, as on the
- * cloth (cluster.h) with F for L. It lasts CAROM_SLATE_TIME alone. The tip presses the struck ball
- * on the slate with the part F_down of its force. That frees a contact of the ball from the cloth:
- * phi grows by min(1, F_down / (mu F)). So a cue that is raised by a hair pushes as a level one. A
- * ball that nothing else touches has the same law in phases: shot/raised.c. */
+ * cloth (cluster.h) with F for L. By itself it lasts CAROM_SLATE_TIME. The tip presses the struck
+ * ball on the slate with the part F_down of its force. That frees a contact of the ball from the
+ * cloth: phi grows by min(1, F_down / (mu F)). So a cue that is raised by a hair pushes as a level
+ * one. A ball that nothing else touches has the same law in phases: shot/raised.c. */
 #ifndef CAROM_SRC_CLUSTER_SLATE_H
 #define CAROM_SRC_CLUSTER_SLATE_H
 
@@ -38,7 +38,7 @@ static inline bool slate_acts(carom_cluster_state *cluster, double step) {
   return any;
 }
 
-/* The share of the friction `most` of two balls that the tip presses the struck one on the slate
+/* The fraction of the friction `most` of two balls that the tip presses the struck one on the slate
  * by. */
 static inline double share_of_tip(const carom_cluster_state *cluster, int i, int j, double most) {
   const carom_cluster_tip *tip = &cluster->tip;
@@ -64,7 +64,7 @@ static inline void slate_parts(carom_cluster_state *cluster, double step) {
   }
 }
 
-/* How long a ball above the slate needs down to it; infinite: it does not come. */
+/* How long a ball above the slate needs down to it; infinite: it does not reach it. */
 static inline double wait_of_slate(const carom_cluster_state *cluster, int ball) {
   const carom_cluster_slate *slate = &cluster->slate[ball];
   const double down = -cluster->ball[ball].v[2];
@@ -88,7 +88,7 @@ static inline double slate_releases(const carom_cluster_slate *slate, double v_z
   const double stiffness = carom_linear_stiffness(CAROM_SLATE_TIME, slate->restitution),
                returned = slate->restitution * slate->restitution;
 
-  /* it loads: all of this energy and of the speed comes back by e^2 */
+  /* it loads: all of this energy and of the speed returns by e^2 */
   if (overlap >= slate->overlap_max && v_z < 0.0)
     return slate->restitution * sqrt(stiffness * overlap * overlap + v_z * v_z);
 
@@ -110,7 +110,7 @@ static inline void slate_lets_go(carom_cluster_state *cluster, double step) {
     if (!(slate->overlap > 0.0 && slate->restitution > 0.0))
       continue;
 
-    /* the rest of the impulse, in place of that of this step */
+    /* the rest of the impulse, in place of this step's */
     const double up = slate_releases(slate, ball->v[2], step), gain = up - ball->v[2];
     ball->v[2] = up;
     slate->impulse += gain / ball->inverse_mass - slate->J;

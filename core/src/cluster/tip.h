@@ -19,20 +19,20 @@
  *                    '.       .'
  *                      '-...-'
  *
- * so e^2 of the work comes back. k is that of a contact which lasts T with the ball alone:
+ * so e^2 of the work returns. k is that of a contact which lasts T with the ball alone:
  *
  *     T = pi/2 (1 + e) sqrt(m_e / k),     1/m_e = 1/M + (1 + 5/2 |q|^2)/m.
  *
  * The set that is left where F reaches 0 recovers as delta falls: then delta_max = delta/(1 - e^2),
  * and a tip that closes again loads along the line of unloading. A tip at delta < 0 is open, and
- * touches anew. So no speed jumps where a force reaches 0. In flat play the part of the push that
- * goes down is lost, with the speed that it would give.
+ * touches anew. So no speed jumps where a force reaches 0. In flat play the downward component of
+ * the push is lost, with the speed that it would give.
  *
  * FURTHER TOUCH. The ball moves and turns by itself, so that the tip may slide on it. With n the
- * unit vector from the place of the touch to the centre, kappa = n . c, and y the velocity of the
- * end mass m_e across c, which begins at 0,
+ * unit vector from the position of the touch to the centre, kappa = n . c, and y the velocity of
+ * the end mass m_e across c, which begins at 0,
  *
- *     r = V c + y - v - W x p,  p = -n         of the tip and the place that it touches
+ *     r = V c + y - v - W x p,  p = -n         of the tip and the position that it touches
  *     delta' = r . n / kappa
  *     P = N n + f per time, with P . c = k delta,  |f| <= mu N
  *     u = r - delta' c, across n;  f stops it in a step, or is mu N
@@ -44,13 +44,13 @@
  *                 /      'n   \        where it would be drawn into the ball
  *                 |        'o |
  *
- * and mu = a/sqrt(1 - a^2), a the offset of a miscue. The power P . r is that of the spring and of
+ * and mu = a/sqrt(1 - a^2), a the offset of a miscue. P . r is the power of the spring and of
  * friction. A tip that does not slide has r = delta' c, as the first touch has it, whose push goes
  * along c' too. Where friction holds back as much as it pushes, N is at most 2 k delta/kappa: the
  * rest would wedge the tip. The end gives way, but the shaft holds it where friction would draw it
- * into the ball. It springs back where the force has reached 0. If the axis closes from the place
- * that the tip has slid to, the light end would bounce until it does not: one impulse stands for
- * these. */
+ * into the ball. It springs back where the force has reached 0. If the axis closes from the
+ * position that the tip has slid to, the light end would bounce until it does not: one impulse
+ * represents these. */
 #ifndef CAROM_SRC_CLUSTER_TIP_H
 #define CAROM_SRC_CLUSTER_TIP_H
 
@@ -63,14 +63,15 @@
 /* Steps of the duration of tip or slate, for each of a contact of balls: 200 by default, which are
  * 5 us of a leather tip, with errors of 2e-4, and 9e-4 at most. Fewer are not taken. */
 enum { CAROM_TIP_STEPS = 200, CAROM_TIP_STEPS_EACH = 8 };
-/* Iterations for the impulse that stands for the bounces of the end: one where it slips or sticks
+/* Iterations for the impulse that represents the bounces of the end: one where it slips or sticks
  * throughout, further ones where the slip ends. */
 enum { CAROM_TIP_ITERATIONS = 3 };
 static const double too_slow = 1e-9;   /* of the speed of the cue: contacts that close slower are
                                         none */
 static const double least_kappa = 0.1; /* a tip that slides past it misses */
 
-/* The part of kappa that friction leaves at least, where it holds back; N is 1 over it at most. */
+/* The fraction of kappa that friction leaves at least, where it holds back; N is 1 over it at
+ * most. */
 #define CAROM_LEAST_PUSH 0.5
 
 /* delta': the speed at which the tip closes. */
@@ -107,8 +108,8 @@ static inline double step_to_touch(const carom_cluster_state *cluster, double st
   return closing > 0.0 ? carom_lesser(step, free_step - tip->overlap / closing) : step;
 }
 
-/* FURTHER TOUCH: the impulse P of which J is the part along the axis. With c_t the part of c across
- * n (`aside`), A = 1/m_e + 7/2/m (`across`) and g = 1/m_e + 1/m, the slip after a step is
+/* FURTHER TOUCH: the impulse P of which J is the part along the axis. With c_t the component of c
+ * across n (`aside`), A = 1/m_e + 7/2/m (`across`) and g = 1/m_e + 1/m, the slip after a step is
  *
  *     u = u0 - A f + g (N/kappa) c_t,     N = (J - f . c_t)/kappa.
  *

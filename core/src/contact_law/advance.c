@@ -14,10 +14,10 @@
  * A step in which b passes near zero has a sinh map. A b that is quasi-steady takes an even map
  * and exact steps.
  *
- * SAFETY. A step that is refused is tried again with a shorter length. After MOST_REFUSALS in a
- * row the rest of the impact goes by careful steps: exact ones over even maps, each only a share
- * of the way to where a slip could vanish. The caller bounds the number of iterations of all
- * steps together. */
+ * SAFETY. A step that is rejected is tried again with a shorter length. After MOST_REFUSALS in a
+ * row the rest of the impact is computed in careful steps: exact ones over even maps, each only a
+ * fraction of the way to where a slip could vanish. The caller bounds the number of iterations of
+ * all steps together. */
 #include "contact_law/map.h"
 #include "contact_law/variation_step.h"
 #include "platform/elementary.h"
@@ -44,22 +44,22 @@ static const double ALIGNED = 0.15;      /* if sin(psi) is at most this */
 static const double SETTLING = 10;       /* D p / r of a quasi-steady step whose direction still
                                             settles */
 static const double NEGLIGIBLE = 1e-7;   /* r sin(psi) that need not settle first */
-static const double SLOW = 0.5;          /* rate of a slip over that by friction alone, below
+static const double SLOW = 0.5;          /* rate of a slip over the rate by friction only, below
                                             which it is quasi-steady */
 static const double CAREFUL_SHARE = 0.6; /* of the way to a slip of zero, for a careful step */
-static const double IMMEDIATE = 1e-9;    /* share of a step at which an event happens where the
+static const double IMMEDIATE = 1e-9;    /* fraction of a step at which an event happens where the
                                             step begins */
 static const double MOST_GROWTH = 6.9;   /* carom_point.growth: log of 1000 */
 static const double MOST_ACROSS = 1e-6;  /* carom_trajectory.across */
 static const double AGAIN = 1e-6;        /* v in restitution of a ball that approaches again: a
                                             second compression */
 
-/* A step to stick begins with this share of the way to a slip of zero along a straight line, if the
- * goal of the phase is not nearer than about that. */
+/* A step to stick begins with this fraction of the way to a slip of zero along a straight line, if
+ * the goal of the phase is not nearer than about that. */
 static const double STICK_SHARE = 0.95, STICK_NEAR = 0.97;
 /* cos(psi) of a slip that points along the drive. */
 static const double ALONG_DRIVE = 0.9;
-/* The share of the way to a slip of zero at a that a step may go while b passes zero. */
+/* The fraction of the way to a slip of zero at a that a step may go while b passes zero. */
 static const double PASSING_SHARE = 0.7;
 /* The least rate at which r falls, by which the largest tau is divided. */
 static const double LEAST_FALL = 1e-12;
@@ -70,10 +70,10 @@ static const double LEAST_GROWTH = -0.9;
 static const double TOO_LONG = 1.1;
 /* The rate of |b| over h below which |b| is constant. */
 static const double STEADY = 1e-3;
-/* A refused step is tried with SAFETY times the length that its error allows, within these shares
- * of its length; or with half of it where there is no estimate, or one without meaning. */
+/* A rejected step is tried with SAFETY times the length that its error allows, within these
+ * fractions of its length; or with half of it if there is no estimate, or a meaningless one. */
 static const double SAFETY = 0.9, LEAST_SHARE = 0.3, HALF = 0.5, MOST_ESTIMATE = 1e12;
-/* The same of one that derivatives refuse. */
+/* The same of one that derivatives reject. */
 static const double LEAST_VARIED = 0.2, MOST_VARIED = 0.7;
 enum {
   MOST_REFUSALS = 6,         /* in a row, before steps become careful; */
@@ -126,7 +126,7 @@ static double work_end(const carom_trajectory *path) {
 static void start_at(const carom_trajectory *path, double target, step_start *origin) {
   const carom_point *point = &path->point;
   const carom_terms *terms = &path->terms;
-  /* the slips: sizes, and directions or, of a slip that begins, those of the regime */
+  /* the slips: magnitudes, and directions or, for a slip that begins, the regime's */
   origin->size_a = sqrt(point->a_x * point->a_x + point->a_y * point->a_y);
   origin->size_b = sqrt(point->b_x * point->b_x + point->b_y * point->b_y);
   const double per_a = 1 / origin->size_a, per_b = 1 / origin->size_b;
@@ -175,7 +175,7 @@ static void start_at(const carom_trajectory *path, double target, step_start *or
       origin->to_goal = 1;
   }
 
-  /* an earlier end: p asked for, the event of the regime, the length left by a refusal */
+  /* an earlier end: p requested, the event of the regime, the length left by a refusal */
   if (target - point->p < origin->to_goal) {
     origin->goal = AT_P;
     origin->target = origin->to_goal = target - point->p;
@@ -209,7 +209,7 @@ static void limit(double *length, enum goal *goal, double most) {
   }
 }
 
-/* A careful step: exact, over an even map, at most a share of the way to where a slip could
+/* A careful step: exact, over an even map, at most a fraction of the way to where a slip could
  * vanish. */
 static void plan_carefully(const carom_trajectory *path, const step_start *origin, plan *next) {
   double length = origin->to_goal;
@@ -232,13 +232,13 @@ static void plan_carefully(const carom_trajectory *path, const step_start *origi
 /* Whether the equations for b are stiff: b is quasi-steady, so that friction nearly balances
  * the force that drives it, or begins from zero while friction is strong. */
 static bool cloth_is_stiff(const carom_trajectory *path, const step_start *origin) {
-  /* |b|' by friction alone; it must be able to stop b several times before the goal */
+  /* |b|' by friction only; it must be able to stop b several times before the goal */
   const double friction = path->terms.H_y * origin->w;
   if (!path->regime.loaded || friction * origin->to_goal < STIFF * origin->size_b)
     return false;
   if (origin->size_b == 0)
     return fabs(origin->db_x) + fabs(origin->db_y) < SLOW * friction || path->regime.held;
-  /* b hardly turns, and its size changes slowly, against friction alone */
+  /* b hardly turns, and its magnitude changes slowly, compared with friction */
   const double along = origin->t_x * origin->db_x + origin->t_y * origin->db_y,
                across = origin->t_x * origin->db_y - origin->t_y * origin->db_x;
   return fabs(across) < ALIGNED * friction && fabs(along) < SLOW * friction;
@@ -305,7 +305,7 @@ static void plan_stiff(const carom_trajectory *path, const step_start *origin,
   aim_t(next, &path->point, origin);
 }
 
-/* The step while a slides: a stretched map, or a sinh map if b passes near zero; but that of
+/* The step while a slides: a stretched map, or a sinh map if b passes near zero; but the step of
  * plan_stiff() for a stiff a. */
 static void plan_sliding(const carom_trajectory *path, const step_start *origin, plan *next) {
   /* stiff: u points along the drive D, and friction could stop a several times before the goal */
@@ -376,10 +376,10 @@ static bool snap_to_zero(carom_trajectory *path, const carom_point *previous) {
   return a_ends || b_ends;
 }
 
-/* Where friction drives the slip on the cloth, it also drives an error e of planar motion that lies
- * across b. With |b|' = r, which is `rate`, and h = -H w, e' = h e/|b|, so that e follows
- * |b|^(h/r). Where b passes zero, e is the rest of |b|: then |b|^(h/r) e is |b| itself. The error
- * of the friction's impulse is the change of e over |H|. */
+/* Where friction drives the slip on the cloth, it also drives an error e of planar motion across b.
+ * With |b|' = r, which is `rate`, and h = -H w, e' = h e/|b|, so that e follows |b|^(h/r). Where b
+ * passes zero, e is the rest of |b|: then |b|^(h/r) e is |b| itself. The error of the friction's
+ * impulse is the change of e over |H|. */
 static void drive_error(carom_trajectory *path, const step_start *origin,
                         const carom_point *start) {
   const double across = path->across, begin = most_of(fabs(start->b_y), across),
@@ -405,7 +405,7 @@ static bool driven_at_start(const carom_trajectory *path) {
     return false;
   step_start origin;
   start_at(path, INFINITY, &origin);
-  /* |b|' = h + d, if the force on b beside friction is along b */
+  /* |b|' = h + d, if the force on b other than friction is along b */
   const double h = -path->terms.H_x * origin.w, d_x = origin.db_x - h * origin.t_x,
                d_y = origin.db_y - h * origin.t_y;
   const double d = sqrt(d_x * d_x + d_y * d_y);
@@ -462,7 +462,7 @@ static bool next_step(carom_trajectory *path, double target) {
     if (reached)
       end_phase(path);
 
-    /* a slip that has come to nothing is zero from here on */
+    /* a slip that has vanished is zero from here on */
     const bool goes_on = !snap_to_zero(path, &start) || carom_impact_regime(path, false);
     if (path->variation != NULL)
       carom_variation_follow(path, &start, reached);
@@ -530,7 +530,7 @@ static bool next_step(carom_trajectory *path, double target) {
     return goes_on;
   }
 
-  /* refused: up to the event; or a shorter step, by the error estimate */
+  /* rejected: up to the event; or a shorter step, by the error estimate */
   if (result == EVENT_WITHIN) {
     path->event_at = path->point.p + advice;
     if (advice < IMMEDIATE * origin.to_goal)

@@ -7,10 +7,10 @@
  *     g = G_0 / (1 - G_1 t_y)
  *     G_0 = g_0 - g_1 A_0 / K_y           G_1 = mu_c g_1 C_y / K_y
  *
- * so the cloth bears a load if and only if G_0 > 0. Where b = 0, b' = 0 asks for F = -(L_x f_x,
+ * so the cloth bears a load if and only if G_0 > 0. Where b = 0, b' = 0 requires F = -(L_x f_x,
  * B_0 + L_y f_y) / H. If friction holds both, f_x = F_x = 0, and v' = 0 for a cushion: the ball
  * is JAMMED, nothing changes any more, and the impact ends. A contact is held if this friction
- * lies within the cone, |f| <= mu or |F| <= mu_c g. It is held until it leaves the cone.
+ * is within the cone, |f| <= mu or |F| <= mu_c g. It is held until it leaves the cone.
  *
  * LEAVING. Where friction cannot hold, the slip begins in a direction to which its own rate is
  * parallel. On the cloth that is the direction of (0, B_0) + L f, which does not depend on F. At
@@ -19,18 +19,18 @@
  * law.h M h = M_yy h for a cushion, so that f = mu h/|h| gives an a' along -h. For two balls h =
  * 0. Where both slips are zero all is symmetric about the y axis, and so are the directions.
  *
- * UNSTABLE. Where H < 0 friction drives the slip on the cloth. Let it begin at b = 0 with the
- * rate d without friction, and let friction alone have the rate h. A slip that is not zero but
- * an error e goes on in its own direction if h > d. If not, its component across d grows like
- * |b|^(h / (d + h)), to e^(d / (d + h)). At h = MOST_DRIVEN d a rounding error of 1e-16 becomes
- * 2.5e-10; beyond that there is no result.
+ * UNSTABLE. Where H < 0 friction drives the slip on the cloth. Let it begin at b = 0 with the rate
+ * d without friction, and let only friction have the rate h. A slip that is not zero but an error e
+ * continues in its own direction if h > d. If not, its component across d grows like |b|^(h / (d +
+ * h)), to e^(d / (d + h)). At h = MOST_DRIVEN d a rounding error of 1e-16 becomes 2.5e-10; beyond
+ * that there is no result.
  *
  * A frictionless contact has no direction and no cone. */
 #include "contact_law/impact.h"
 
 #include <math.h>
 
-static const double EDGE = 1e-9;          /* share of the cone that is not used */
+static const double EDGE = 1e-9;          /* fraction of the cone that is not used */
 static const double MOST_DRIVEN = 2. / 3; /* h / d: see the head */
 static const double NEARLY_JAMMED = 5e-8; /* v and both slips together, of a ball that is about
                                              to be jammed */
@@ -76,7 +76,7 @@ static pair holding(const carom_law *law, pair t) {
   return (pair){law->C_x / law->K_x * w * t.x, (law->C_y * w * t.y - law->A_0) / law->K_y};
 }
 
-/* Whether friction holds the cloth under the friction f; H > 0 says that friction opposes slip. */
+/* Whether friction holds the cloth under the friction f; H > 0 means that friction opposes slip. */
 static bool cloth_holds(const carom_law *law, pair f) {
   return law->H > 0 && size(cloth_drive(law, f)) <= law->H * law->mu_c * load(law, f.y);
 }
@@ -95,7 +95,7 @@ static bool both_hold(const carom_law *law) {
 }
 
 /* The regime where both slips are zero: the first of these that is consistent with its own
- * rates. Everything lies along y. False if none is. */
+ * rates. Everything is along y. False if none is. */
 static bool from_rest(const carom_law *law, carom_regime *regime) {
   const double mu = law->mu;
   if (both_hold(law)) {
@@ -137,8 +137,8 @@ static bool from_rest(const carom_law *law, carom_regime *regime) {
   return false;
 }
 
-/* The regime that begins at a point, after *regime. event: that of *regime has ended it. False if
- * no regime is consistent. */
+/* The regime that begins at a point, after *regime. event: the event of *regime has ended it. False
+ * if no regime is consistent. */
 static bool choose(const carom_law *law, const carom_point *point, bool event,
                    carom_regime *regime) {
   const bool a_rests = law->mu > 0 && point->a_x == 0 && point->a_y == 0,

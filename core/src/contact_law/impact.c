@@ -1,4 +1,4 @@
-/* The entry points of the precise solver: where an impact begins, how it goes on, and its
+/* The entry points of the precise solver: where an impact begins, how it continues, and its
  * impulses.
  *
  * IMPULSES. f and F enter the rates of a, b and v linearly, so their integrals Q and G follow
@@ -15,7 +15,7 @@
 #include <math.h>
 
 static const double NO_SLIP = 1e-9;    /* a slip that counts as zero; */
-static const double ROUNDING = 1e-15;  /* at least this share of all slips; where H < 0, which
+static const double ROUNDING = 1e-15;  /* at least this fraction of all slips; where H < 0, which
                                           would amplify it, no more */
 static const double MOST_SLIP = 1e100; /* squares of more would overflow */
 

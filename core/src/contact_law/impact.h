@@ -53,7 +53,7 @@ typedef struct carom_trajectory {
   carom_status status;     /* not CAROM_OK if there is no way on */
   /* of advance.c: */
   int plain;                         /* options.plain of the call */
-  double tolerance;                  /* of a step, in units of that of step.h */
+  double tolerance;                  /* of a step, in units of the error of step.h */
   double no_slip;                    /* a slip that counts as zero */
   double longest;                    /* length that the next step may have */
   int refusals;                      /* in a row */
@@ -70,17 +70,16 @@ typedef struct carom_impulses {
   double p, f_x, f_y, F_x, F_y;
 } carom_impulses;
 
-/* Puts an impact at its start. a, b: the slips over the speed of approach, in which errors are
- * at most `rounding`, and 0 along x in motion along the axes of the table. tolerance: 1 for
- * errors of about 1e-9 in the mean
- * and 1e-7 at most, of the largest speed; errors are about proportional to it. plain: that of
- * the options. */
+/* Puts an impact at its start. a, b: the slips over the speed of approach, in which errors are at
+ * most `rounding`, and 0 along x in motion along the axes of the table. tolerance: 1 for errors of
+ * about 1e-9 in the mean and 1e-7 at most, of the largest speed; errors are about proportional to
+ * it. plain: as in the options. */
 void carom_impact_begin(const carom_law *law, double tolerance, int plain, double a_x, double a_y,
                         double b_x, double b_y, double rounding, carom_trajectory *path);
 
-/* On to p = target, or to the end if that comes first. Errors: CAROM_ERROR_OVERFLOW; and
- * CAROM_ERROR_UNRESOLVED if that takes more than `most` iterations, counted from the start, if
- * no regime is consistent, or if the result depends on rounding errors.
+/* Continues to p = target, or to the end if that is earlier. Errors: CAROM_ERROR_OVERFLOW; and
+ * CAROM_ERROR_UNRESOLVED if that takes more than `most` iterations, counted from the start, if no
+ * regime is consistent, or if the result depends on rounding errors.
  */
 carom_status carom_impact_advance(carom_trajectory *path, double target, int most);
 
@@ -94,8 +93,8 @@ carom_impulses carom_impact_impulses(const carom_trajectory *path);
  * approach; for a cushion, over the cosine of the nose's angle too. */
 double carom_impact_work(const carom_trajectory *path);
 
-/* The regime that begins at path->point, into path->regime and path->terms. event: that of the last
- * regime has ended it. False if no regime is consistent. See contact.c. */
+/* The regime that begins at path->point, into path->regime and path->terms. event: the event of the
+ * last regime has ended it. False if no regime is consistent. See contact.c. */
 bool carom_impact_regime(carom_trajectory *path, bool event);
 
 /* The coefficients of a regime. */

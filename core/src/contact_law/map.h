@@ -29,9 +29,9 @@
 /* Found by trial with `carom-lab stress --cushion 20000`. With an ellipse of 2.2 errors in play
  * reach 7.3e-7 instead of 1.1e-7, and with one of 6 impacts of any kind take 5 % longer. With
  * twice of SINH_LENGTH they take 13 % longer. */
-static const double ELLIPSE = 3; /* b passes near zero if its complex zero lies within this
+static const double ELLIPSE = 3; /* b passes near zero if its complex zero is within this
                                     ellipse: see nearest() */
-/* least d, as a share of the distance to p_c */
+/* least d, as a fraction of the distance to p_c */
 static const double LEAST_D = 1e-3, LEAST_D_UNSTABLE = 1e-14;
 static const double SINH_LENGTH = 3; /* length of a step in x */
 /* Less than these would divide by 0: D of a drive, and the sine of psi_0 */
@@ -65,7 +65,7 @@ static void even_map(planned_step *step, double length) {
 /* Where a straight line is nearest to zero. */
 typedef struct passage {
   double p_c, d;
-  bool matters; /* a step of the length asked for has to take account of it */
+  bool matters; /* a step of the length requested has to take account of it */
 } passage;
 
 static passage nearest(const carom_point *point, double rate_x, double rate_y, double length) {
@@ -73,7 +73,7 @@ static passage nearest(const carom_point *point, double rate_x, double rate_y, d
   passage passing = {.p_c = -(point->b_x * rate_x + point->b_y * rate_y) * per,
                      .d = fabs(point->b_x * rate_y - point->b_y * rate_x) * per};
   /* b is zero at p_c +- i d: in units of the step, from -1 to 1, the sum of the distances to the
-   * ends tells the ellipse */
+   * ends determines the ellipse */
   const double center = 2 * passing.p_c / length - 1, offset = 2 * passing.d / length;
   passing.matters = sqrt((center - 1) * (center - 1) + offset * offset) +
                         sqrt((center + 1) * (center + 1) + offset * offset) <
@@ -90,7 +90,7 @@ static passage passage_of_b(const carom_point *point, const carom_terms *terms,
   passage passing = {.matters = false};
   if (origin->size_b == 0 || origin->size_b > 2 * length * rate)
     return passing;
-  /* friction that drives the slip slows b on its way to zero: then the mean rate comes first */
+  /* friction that drives the slip slows b on its way to zero: then the mean rate is used first */
   if (terms->H_x > 0)
     passing = nearest(point, origin->db_x, origin->db_y, length);
   if (!passing.matters)
@@ -168,8 +168,8 @@ static closed_form closed_form_of(const carom_terms *terms, const step_start *or
   return form;
 }
 
-/* tau where p has come to `length`, to a few percent, by two steps of Newton's method; if that
- * is beyond 2 most, some tau beyond it. first: a guess. */
+/* tau where p reaches `length`, to a few percent, by two steps of Newton's method; if that is
+ * beyond 2 most, some tau beyond it. first: a guess. */
 static double tau_at(const closed_form *form, double length, double first, double most) {
   /* the exponents of r */
   const double slow = form->D - form->m, fast = -form->D - form->m;

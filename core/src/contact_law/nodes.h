@@ -148,8 +148,8 @@ always void invert(double (*matrix)[NODES]) {
 #define ROW(x, i) (((part_of_row *)(x))[i])
   double diagonal = matrix[0][0];
   unrolled for (int step = 0; step < NODES; step++) {
-    /* the part of row `step` for every row: the entries of that column vanish, that of the row
-     * becomes 1. The next element of the diagonal comes first, as the next row waits for its
+    /* the part of row `step` for every row: the entries of that column vanish, the row's own
+     * becomes 1. The next element of the diagonal is first, because the next row waits for its
      * division */
     const double pivot = 1 / diagonal;
     if (step + 1 < NODES)
@@ -164,7 +164,7 @@ always void invert(double (*matrix)[NODES]) {
         EACH ROW(matrix[other], i) =
             (part_of_row)madd(column[i], splat(row), PART(matrix[other], i));
       }
-    /* that column of the inverse takes its place */
+    /* that column of the inverse takes its position */
     AT(column, step) = pivot;
     EACH ROW(matrix[step], i) = (part_of_row)column[i];
   }

@@ -1,7 +1,8 @@
 /* One collocation step of an impact, over eight Gauss nodes.
  *
- * EQUATIONS. They are those of law.h in one regime. With u = a/|a| and t = b/|b| the directions
- * of the slips, and w the friction of the cloth per unit of p (its load times its coefficient),
+ * EQUATIONS. They are the equations of law.h in one regime. With u = a/|a| and t = b/|b| the
+ * directions of the slips, and w the friction of the cloth per unit of p (its load times its
+ * coefficient),
  *
  *     a' = (S_x u_x - C_x w t_x, A_0 + S_y u_y - C_y w t_y)          v' = V_0 + V_u u_y - V_w w t_y
  *     b' = (R_x u_x - H_x w t_x, B_0 + R_y u_y - H_y w t_y)
@@ -27,16 +28,16 @@
  *
  *     a = a_0 + M(z a'),     b = b_0 + M(z b')
  *
- * ITERATION. The directions give a and b, whose directions differ from u and t by angles. Let r
- * be that of a to u. A rotation of u by d rotates a too, by (1/|a|) times the component across u
- * of the integral of z da'/dphi d. Newton's method asks for
+ * ITERATION. The directions give a and b, whose directions differ from u and t by angles. Let r be
+ * the ratio of a to u. A rotation of u by d rotates a too, by (1/|a|) times the component across u
+ * of the integral of z da'/dphi d. Newton's method requires
  *
  *     d = r - (1/|a|) M(z k d),     k = -(component of da'/dphi across u)
  *
- * An integrating factor E with E' = -z k E / |a| solves this: d = r - (E/|a|) M(z k r / E). The
- * map comes with an estimate of E. A step that is stiff solves the linear equations for d
- * instead (`exact`). For t, the kernel
- * E(X) / E(X') of the integral is replaced by 1/(1 + M(z k)(X') / |b|).
+ * An integrating factor E with E' = -z k E / |a| solves this: d = r - (E/|a|) M(z k r / E). The map
+ * includes an estimate of E. A step that is stiff solves the linear equations for d instead
+ * (`exact`). For t, the kernel E(X) / E(X') of the integral is replaced by 1/(1 + M(z k)(X') /
+ * |b|).
  *
  * END. The step ends at a given p or at one of the events of `enum goal`. Then its length is
  * unknown, and each iteration corrects it by Newton's method from the rates at the last node.
@@ -59,11 +60,11 @@ static const double CONVERGED = 4e-8;       /* error that the iteration may leav
 static const double TOLERANCE = 4e-7;       /* square of the error estimate, over the length of
                                                the step, */
 static const double TOLERANCE_EXACT = 1e-9; /* and where the step is exact */
-static const double SETTLED = 1e-6;         /* last correction of the length, as a share of it */
+static const double SETTLED = 1e-6;         /* last correction of the length, as a fraction of it */
 static const double EVENT_TOLERANCE = 1e-8; /* event function that does not yet end a regime, */
 static const double LATE = 1e-5;            /* and within a step that ends at its event */
-static const double NEARLY_STOPPED = 1e-8;  /* v that counts as 0 where the cloth's slip has come
-                                               to rest */
+static const double NEARLY_STOPPED = 1e-8;  /* v that counts as 0 where the cloth's slip has
+                                               stopped */
 static const double NEARLY_CONVERGED =
     3e-3; /* correction, of directions and of the length, after which Newton's method updates
              inverse lengths, */
@@ -77,9 +78,10 @@ static const double LATER_SHARE = 0.3;
 /* An iteration has diverged where its correction is larger than LOST, or after PATIENCE iterations
  * where it converges slowly and is still coarse. A coarse one has not converged in any case. */
 static const double LOST = 10, SLOW_RATE = 0.6, COARSE = 1e-3;
-/* One correction of the length is within these shares of it. */
+/* One correction of the length is within these fractions of it. */
 static const double MOST_SHORTENED = -0.4, MOST_LENGTHENED = 0.5;
-/* The share of the length by which a step grows that sees no way to its work, or to its event. */
+/* The fraction of the length by which a step grows that sees no way to its work, or to its
+ * event. */
 static const double BLIND_WORK = 0.3, BLIND_EVENT = 0.2;
 /* SOFTENED: the first iterations, which compute `ease`. */
 enum { MOST_ITERATIONS = 12, PATIENCE = 3, SOFTENED = 2 };
@@ -174,8 +176,8 @@ always void integrate_slip(double x, double y, const part *zx, const part *zy, p
   }
 }
 
-/* x, y over their length, whose inverse becomes *inverse. approximate: *inverse has that of a
- * similar length. */
+/* x, y over their length, whose inverse becomes *inverse. approximate: *inverse has the inverse for
+ * a similar length. */
 always void normalise(part *x, part *y, bool approximate, part *inverse) {
   EACH {
     const part square = madd(x[i], x[i], madd(y[i], y[i], splat(1e-300)));
@@ -352,7 +354,7 @@ always double to_goal(const carom_terms *terms, const carom_point *start, const 
 }
 
 /* Takes a step from *point. driving_slips: that contact slips; loaded: the cloth bears a load, and
- * slips. A refused step leaves *point as it is; then *advice is, for INACCURATE, the squared error
+ * slips. A rejected step leaves *point as it is; then *advice is, for INACCURATE, the squared error
  * estimate over the tolerance, and for EVENT_WITHIN the p from here to the event. */
 always enum outcome collocate(const carom_terms *regime_terms, const planned_step *step,
                               const bool driving_slips, const bool loaded, const enum exact exact,
@@ -364,7 +366,7 @@ always enum outcome collocate(const carom_terms *regime_terms, const planned_ste
   double for_u[NODES][NODES] __attribute__((aligned(PART_BYTES))),
       for_t[NODES][NODES] __attribute__((aligned(PART_BYTES)));
 
-  /* the planned directions; 1/E; `ease`, which stands for E(X)/E(X') of t; the weights of the
+  /* the planned directions; 1/E; `ease`, which represents E(X)/E(X') of t; the weights of the
    * work */
   EACH {
     guess.u_x[i] = step->u_x[i];

@@ -16,10 +16,10 @@
  * instead of its inverse they remain regular where a slip begins from zero. The end of the step
  * follows by quadrature.
  *
- * SHIFTS. Nothing depends on p itself, so y' is a solution too: that of a start a little later.
- * Where a slip is small its direction, y' and dy turn fast, but most of dy is a shift, alpha y'.
- * There dy = alpha y' + rest, with the alpha for which the rest of da is smallest, and only the
- * rest is followed over the step.
+ * SHIFTS. Nothing depends on p itself, so y' is a solution too: for a start a little later. Where a
+ * slip is small its direction, y' and dy turn fast, but most of dy is a shift, alpha y'. There dy =
+ * alpha y' + rest, with the alpha for which the rest of da is smallest, and only the rest is
+ * followed over the step.
  *
  * EVENTS. Where a regime ends because a slip is zero, at p_s, friction changes, and so do the
  * rates:
@@ -40,7 +40,7 @@
  * int (F - F_h) dp = -db/H. Where the load may change its sign on the way, the derivatives
  * depend on the direction of da.
  *
- * Where these equations do not say how an impact goes on, its derivatives are central
+ * Where these equations do not say how an impact continues, its derivatives are central
  * differences of order 4: motion in a plane, whose perturbations leave it; balls that jam; a
  * slip that passes through zero. A kink is seen there by the differences to each side. */
 #include "contact_law/variation.h"
@@ -52,11 +52,11 @@
 static const double TOLERANCE = 1e-2;   /* of the solver: see impact.h */
 static const double UNRESOLVED = 1e-5;  /* of a slip's derivative, that is left where the slip
                                            ends */
-static const double COEFFICIENT = 1e-5; /* share of a variable by which coefficients are
+static const double COEFFICIENT = 1e-5; /* fraction of a variable by which coefficients are
                                            differentiated */
 static const double CONE = 0.02;        /* 1 - (|f| / mu)^2 of a slip that friction hardly holds:
                                            core/tests/agree/tangents.c */
-/* Central differences, of which `differentiate` says more: */
+/* Central differences, which `differentiate` explains: */
 static const double STEP = 1e-4;         /* change of a friction or of lambda, */
 static const double STEP_OF_E = 1e-3;    /* of restitution, */
 static const double STEP_OF_SLIP = 2e-3; /* and of a slip; where slips are beyond LONG_SLIP, over
@@ -97,7 +97,7 @@ static double changed_terms(const carom_trajectory *path, enum carom_variable va
   const carom_law *law = &path->law, *d_law = path->variation->d_law;
   carom_law changed[2] = {*law, *law};
 
-  /* a friction by a share of itself; else all coefficients along their derivatives */
+  /* a friction by a fraction of itself; else all coefficients along their derivatives */
   double step = COEFFICIENT;
   for (int side = 0; side < 2; side++) {
     const double share = side == 0 ? COEFFICIENT : -COEFFICIENT;
@@ -223,8 +223,8 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *start, bo
   carom_variation_leads(point, begins, lead);
   carom_variation_rates(&path->terms, lead, point->v, next_rate);
 
-  /* it ends a little earlier or later; rates change there. By the rates at its end and not by
-   * the direction of the slip alone: that of a slip which is negligible, but not zero, still
+  /* it ends a little earlier or later; rates change there. By the rates at its end and not only by
+   * the direction of the slip: the direction of a slip which is negligible, but not zero, still
    * turns, and the part of da across the motion falls with |a| */
   for (int variable = 0; variable < CAROM_VARIABLES; variable++) {
     const double d_p =
@@ -232,7 +232,7 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *start, bo
             ? -(u_x * variation->d[first][variable] + u_y * variation->d[first + 1][variable]) /
                   falls
             : 0;
-    /* the rest of da, which has to be 0, tells how well the end of the slip was resolved */
+    /* the rest of da, which has to be 0, reports how well the end of the slip was resolved */
     const double x = variation->d[first][variable] + variation->rate[first] * d_p,
                  y = variation->d[first + 1][variable] + variation->rate[first + 1] * d_p;
     if ((variation->requests >> variable & 1) &&
@@ -360,8 +360,8 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
   out->kink |= !(best < POOR) || !(bends < KINK);
 }
 
-/* Derivatives of the impulses by one variable, at the end of an impact. A function of its own,
- * so that its stack is not there while the impact is followed. */
+/* Derivatives of the impulses by one variable, at the end of an impact. A separate function, so
+ * that its stack is not in use while the impact is followed. */
 __attribute__((noinline)) static void impulses_by(const carom_trajectory *path,
                                                   const carom_variation *variation, int variable,
                                                   carom_impact_tangent *out) {
@@ -429,8 +429,8 @@ static void end_held_slips(const carom_trajectory *path, carom_variation *variat
       F_x = -w * t_x * f_y;
       F_y = -w * t_y * f_y;
       f_x = -(a_x + law->C_x * F_x) / law->K_x;
-      /* on the way friction may be anything in the cone, but along x alone if nothing turns it:
-       * does the load keep its sign? */
+      /* on the way friction may be anything in the cone, but only along x if nothing turns it: does
+       * the load keep its sign? */
       const double most =
           a_y != 0 || law->A_0 != 0 || regime->loaded ? law->mu * fabs(law->g_1) : 0;
       variation->lost |= law->mu_c > 0 && (regime->loaded ? law->g_0 < most : law->g_0 > -most);
@@ -462,7 +462,7 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   memset(&variation, 0, sizeof variation);
   memset(out, 0, sizeof *out);
 
-  /* each variable asked for begins as its own derivative */
+  /* each variable requested begins as its own derivative */
   variation.d_law = d_law;
   variation.requests = requests;
   for (int variable = BY_A_X; variable <= BY_B_Y; variable++)
@@ -490,7 +490,7 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   out->kink = variation.kink || (law->mu == 0 && (requests >> BY_MU & 1)) ||
               (law->e == 0 && (requests >> BY_E & 1));
 
-  /* where they were lost on the way, differences of impacts take their place */
+  /* where they were lost on the way, differences of impacts replace them */
   variation.lost |=
       !path.ended || variation.rate[OF_V] == 0 || (path.regime.held && path.regime.cloth_held);
   for (int variable = 0; variable < CAROM_VARIABLES; variable++) {

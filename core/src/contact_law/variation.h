@@ -37,18 +37,18 @@ typedef struct carom_variation {
   carom_kept_step record;
   /* the derivatives of the coefficients of path->terms by the variables, for `regime` */
   double d_terms[sizeof(carom_terms) / sizeof(double)][CAROM_VARIABLES];
-  double d[CAROM_VARIED][CAROM_VARIABLES]; /* derivatives at a fixed p: path->point.p; those
-                                              by others than those asked are 0 */
+  double d[CAROM_VARIED][CAROM_VARIABLES]; /* derivatives at a fixed p: path->point.p; derivatives
+                                              by variables that were not requested are 0 */
   const carom_law *d_law;                  /* by lambda */
   unsigned requests;                       /* bit k: by variable k */
   int regime;
-  double d_p[CAROM_VARIABLES];   /* at the end that of where the impact ends, and then d are
-                                    total ones */
+  double d_p[CAROM_VARIABLES];   /* at the end the derivative of where the impact ends, and then d
+                                    are total ones */
   double d_W_c[CAROM_VARIABLES]; /* of the work of compression */
   double rate[CAROM_VARIED];     /* y' at the end of the last step, by its regime */
   double lead[4];                /* directions of a and b there */
-  bool lost;                     /* the equations do not say how it goes on: planar motion, a
-                                    jammed ball */
+  bool lost;                     /* the equations do not determine how it continues: planar motion,
+                                    a jammed ball */
   bool kink;                     /* a slip begins from zero, and there is a seed by it */
 } carom_variation;
 
@@ -62,22 +62,22 @@ typedef struct carom_impact_tangent {
 
 /* The impulses of an impact that begins with these slips over the speed of approach, and their
  * derivatives by the variables in `requests` (bit k: variable k); the others are 0. d_law: the
- * derivative of the law by lambda; plain:
- * options.plain of the call. Errors: those of
+ * derivative of the law by lambda; plain: options.plain of the call. Errors: as for
  * carom_impact_advance(). */
 carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law,
                                         const double slips[4], int plain, unsigned requests,
                                         carom_impact_tangent *out);
 
-/* Makes d_terms those of path->regime. */
+/* Sets d_terms for path->regime. */
 void carom_variation_begin_regime(carom_trajectory *path);
 /* Directions of the slips at a point; `otherwise` where a slip is zero. */
 void carom_variation_leads(const carom_point *point, const double otherwise[4], double lead[4]);
-/* The rates at one place, from directions. */
+/* The rates at one position, from directions. */
 void carom_variation_rates(const carom_terms *k, const double lead[4], double v,
                            double rate[CAROM_VARIED]);
 
-/* Called by advance.c, besides variation_step() of variation_step.h: after a straight step; */
+/* Called by advance.c, in addition to variation_step() of variation_step.h: after a straight
+ * step; */
 void carom_variation_straight(carom_trajectory *path, const carom_point *start, bool planar);
 /* and after either, once the regime is decided. phase_ended: compression or restitution has. */
 void carom_variation_follow(carom_trajectory *path, const carom_point *start, bool phase_ended);

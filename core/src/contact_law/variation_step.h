@@ -28,7 +28,7 @@ static const double ESTIMATE_AT_STICK = 1e-12; /* of one at whose end a slip is 
                                                   solutions are not smooth */
 static const double SHORTEST = 1e-8;           /* length of a step that is taken in any case */
 static const double SHARE = 0.8;  /* of the longest step that slides: a longer one would often be
-                                     refused, or be inaccurate */
+                                     rejected, or be inaccurate */
 static const double SMALL = 0.05; /* a slip that may turn fast: the change by a shift along
                                      the motion is split off */
 
@@ -282,8 +282,8 @@ always void solve_t(const carom_terms *terms, const carom_point *start, step_rat
 }
 
 /* The changes of all rows over the step, by quadrature, where `end` of W begins as the change that
- * v brings about. Returns the estimate of the error, relative: that of the solver, the coefficient
- * of the highest Legendre polynomial of the rates. */
+ * v brings about. Returns the estimate of the error, relative: as in the solver, the coefficient of
+ * the highest Legendre polynomial of the rates. */
 always double integrate_rates(const carom_variation *variation, step_rates *at_nodes, double length,
                               table phi, table psi, nodes *end) {
   /* weights of the integral of an integral, which W is */
@@ -310,7 +310,7 @@ always double integrate_rates(const carom_variation *variation, step_rates *at_n
       if (at_nodes->loaded)
         EACH rate[i] = madd(splat(AT(at_nodes->by_t[row], node)), psi[node][i], rate[i]);
 
-      /* the sums, and for W that of v once more */
+      /* the sums, and for W the sum of v once more */
       EACH {
         end[row][i] = madd(splat(WEIGHT[node]), rate[i], end[row][i]);
         highest[i] = madd(splat(HIGHEST[node]), rate[i], highest[i]);
@@ -337,8 +337,8 @@ always double limit_of_step(bool stiff, int vanishes) {
   return stiff ? ESTIMATE_STIFF : ESTIMATE;
 }
 
-/* The rates at the end, which the next step needs. The direction of a slip that is zero there is
- * that of the polynomial. */
+/* The rates at the end, which the next step needs. A slip that is zero there has the direction of
+ * the polynomial. */
 always void take_end_rates(carom_trajectory *path, const step_rates *at_nodes) {
   carom_variation *variation = path->variation;
   const double last[4] = {dot(AT_END, at_nodes->u_x), dot(AT_END, at_nodes->u_y),
@@ -375,7 +375,7 @@ static double variation_step(carom_trajectory *path, const carom_point *start, b
   if (at_nodes.loaded)
     solve_t(&path->terms, start, &at_nodes, d, of_u, phi, psi);
 
-  /* refused where the estimate is too large, and the step can be shorter */
+  /* rejected where the estimate is too large, and the step can be shorter */
   nodes end[CAROM_VARIED];
   EACH end[OF_W][i] = length * d[OF_V][i];
   const double error = integrate_rates(variation, &at_nodes, length, phi, psi, end);

@@ -1,4 +1,4 @@
-/* The one place where the arguments of an impact on a cushion are checked, by the conditions of
+/* The only place where the arguments of an impact on a cushion are checked, by the conditions of
  * the comments in carom_shot.h.
  */
 #include "cushion/models.h"
@@ -9,7 +9,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* A vertical velocity that is no more than this share of the others is rounding of the caller's. */
+/* A vertical velocity that is no more than this fraction of the others is rounding of the
+ * caller's. */
 static const double level = 1e-9;
 
 enum { FIELDS = 15 };

@@ -6,8 +6,8 @@
  * velocity that this gives is dropped. Source: I. Han, J. Mech. Sci. Technol. 19 (2005) 976-984,
  * equations 14 to 23; his x, y are y, -x here.
  *
- * SMOOTH. Recorded balls pass from sticking to sliding gradually, and the nose gives back a part
- * of the slip (C > 1). With c = v_y cos(theta) and L = ln(v_y):
+ * SMOOTH. Recorded balls pass from sticking to sliding gradually, and the nose returns some of the
+ * slip (C > 1). With c = v_y cos(theta) and L = ln(v_y):
  *
  *     e      += e_d d,  d = -s_t / sqrt(s_t^2 + v_y^2)       a ball that rolls rebounds more
  *     F      = 2/7 (C_x s_x, C_t s_t)                        impulse of friction without a limit

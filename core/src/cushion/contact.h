@@ -42,8 +42,8 @@ typedef struct carom_impulse {
   double P, f_x, f_t, F_x, F_y; /* over the mass, m/s */
 } carom_impulse;
 
-/* R times the change of w by an impulse along the surface, over that of v: m R^2 / I of a solid
- * ball. A macro, since the copy with derivatives would differentiate a variable. */
+/* R times the change of w by an impulse along the surface, over the change of v: m R^2 / I for a
+ * solid ball. A macro, since the copy with derivatives would differentiate a variable. */
 #define CAROM_SPIN_PER_IMPULSE 2.5
 /* m: the distance that pooltool leaves between a ball and a nose that touch. */
 #define CAROM_POOLTOOL_GAP 1e-6

@@ -1,4 +1,4 @@
-/* The public entry points: check, go to the frame of the cushion, solve, come back. */
+/* The public entry points: check, go to the frame of the cushion, solve, return. */
 #include "cushion/models.h"
 #include "platform/ranges.h"
 #include "platform/threads.h"
@@ -43,7 +43,7 @@ void carom_lose_roll(const carom_cushion_options *opt, double radius,
   const double share = carom_absent(opt->roll_loss_log)
                            ? opt->roll_loss
                            : opt->roll_loss + opt->roll_loss_log * log_v;
-  /* a share of 0 has derivatives by the numbers that make it */
+  /* a fraction of 0 has derivatives by the numbers that make it */
   const double pull = carom_limited(opt->roll_loss, share) * v_t;
   const double loss = share == 0.0 && v_t * roll > 0.0 ? pull : carom_minmod(pull, roll);
   for (int axis = 0; axis < 2; axis++)
@@ -135,7 +135,7 @@ carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n,
   const size_t first_bad = carom_in_threads(solve_rows, &work, n, opt->threads, least_part(opt));
   if (first_bad == n)
     return CAROM_OK;
-  /* Only its index came back through the threads; doing the row again tells its status. */
+  /* The threads only returned its index; resolving the row again returns its status. */
   carom_motion unused;
   return carom_cushion_solve(&in[first_bad], opt, &unused);
 }

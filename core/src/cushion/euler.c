@@ -2,12 +2,12 @@
  * and with the exact limit.
  *
  * METHOD. A step is a normal impulse dP at the nose with the friction that the slips before it
- * give. Compression takes steps of M v_y / N until v_y would fall to 0; the last one is replaced
- * by up to eight of dP/2, dP/4, ..., each taken only if v_y stays positive. Restitution takes
- * steps until the work sum |v_y| cos(theta) dP reaches e^2 of that of compression; the last step
- * is as long as its work should be. The work of a step is taken with the v_y after it.
+ * give. Compression takes steps of M v_y / N until v_y would fall to 0; the last one is replaced by
+ * up to eight of dP/2, dP/4, ..., each taken only if v_y stays positive. Restitution takes steps
+ * until the work sum |v_y| cos(theta) dP reaches e^2 of the work of compression; the last step is
+ * as long as its work should be. The work of a step is taken with the v_y after it.
  *
- * The steps of restitution are e M v_y / N. pooltool takes the number of joules to give back,
+ * The steps of restitution are e M v_y / N. pooltool takes the number of joules to return,
  * over N, for newton seconds, and so does its convention here. No step is below `least`. As
  * there, a phase of more than 10 N steps is given up.
  *
@@ -18,8 +18,8 @@
 
 enum { HALVINGS = 8, MOST_TURNS = 10 };
 
-/* A direction: the slip over its size. Without one there is no friction; but with pooltool it is
- * that of x. */
+/* A direction: the slip over its size. Without a slip there is no friction; but with pooltool its
+ * direction is x. */
 static void slip_direction(double x, double y, bool pooltool, double *to_x, double *to_y) {
   const double size = sqrt(x * x + y * y);
   *to_x = pooltool ? 1 : 0;

@@ -1,4 +1,4 @@
-/* The models of an impact on a cushion: each stands here once. README.md in this folder says how to
+/* The models of an impact on a cushion: each is here once. README.md in this folder explains how to
  * add one; schema/numbers.h has their numbers. */
 #ifndef CAROM_SRC_CUSHION_LIST_H
 #define CAROM_SRC_CUSHION_LIST_H
@@ -16,11 +16,11 @@
  * start:  restitution, friction and height of the nose (m) that single impacts on the table of
  *         CAROM_GAME_BILLIARD tell by this model, with which a fit of another table begins
  *         (docs/reference/constants.md); or CAROM_NO_START.
- * sources: the entries of shot/cite.c that it stands on, schema/sources.h.
+ * sources: the entries of shot/cite.c that it is on, schema/sources.h.
  * text:   what help and pages say of it.
  *
  * In flight there is no cloth. Then Mathavan's equations have a constant direction of slip, as
- * Han's do, so carom_han_friction() is their exact limit. It stands for the smooth law too, which
+ * Han's do, so carom_han_friction() is their exact limit. It is also used for the smooth law, which
  * was not measured in flight. */
 #define CAROM_CUSHION_MODELS(X)                                                                \
   X(MATHAVAN, "mathavan", carom_mathavan(c, opt->plain), carom_han_friction(c, v_n, slip), 16, \

@@ -58,8 +58,8 @@ void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt);
 carom_status carom_mirror(carom_contact *contact);
 
 /* Takes roll_loss, at 1 m/s across a cushion, of the speed v_t along it, before the impact, from
- * the roll along it, if the options have such a loss. Along t = (n_y, -n_x) a ball rolls at
- * R w . n. The roll does not change sign, so the energy falls. log_v: that of the contact. */
+ * the roll along it, if the options have such a loss. Along t = (n_y, -n_x) a ball rolls at R w .
+ * n. The roll does not change sign, so the energy falls. log_v: of the contact. */
 void carom_lose_roll(const carom_cushion_options *opt, double radius,
                      const carom_cushion_frame *frame, double log_v, const double v[3],
                      double w[3]);

@@ -21,7 +21,7 @@
  *   in restitution                rho <= mu [(1 + e) beta - eta^2/e]
  *   never                         otherwise
  *
- * pooltool asks for "never" first, by the third limit alone. Below e = 1 / ratio that lies under
+ * pooltool tests for "never" first, by the third limit alone. Below e = 1 / ratio that is under
  * the second, and balls that stick in compression are then taken to slip to the end, which can
  * reverse the slip beyond its size and add energy. Its convention copies that.
  *
@@ -37,7 +37,7 @@
 
 static const double BETA = 3.5, HALF_PI = 1.57079632679489661923;
 static const double ROOT_WIDTH = 1e-10;
-/* how pooltool tells that rho is at a limit */
+/* how pooltool decides that rho is at a limit */
 static const double LIMIT_ABSOLUTE = 1e-8, LIMIT_RELATIVE = 1e-5;
 enum { MOST_TRIALS = 60, MOST_HALVINGS = 20 };
 
@@ -135,7 +135,7 @@ static double slip_after(double rho, double mu, double e, double ratio, bool poo
   return ratio * impact.U * sine + impact.V * cosine + mu * BETA * e * (1 + cosine_phase);
 }
 
-/* The share of the slip that friction takes, over the mass. */
+/* The fraction of the slip that friction takes, over the mass. */
 static double friction_share(const carom_contact *contact, double v_n, double slip,
                              const carom_cushion_options *opt) {
   const bool pooltool = opt->convention == CAROM_CONVENTION_POOLTOOL;

@@ -30,7 +30,7 @@ static void put_point(const followed *subject, const carom_contact *contact, dou
 
 static carom_status trace_exact(const followed *subject, int plain, size_t count,
                                 carom_cushion_point *points) {
-  /* first to the end, for the impulse of the whole impact; then to each sample */
+  /* first to the end, for the impulse of the complete impact; then to each sample */
   carom_trajectory path;
   carom_mathavan_begin(&subject->start, TOLERANCE, plain, &path);
   carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);

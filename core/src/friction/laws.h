@@ -1,4 +1,4 @@
-/* Friction between two balls by a law of their slip: each law stands here once, in one row. It is
+/* Friction between two balls by a law of their slip: each law is here once, in one row. It is
  * called for two balls, for spheres in space and for contacts that last.
  *
  * X(NAME, name, of, numbers, at, ahead, sources, text)

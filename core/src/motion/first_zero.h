@@ -4,9 +4,9 @@
  *
  *     g(t + s) >= g + g' s + m s^2     for t + s <= T
  *
- * so the first zero of the parabola, s = 2 g / (-g' + sqrt(g'^2 - 4 m g)), is not behind that of
- * g, and where the parabola has no zero, g has none. As t rises, [t, T] and with it the bound
- * tighten; after some steps that were short the bound is taken on a short piece ahead only.
+ * so the first zero of the parabola, s = 2 g / (-g' + sqrt(g'^2 - 4 m g)), is not behind that of g,
+ * and where the parabola has no zero, g has none. As t rises, [t, T] and with it the bound tighten;
+ * after some short steps the bound is only used for a short piece ahead.
  *
  *     gap
  *      |\
@@ -24,7 +24,7 @@
 
 #include <math.h>
 
-/* The root of the discriminant is the slope but for this share of its square: then their
+/* The root of the discriminant is the slope but for this fraction of its square: then their
  * difference has lost half of its digits. */
 #define CAROM_ROOT_IS_SLOPE 1e-8
 
@@ -92,7 +92,7 @@ carom_first_zero(carom_gap *gap, carom_gap_bound *bound, const void *context, do
       ahead = carom_lesser(horizon, time + AHEAD * step);
   }
 #undef AHEAD
-  return time; /* not reached in practice: g has come as near to 0 as rounding lets it */
+  return time; /* not reached in practice: g is as near to 0 as rounding allows */
 }
 
 #endif

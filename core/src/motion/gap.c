@@ -18,7 +18,7 @@
  *
  *     gap     ____
  *      |    .'    `.         Things that touch and part: `turn` is where the gap is greatest. The
- *      |  .'        `.       contact is where it has come back to 0, and has fallen by CAROM_SLACK
+ *      |  .'        `.       contact is where it has returned to 0, and has fallen by CAROM_SLACK
  *      | /            \      at least.
  *    --+/------|-------\---- time
  *      0      turn   contact
@@ -29,7 +29,7 @@
 
 #include <math.h>
 
-/* A gap below this share of reach^2 is at its zero, but for one last step: first_zero.h. */
+/* A gap below this fraction of reach^2 is at its zero, but for one last step: first_zero.h. */
 static const double SMALL = 1e-12;
 
 /* c0 + c1 t + ... + c4 t^4 */
@@ -122,8 +122,8 @@ static void add_height(const carom_separation *separation, quartic *gap) {
   gap->c[4] += half_acceleration * half_acceleration;
 }
 
-/* The first contact of things whose squared distance is gap + reach^2. The gap of the squares is
- * 2 reach times that of the lengths, to first order, and so is its slope. */
+/* The first contact of things whose squared distance is gap + reach^2. The gap of the squares is 2
+ * reach times the gap of the lengths, to first order, and so is its slope. */
 static inline double first_contact(quartic gap, double reach, double horizon) {
   const double small = SMALL * reach * reach;
   if (gap.c[0] > 2.0 * reach * CAROM_SLACK)
@@ -160,7 +160,7 @@ double carom_first_crossing(const carom_separation *separation, double reach, do
   if (gap.c[0] == 0.0)
     return 0.0;
 
-  /* from inside: the gap with the other sign comes to 0 from above */
+  /* from inside: the gap with the other sign reaches 0 from above */
   for (int power = 0; power < 5; power++)
     gap.c[power] = -gap.c[power];
   return zero_from_left(&gap, 0.0, horizon, small);

@@ -18,8 +18,8 @@
 /* A ball that is deeper than this, m, in a rail or a nose is not in contact with it. */
 #define CAROM_BEHIND 1e-6
 
-/* d(t) = d0 + d1 t + d2 t^2: from one centre to the other. The third coordinate is read only
- * where a function says so. */
+/* d(t) = d0 + d1 t + d2 t^2: from one centre to the other. The third coordinate is only read by
+ * functions that say so. */
 typedef struct carom_separation {
   double d0[3], d1[3], d2[3];
 } carom_separation;

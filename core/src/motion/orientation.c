@@ -14,9 +14,9 @@
  * applications", Physics Reports 470 (2009) 151-238, section 5. Only correctly rounded
  * operations and the library's own sines: the bits are equal on all machines.
  *
- * The parts are those of the whole interval, wherever a time is asked for, and the turn until then
- * is that of the parts before and of the begun one. So its bits do not depend on times that were
- * asked for before, and the next time goes on from the last whole part.
+ * The parts always divide the whole interval, wherever a time is requested, and the turn until then
+ * consists of the parts before it and of the one that has begun. So its bits do not depend on times
+ * that were requested before, and the next time continues from the last whole part.
  */
 #include "motion/orientation.h"
 #include "platform/elementary.h"
@@ -31,7 +31,8 @@ static const double most_turn = 0.5, most_bend = 0.02;
 /* rad, of an interval: a damaged state may have any spin. */
 static const double most_angle = 5e6;
 
-/* Two spins have one axis if their product is below this share of the square of the larger one. */
+/* Two spins have one axis if their product is below this fraction of the square of the larger
+ * one. */
 static const double one_direction = 1e-12;
 
 /* Turns the quaternion q (w, x, y, z) further, about the axes of the table, by a rotation vector:

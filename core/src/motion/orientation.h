@@ -17,8 +17,8 @@ typedef struct carom_turning {
 void carom_turning_begin(carom_turning *turning, const carom_path *path,
                          const carom_ball_rates *rates);
 
-/* Goes on along the path, of one phase or several pieces of one, to the last whole part before a
- * time; false where that takes more than *left steps, which the caller has fewer of then. */
+/* Continues along the path, of one phase or several pieces of one, to the last whole part before a
+ * time; false if that takes more than *left steps. *left is reduced by the steps taken. */
 bool carom_turning_go_to(carom_turning *turning, carom_path *path, const carom_ball_rates *rates,
                          double time, double *left);
 

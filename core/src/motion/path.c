@@ -18,7 +18,7 @@
 /* Of the cube of the speed that a pair with drag takes. T is longer than the estimate by the
  * slowing at the start of the pair, so the speed has to be smaller. */
 #define CUBE_WITH_DRAG 0.6
-/* Drag counts if it slows a ball by more than this share of its rolling friction. */
+/* Drag counts if it slows a ball by more than this fraction of its rolling friction. */
 #define NEGLIGIBLE_DRAG 1e-16
 
 /* Of pairs on a slope. core/tests/physics/slope.c measures the errors of positions that they leave.
@@ -28,8 +28,9 @@
 #define DRAG_IN_FRICTION 0.35
 /* The error of a last pair by turning, over c A / (A - c) (q / A)^2. */
 #define LAST_PAIR_TURN 0.035
-/* Other pairs take the part h of the speed, by J T^3 / 324 as with drag, with this margin. The part
- * of J that turns grows like 1 / (1 - h), so h becomes h / (1 + 0.4 h), and is at most one half. */
+/* Other pairs take the part h of the speed, by J T^3 / 324 as with drag, with this margin. The
+ * component of J that turns grows like 1 / (1 - h), so h becomes h / (1 + 0.4 h), and is at most
+ * one half. */
 #define CUBE_ON_SLOPE 0.9
 #define TURN_IN_PART 0.4
 #define LONGEST_PART 0.5
@@ -88,8 +89,8 @@ static inline __attribute__((always_inline)) double atanh_series(double square) 
                                    square * (1.0 / 7.0 + square * (1.0 / 9.0 + square / 11.0))));
 }
 
-/* A pair of a ball that rolls against drag. DRAG in path.h has the equations. Apart and cold, so
- * that balls without drag do not pay for it: inlined, it costs their shots 1 to 2 % (carom-lab
+/* A pair of a ball that rolls against drag. DRAG in path.h has the equations. Separate and cold, so
+ * that balls without drag are not slower: inlined, it slows their shots by 1 to 2 % (carom-lab
  * bench --shots). */
 __attribute__((noinline, cold)) static void
 begin_pair(carom_path *path, const carom_ball_rates *rates, double speed) {
@@ -144,8 +145,8 @@ static void turn_down(const motion_law *law, const double u[2], double rate[2]) 
 
 /* From u of this size to 0: the time, and the way W of SLOPE. */
 static double run_out(const motion_law *law, const double u[2], double speed, double way[2]) {
-  /* with drag: its exact time and way over those of the larger friction on a level cloth, as series
-   * in y, which is below 0.04. What they leave out is below 1e-10 of the sums */
+  /* with drag: its exact time and path length, relative to the larger friction on a level cloth, as
+   * series in y, which is below 0.04. What they leave out is below 1e-10 of the sums */
   const double y = law->drag * speed * speed / law->friction;
   const double friction = law->friction * (1.0 + DRAG_IN_FRICTION * y);
   double power = 1.0 + DRAG_IN_FRICTION * y, longer = 0.0, farther = 0.0;
@@ -183,7 +184,7 @@ static void run_on(const motion_law *law, double duration, double u[2], double w
       turn_down(law, ahead, rate[stage]);
     }
 
-    /* the way is the integral of u, so it comes before u changes */
+    /* the path is the integral of u, so it is computed before u changes */
     for (int axis = 0; axis < 2; axis++) {
       const double middle = rate[1][axis] + rate[2][axis];
       way[axis] += step * (u[axis] + step / 6.0 * (rate[0][axis] + middle));
@@ -235,7 +236,7 @@ begin_on_slope(carom_path *path, const carom_ball_rates *rates, double u_x, doub
     run_on(&law, duration, u, way);
   }
 
-  /* the accelerations of both pieces: those of u by a1 and a2 of DRAG, as vectors, then of v */
+  /* the accelerations of both pieces: of u by a1 and a2 of DRAG, as vectors, then of v */
   for (int axis = 0; axis < 2; axis++) {
     const double mean = (u[axis] - start[axis]) / duration;
     const double first = 4.0 * (way[axis] - start[axis] * duration) / (duration * duration) - mean;
@@ -375,8 +376,8 @@ void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double
     state->v[axis] = start->v[axis] + 2.0 * tau * path->a[axis];
   }
 
-  /* w along the cloth: that of rolling; or turned by friction, whose part of the acceleration is
-   * what the slope leaves */
+  /* w along the cloth: of rolling; or turned by friction, whose acceleration is what the slope
+   * leaves */
   if (start->label == CAROM_BALL_ROLLING) {
     state->w[0] = -state->v[1] / rates->radius;
     state->w[1] = state->v[0] / rates->radius;
@@ -391,7 +392,7 @@ void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double
   }
 }
 
-/* Comes to rest, or turns on the spot. */
+/* Stops, or turns on the spot. */
 static void stop(carom_ball_state *state) {
   state->v[0] = state->v[1] = state->v[2] = state->w[0] = state->w[1] = 0.0;
   state->label = state->w[2] != 0.0 ? CAROM_BALL_SPINNING : CAROM_BALL_STATIONARY;

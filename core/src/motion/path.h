@@ -60,7 +60,7 @@
  *       0   T/2      T
  *
  * Errors do not accumulate from pair to pair. Within one, where J is v'' (J = 2 k v (A + k v^2),
- * largest at the start, and nearly constant), the place differs from the exact one by J T^3 /
+ * largest at the start, and nearly constant), the position differs from the exact one by J T^3 /
  * 324 at most, at T/3 and 2T/3, and by nothing at T/2. The speed v0 - v1 that a pair takes is
  * chosen for an error of 1e-5 m. Where that is v0 the pair ends at rest.
  *
@@ -72,19 +72,19 @@
  *   airborne   v' = G - g z
  *
  * So u, and v of a ball that rolls, obey u' = -(A + k u^2) u/|u| + c: the direction turns downhill.
- * Without drag u comes to 0, and has gone W until then, where with q = |u0| and h = c . e0
+ * Without drag u reaches 0, and has covered W until then, where with q = |u0| and h = c . e0
  *
  *   T = (A q + c . u0) / (A^2 - c^2),
  *   W = q^2 (e0 (2A + h) / (4A^2 - c^2) + c (1 + 3h (2A + h) / (4A^2 - c^2)) / (4 (A^2 - c^2))):
  *
  * by the rule of products |u| (A + h) falls at A^2 - c^2, and |u|^2 times a polynomial of e at the
- * components of u. A slope below mu_r and mu_s leaves c < 5/7 A, so every ball comes to rest.
+ * components of u. A slope below mu_r and mu_s leaves c < 5/7 A, so every ball stops.
  *
- * A pair ends in the state where u is 0, if the place within it is good to 1e-5 m. Otherwise it
+ * A pair ends in the state where u is 0, if the position within it is good to 1e-5 m. Otherwise it
  * ends after a part h of its speed, in the state of RUNGE_STEPS steps of Runge's and Kutta's
- * method, which is good to 1e-6 m. Its two accelerations are those of a pair with drag, as vectors.
+ * method, which is good to 1e-6 m. Its two accelerations are as for a pair with drag, as vectors.
  * core/tests/physics/slope.c measures both errors. With drag the last pair has A (1 + 0.35 y), y =
- * k q^2/A, and times that make it exact for c = 0; it comes when c k q^4/A^3 is below 1e-5 m. */
+ * k q^2/A, and times that make it exact for c = 0; it is used when c k q^4/A^3 is below 1e-5 m. */
 #ifndef CAROM_SRC_MOTION_PATH_H
 #define CAROM_SRC_MOTION_PATH_H
 
@@ -105,11 +105,11 @@ typedef struct carom_ball_rates {
   double downhill[2];         /* G, m/s^2: 0 on a level cloth */
 } carom_ball_rates;
 
-/* Those of a level cloth; and the same of a slope. */
+/* The path on a level cloth; and on a slope. */
 carom_ball_rates carom_rates_of(const carom_ball_kind *kind);
 carom_ball_rates carom_rates_on_slope(const carom_ball_kind *kind, double slope_x, double slope_y);
 
-/* Whether the cloth slopes, or derivatives by its slope are asked for. */
+/* Whether the cloth slopes, or derivatives by its slope are requested. */
 static inline bool carom_is_sloped(const carom_ball_rates *rates) {
   return !carom_absent(rates->downhill[0]) || !carom_absent(rates->downhill[1]);
 }
@@ -120,7 +120,7 @@ typedef struct carom_path {
                             for an airborne ball */
   double e[2];       /* on a level cloth, the direction of the friction: of the slip, or of v; in
                             a pair, a[0] and a[1] of its second piece */
-  carom_ball_state from; /* at the start; its label is that of the phase */
+  carom_ball_state from; /* at the start; its label is the phase */
   bool goes_on;          /* at the end another piece of the same phase begins: carom_path_go_on() */
   bool ends_pair;        /* the piece is the second of its pair */
   bool last_pair;        /* which ends at rest */
@@ -138,20 +138,20 @@ static inline bool carom_is_out(int64_t label) {
 }
 
 /* The time after which a thing that is `height` above a plane and rises at v_z falls onto it;
- * infinite where it is below and does not come up to it. */
+ * infinite if it is below and does not reach it. */
 double carom_fall_time(double height, double v_z, double gravity);
 
-/* Starts a path at a time from path->from, whose label says the phase. */
+/* Starts a path at a time from path->from, whose label is the phase. */
 void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double start);
 
 /* The second piece of a pair, from the state in path->from. */
 void carom_path_second(carom_path *path, double start);
-/* At the end of a path that goes on: the next piece. */
+/* At the end of a path that continues: the next piece. */
 void carom_path_go_on(carom_path *path, const carom_ball_rates *rates);
 
-/* Goes on to the piece that has a time. False where that takes more pieces than any shot: 1000 s of
- * a ball at 10,000 m/s take 16,000, but a state that was damaged may have a speed at which pieces
- * have no length. */
+/* Continues to the piece that contains a time. False where that takes more pieces than any shot:
+ * 1000 s of a ball at 10,000 m/s take 16,000, but a state that was damaged may have a speed at
+ * which pieces have no length. */
 bool carom_path_go_to(carom_path *path, const carom_ball_rates *rates, double time);
 
 /* The state at a time within the path; *state may be path->from. */
@@ -163,7 +163,7 @@ void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double
 int64_t carom_label_of(carom_ball_state *state, double radius);
 
 /* The same where the ball may have left the cloth: airborne with v_z other than 0 or above the
- * cloth. A ball on the cloth that moves down or up by rounding, less than 1e-9 m/s, lies on it. */
+ * cloth. A ball on the cloth that moves down or up by rounding, less than 1e-9 m/s, is on it. */
 int64_t carom_label_in_space(carom_ball_state *state, double radius);
 
 static inline bool carom_flies(const carom_ball_state *state) {
@@ -181,13 +181,13 @@ static inline bool carom_flies_in_layout(const carom_ball_state *state, double r
 /* The phase of a ball of a layout. One that is out of play stays so. */
 int64_t carom_label_of_layout(carom_ball_state *state, double radius);
 
-/* The state of an airborne ball as it reaches the cloth, at a time that is that of the path's end,
- * or a trace later, where another event was the first of several at one instant. */
+/* The state of an airborne ball as it reaches the cloth, at the end of the path, or slightly later,
+ * where another event was the first of several at one instant. */
 void carom_path_land(const carom_path *path, const carom_ball_rates *rates, double time,
                      carom_ball_state *state);
 
-/* The phase that follows the path's own at its end, and the state there; a velocity that has
- * come to its end is exactly 0. *state may be path->from. */
+/* The phase that follows the path's own at its end, and the state there; a velocity that has ended
+ * is exactly 0. *state may be path->from. */
 void carom_path_end(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state);
 
 #endif

@@ -16,9 +16,9 @@
  *        |     o |     o the centre    ______________________________---
  *         \_____/
  *
- * d is the horizontal direction of phi, l the horizontal to its left. In space this is the strike
- * alone, which drives the ball into the slate; shot/raised.c has what the slate does meanwhile. In
- * flat play the part of the strike that goes down is lost. pooltool turns what is left of it: v = V
+ * d is the horizontal direction of phi, l the horizontal to its left. In space this is only the
+ * strike, which drives the ball into the slate; shot/raised.c has what the slate does meanwhile. In
+ * flat play the downward component of the strike is lost. pooltool turns what is left of it: v = V
  * cos(theta) in the direction phi + alpha. With theta = 0 all three are the same, to the last bit.
  * Sources: D. Alciatore, TP A-30 and TP A-31; pooltool's. */
 #include "motion/strike.h"

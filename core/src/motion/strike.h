@@ -8,12 +8,12 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* The restitution of the tip. Where it is 0, which stands for 1, its derivative is that of 1. */
+/* The restitution of the tip. If it is 0, which means 1, its derivative is the derivative at 1. */
 static inline double carom_tip_of(const carom_cue *cue) {
   return cue->tip_restitution == 0.0 ? 1.0 + cue->tip_restitution : cue->tip_restitution;
 }
 
-/* How long the tip touches a ball that is alone and free, s. */
+/* How long the tip touches a single, free ball, s. */
 static inline double carom_tip_time(const carom_cue *cue) {
   return cue->tip_time > 0.0 ? cue->tip_time : CAROM_TIP_TIME;
 }
@@ -42,8 +42,8 @@ static inline bool carom_is_raised(const carom_cue *cue) {
   return cue->theta >= CAROM_LEAST_ELEVATION;
 }
 
-/* Where the part of the strike goes that goes down: the slate takes it in space, on the cloth it is
- * lost, or squirt turns what is left of the strike, as pooltool does. */
+/* What happens to the downward component of the strike: in space the slate receives it; on the
+ * cloth it is lost, or squirt turns the rest of the strike, as in pooltool. */
 typedef enum carom_strike_kind {
   CAROM_STRIKE_IN_SPACE,
   CAROM_STRIKE_ON_CLOTH,

@@ -3,8 +3,8 @@
  * its own code, so it holds without our CMake files too; the test platforms/flags compiles them
  * so.
  *
- * Fused multiply-adds are switched off here. Flags by which compilers change results are
- * refused: here by their macros; in isa.c, those of which clang has no macro. No source can see
+ * Fused multiply-adds are switched off here. Flags by which compilers change results are rejected:
+ * here by their macros; in isa.c, the flags for which clang has no macro. No source can see
  * -ffp-contract=fast in clang's flags, which overrides the pragma: our CMake files override that
  * flag, others must not give it. Nor can a source see that a program is linked with -ffast-math:
  * gcc then has it flush subnormal numbers to zero. */

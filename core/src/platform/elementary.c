@@ -2,11 +2,11 @@
  * reduction is exact or nearly so, then Taylor's polynomial on a range where its remainder is
  * below rounding:
  *
- *     exp(x) = 2^k exp(r)                       k the whole number nearest to x / log 2, |r| <=
+ *     exp(x) = 2^k exp(r)                       k the integer nearest to x / log 2, |r| <=
  *                                               log(2)/2
  *     log2(2^k m) = k + log2(c) + log2(1 + r)
  *     c the middle of the 64th part of 1 to 2 that has m: r = (m - c)/c, |r| <= 1/129
- *     2^x = 2^(k/16) 2^r                        k the whole number nearest to 16 x, |r| <= 1/32
+ *     2^x = 2^(k/16) 2^r                        k the integer nearest to 16 x, |r| <= 1/32
  *     sin and cos of n pi/2 + r                 n whole, |r| <= pi/4
  *     atan(x) = atan(k/8) + atan(t)
  *     for 0 <= x <= 1: t = (x - k/8) / (1 + x k/8), |t| <= 1/16
@@ -182,7 +182,7 @@ static void sincos_turned(double turns, double x, double *sine, double *cosine) 
   s *= x;
   c = 1.0 + c * x2;
   const double quarter = turns - 4.0 * floor(turns / 4.0);
-  /* a half turn changes both signs, and a further quarter changes places */
+  /* a half turn changes both signs, and a further quarter exchanges the two */
   const double sign = quarter >= 2.0 ? -1.0 : 1.0;
   const bool odd = quarter == 1.0 || quarter == 3.0;
   *sine = sign * (odd ? c : s);

@@ -1,13 +1,13 @@
 /* Run-time choice of the instruction set: the highest that the processor has, or a lower one
- * where that is asked for.
+ * where that is requested.
  *
  * The one piece of global state of the library is here: the set in force, an atomic that the
  * first use fills. Asking for a lower set is for tests, comparisons and bug reports; the results
  * of the exact solver agree within its contract on all of them.
  */
 #if defined(__linux__) && !defined(_GNU_SOURCE)
-#define _GNU_SOURCE /* secure_getenv: the environment says nothing to programs with more rights
-                       than their user */
+#define _GNU_SOURCE /* secure_getenv: the environment is ignored by programs with more rights than
+                       their user */
 #endif
 #include "platform/isa.h"
 

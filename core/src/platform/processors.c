@@ -8,8 +8,8 @@
  *                 ROOT/CONTROLLERS/PATH/cpu.cfs_quota_us, -1 for none, and cpu.cfs_period_us
  *
  * A group's limit holds for all groups below it, so the smallest on the way up counts. Inside a
- * container the path may be that of the host, which is not mounted; the directory mounted at ROOT
- * then is the container's own group, and the way up ends there. Source: the Linux kernel's
+ * container the path may be the path on the host, which is not mounted; the directory mounted at
+ * ROOT then is the container's own group, and the way up ends there. Source: the Linux kernel's
  * documentation, admin-guide/cgroup-v2.rst and scheduler/sched-bwc.rst.
  */
 #if defined(__linux__)
@@ -44,7 +44,7 @@ static bool read_text(const char *path, char text[TEXT]) {
   return true;
 }
 
-/* Processors that a quota comes to, rounded up: half a processor is worth one thread. */
+/* The number of processors of a quota, rounded up: half a processor is one thread. */
 static int processors_of(long quota, long period) {
   if (quota <= 0 || period <= 0)
     return INT_MAX;
@@ -88,7 +88,7 @@ static int least_on_the_way_up(const char *mount, const char *path, bool second_
   return limit;
 }
 
-/* Whether `word` is among names with commas between them. */
+/* Whether `word` is in a list of names with commas between them. */
 static bool is_among(const char *names, const char *word) {
   const size_t size = strlen(word);
   for (const char *name = names; name != NULL; name = strchr(name, ',')) {

@@ -4,12 +4,12 @@
 
 #include "platform/arithmetic.h"
 
-/* 1 or more: those of the calling thread's affinity, but no more than its control group's limit
- * on processor time. */
+/* 1 or more: the processors of the calling thread's affinity, but no more than its control group's
+ * limit on processor time. */
 int carom_processors(void);
 
-/* The limit alone, rounded up to whole processors, INT_MAX where there is none. `self` lists the
- * groups of the process (/proc/self/cgroup), `root` is where they are mounted (/sys/fs/cgroup). */
+/* Only the limit, rounded up to whole processors, INT_MAX if there is none. `self` lists the groups
+ * of the process (/proc/self/cgroup), `root` is where they are mounted (/sys/fs/cgroup). */
 int carom_group_limit(const char *self, const char *root);
 
 #endif

@@ -17,13 +17,13 @@ static inline double carom_greater(double a, double b) {
   return a > b ? a : b;
 }
 
-/* A number of the caller's, or the usual one that 0 stands for. It has the derivatives of the
+/* A number of the caller's, or the usual one that 0 represents. It has the derivatives of the
  * number in both cases. */
 static inline double carom_or_usual(double value, double usual) {
   return value > 0.0 ? value : usual + value;
 }
 
-/* x - x is 0 unless x is infinite or no number. C++ has isfinite() in std alone. */
+/* x - x is 0 unless x is infinite or no number. C++ has isfinite() only in std. */
 static inline bool carom_is_finite(const double x[3]) {
   return (x[0] - x[0]) + (x[1] - x[1]) + (x[2] - x[2]) == 0.0;
 }

@@ -2,13 +2,13 @@
  * is done with one. Rows that cost more than others, and a core that other programs use as well,
  * keep no thread waiting for long.
  *
- * Which thread works on a row makes no difference to it, so results are the same for any number
- * of threads. The threads of a crew are started for a call of the library and joined before it
- * returns; between two jobs they wait without sleep for some ms, since to wake one takes as long
- * as ten shots. The calling thread works, too, and does everything if none can be started, which
- * is so where the system has none. They block every signal, so that no handler of the process runs
- * on them. A job too small to be worth a thread is not cut. With CAROM_WITHOUT_THREADS nothing is
- * cut, and no library of threads is needed. */
+ * Which thread works on a row makes no difference to it, so results are the same for any number of
+ * threads. The threads of a crew are started for a call of the library and joined before it
+ * returns; between two jobs they wait without sleep for some ms, since to wake one takes as long as
+ * ten shots. The calling thread works, too, and does everything if no other can be started, as on
+ * systems without threads. They block every signal, so that no handler of the process runs on them.
+ * A job too small to be worth a thread is not cut. With CAROM_WITHOUT_THREADS nothing is cut, and
+ * no library of threads is needed. */
 #if !defined(_WIN32) && !defined(_POSIX_C_SOURCE)
 #define _POSIX_C_SOURCE 200809L /* pthread_sigmask */
 #endif
@@ -59,7 +59,7 @@ enum {
 };
 
 struct carom_crew {
-  size_t threads;               /* beside the calling one */
+  size_t threads;               /* next to the calling one */
   atomic_size_t begun, working; /* jobs so far; threads that are not done with the last one */
   atomic_bool over;             /* there are no more */
   /* the last one */
@@ -70,7 +70,7 @@ struct carom_crew {
   atomic_size_t first_error; /* the first row in error so far, or n */
 };
 
-/* Where a part begins; that of one beyond the last is n. */
+/* Where a part begins; beyond the last part, n. */
 static size_t start_of(const carom_crew *crew, size_t number) {
   const size_t units = (crew->n + crew->unit - 1) / crew->unit,
                start = units * number / crew->count * crew->unit;
@@ -164,7 +164,8 @@ static void join(thread_handle thread) {
 #endif
 
 void carom_with_crew(carom_crew_caller *call, void *context, int threads, size_t parts) {
-  /* How many are useful is asked first: counting the processors takes some system calls. */
+  /* The number of useful threads is computed first, because counting the processors takes some
+   * system calls. */
   if (parts > 1 && threads == CAROM_ALL_THREADS)
     threads = carom_processors();
   size_t most = 1;

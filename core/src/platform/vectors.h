@@ -1,5 +1,5 @@
 /* Products of vectors: in the plane of the cloth, of which two numbers count, and in space. Sums
- * begin with x, so each has the same bits wherever it stands. */
+ * begin with x, so each has the same bits in every context. */
 #ifndef CAROM_SRC_PLATFORM_VECTORS_H
 #define CAROM_SRC_PLATFORM_VECTORS_H
 
@@ -20,7 +20,7 @@ static inline double carom_space_size(const double a[3]) {
   return sqrt(carom_space_dot(a, a));
 }
 
-/* out = a x b, another place than both. */
+/* out = a x b, another position than both. */
 static inline void carom_cross(const double a[3], const double b[3], double out[3]) {
   out[0] = a[1] * b[2] - a[2] * b[1];
   out[1] = a[2] * b[0] - a[0] * b[2];

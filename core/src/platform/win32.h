@@ -1,5 +1,5 @@
-/* What the library calls of Windows. <windows.h> is not included: it makes macros of words such as
- * near, far, TEXT and DOUBLE, which would reach every source behind it in the build of one file. */
+/* What the library calls of Windows. <windows.h> is not included: it defines macros such as near,
+ * far, TEXT and DOUBLE, which would affect every later source in the build of one file. */
 #ifndef CAROM_SRC_PLATFORM_WIN32_H
 #define CAROM_SRC_PLATFORM_WIN32_H
 #ifdef _WIN32

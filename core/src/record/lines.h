@@ -1,4 +1,4 @@
-/* The lines of recordings as rows: keys, the types of their values, and their places in
+/* The lines of recordings as rows: keys, the types of their values, and their positions in
  * carom_record. record.c has the lines of shots; lines of a layer above it are rows of
  * carom_upper_lines. */
 #ifndef CAROM_SRC_RECORD_LINES_H
@@ -24,7 +24,7 @@ typedef struct carom_field {
   carom_value_type type;
   bool is_required;     /* and written whatever it is */
   int count;            /* of its values: [x, y] of 2; the most objects of a list */
-  size_t offset;        /* its place in the object, */
+  size_t offset;        /* its position in the object, */
   size_t size, counted; /* of a list: bytes of an object, offset of their number (int64_t), */
   const struct carom_field *fields; /* and its fields. Tables of fields end with a key of NULL. */
 } carom_field;
@@ -58,7 +58,7 @@ typedef struct carom_line {
   const char *key; /* NULL: there is no line of this kind */
   const carom_field *fields;
   bool is_sealed;   /* ends with the hash so far in a match */
-  bool is_of_match; /* stands in matches alone */
+  bool is_of_match; /* only in matches */
   /* What is wrong with the values of a line, and *key becomes the key at fault; NULL: nothing. */
   const char *(*find_fault)(const carom_record *record, const char **key);
 } carom_line;

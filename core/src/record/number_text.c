@@ -3,7 +3,7 @@
  *
  * A decimal number m 10^e is read exactly where m <= 2^53 and |e| <= 22: then m and 10^|e| are
  * doubles, and one product or quotient rounds once (W. D. Clinger, "How to read floating point
- * numbers accurately", PLDI 1990). Others are refused, and written in hexadecimal. */
+ * numbers accurately", PLDI 1990). Others are rejected, and written in hexadecimal. */
 #include "record/number_text.h"
 
 #include "platform/arithmetic.h"
@@ -106,7 +106,7 @@ int carom_number_write(double x, char *text) {
 
 /* ---- Reading */
 
-/* A whole number of up to 4 digits with a sign that may be missing; NULL where there is none. */
+/* An integer of up to 4 digits with a sign that may be missing; NULL where there is none. */
 static const char *read_exponent(const char *text, const char *end, int *e) {
   bool negative = false;
   int n = 0;
@@ -152,7 +152,7 @@ static bool is_written_form(bool normal, int e, uint64_t fraction) {
   return e == 1 - BIAS && fraction != 0;
 }
 
-/* What stands behind the first quote, to the second one. */
+/* What is behind the first quote, to the second one. */
 static const char *read_hexadecimal(const char *text, const char *end, double *x) {
   /* The sign, and 0x0 or 0x1. */
   const bool negative = text < end && *text == '-';
@@ -198,7 +198,7 @@ typedef struct decimal {
   bool exact;
 } decimal;
 
-/* The digits, of which at least one stands before the point, and at least one behind it. */
+/* The digits, of which at least one is before the point, and at least one behind it. */
 static const char *read_digits(const char *text, const char *end, decimal *d) {
   const uint64_t most = UINT64_C(1) << (MANTISSA + 1);
   bool behind_point = false;
@@ -241,7 +241,7 @@ static const char *read_decimal(const char *text, const char *end, decimal *d) {
 
 const char *carom_number_read(const char *position, const char *end, double *x, const char **why) {
   if (position < end && *position == '"') {
-    *why = "is no hexadecimal number such as \"0x1.8p+1\"";
+    *why = "is not a hexadecimal number such as \"0x1.8p+1\"";
     return read_hexadecimal(position + 1, end, x);
   }
 

@@ -12,7 +12,7 @@ enum { CAROM_NUMBER_TEXT = 32 };
 int carom_number_write(double x, char *text);
 
 /* Reads a number that begins at `position` and ends before `end`; returns where it stops, or NULL
- * where there is no number that can be read exactly: then *why says so. */
+ * if there is no number that can be read exactly, with the reason in *why. */
 const char *carom_number_read(const char *position, const char *end, double *x, const char **why);
 
 #endif

@@ -1,9 +1,9 @@
 /* Recordings: lines of JSON, read and written by one table of keys.
  *
  * A line is {"KIND": {"KEY": VALUE, ...}}. A field of the table below is a key, the type of its
- * value and its place in carom_record. A key that is missing has the value 0; in an object of a
+ * value and its position in carom_record. A key that is missing has the value 0; in an object of a
  * list, the value of the object before it. So a writer leaves out the fields that have the bytes of
- * that default, and a reader begins with it. Every other key is refused, and every one that comes
+ * that default, and a reader begins with it. Every other key is rejected, and every key that occurs
  * twice.
  *
  * The command has a second reader of balls and cues, command/shots/shot_file.c, because its files
@@ -152,7 +152,7 @@ static const int64_t MOST_WHOLE = 9007199254740991; /* of a double, 2^53 - 1 */
 /* Of recordings of shots, and of matches. */
 enum { FORMAT = 2, FORMAT_OF_MATCH = 3 };
 
-/* Adds a text, by words of 8 bytes. */
+/* Adds a text, in words of 8 bytes. */
 static uint64_t stir_text(uint64_t hash, const unsigned char *text) {
   for (int k = 0; k < CAROM_SEAT_NAME; k += 8) {
     uint64_t word;
@@ -162,9 +162,9 @@ static uint64_t stir_text(uint64_t hash, const unsigned char *text) {
   return hash;
 }
 
-/* Adds an object to a hash: each of its numbers that is not 0, behind its place among them, counted
- * from 1; of a list the number of its objects and these; and 0 as its end. So a key that a later
- * version adds behind the others changes no hash where it is missing. */
+/* Adds an object to a hash: each of its numbers that is not 0, behind its position among them,
+ * counted from 1; of a list the number of its objects and these; and 0 as its end. So a key that a
+ * later version adds behind the others changes no hash where it is missing. */
 static uint64_t stir_object(uint64_t hash, const carom_field *fields, const unsigned char *object) {
   uint64_t place = 0;
   for (const carom_field *f = fields; f->key != NULL; f++) {
@@ -206,7 +206,7 @@ static uint64_t stir_line(uint64_t hash, int kind, const carom_record *record) {
 }
 
 /* The hash behind a line: that of a shot covers the lines before it, so that a forged stroke is
- * told once and not by every line that follows. */
+ * reported once and not by every line that follows. */
 static uint64_t hash_behind(uint64_t hash, int kind, const carom_record *record) {
   if (is_shot(kind))
     return record->recorded.hash;
@@ -229,7 +229,7 @@ static char *put(char *tail, const char *limit, const char *text) {
   return tail;
 }
 
-/* Writes the fault of the value of a key, by its whole path; returns false. */
+/* Writes the fault of the value of a key, with its complete path; returns false. */
 static bool wrong(reader *in, const char *what) {
   carom_record *record = in->record;
   char *tail = record->fault, *limit = tail + sizeof record->fault - 1;
@@ -278,7 +278,7 @@ static bool expect(reader *in, char c, const char *what) {
 enum { KEY_TEXT = 32 };
 static bool read_key(reader *in, char key[KEY_TEXT]) {
   int n = 0;
-  if (!expect(in, '"', "must be an object: a key in quotes comes here"))
+  if (!expect(in, '"', "must be an object, with a key in quotes here"))
     return false;
   for (; in->position < in->end && *in->position != '"'; in->position++) {
     char shown = *in->position;
@@ -288,7 +288,7 @@ static bool read_key(reader *in, char key[KEY_TEXT]) {
       key[n++] = shown;
   }
   key[n] = '\0';
-  return expect(in, '"', "") && expect(in, ':', "has a key without ':' behind it");
+  return expect(in, '"', "") && expect(in, ':', "has a key without ':' after it");
 }
 
 static bool read_number(reader *in, double *x) {
@@ -415,7 +415,7 @@ static bool read_field(reader *in, const carom_field *f, unsigned char *object) 
   return f->count == 1 || expect(in, ']', "has too many numbers");
 }
 
-/* A key with its value. `seen` has a bit for each field that has come. */
+/* A key with its value. `seen` has a bit for each field that was read. */
 static bool read_entry(reader *in, const carom_field *fields, unsigned char *object,
                        uint64_t *seen) {
   char key[KEY_TEXT];
@@ -425,10 +425,10 @@ static bool read_entry(reader *in, const carom_field *fields, unsigned char *obj
   while (fields[k].key != NULL && strcmp(fields[k].key, key) != 0)
     k++;
 
-  /* keys are known, and come once */
+  /* keys are known, and occur once */
   in->key = key;
   if (fields[k].key == NULL)
-    return wrong(in, "is no key of the format");
+    return wrong(in, "is not a key of the format");
   CAROM_PROMISE(k < 64);
   if (*seen >> k & 1)
     return wrong(in, "comes twice");
@@ -485,11 +485,11 @@ static const char *out_of_place(const carom_record *record, int kind) {
   const bool needs_layout = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_PLACE;
   const carom_line *line = line_of(kind);
   if (record->kind == CAROM_RECORD_END)
-    return "stands behind the end of the recording";
+    return "follows the end of the recording";
   if (record->kind == CAROM_RECORD_WRONG)
-    return "stands behind a line that is wrong";
+    return "follows an invalid line";
   if (record->format == 0 && kind != CAROM_RECORD_HEAD)
-    return "stands where {\"recording\": ...} must: in the first line";
+    return "is the first line, which must be {\"recording\": ...}";
   if (record->format != 0 && kind == CAROM_RECORD_HEAD)
     return "comes twice";
   if (line != NULL && line->is_of_match && record->match != 1)
@@ -497,9 +497,9 @@ static const char *out_of_place(const carom_record *record, int kind) {
   if (kind == CAROM_RECORD_EVENT && !follows_shot)
     return "must follow a shot, its continuation, or another event";
   if (needs_layout && record->count == 0)
-    return "has no balls: a line {\"balls\": ...} must come before";
+    return "has no balls: a line {\"balls\": ...} must precede it";
   if (needs_layout && record->table.rails == 0)
-    return "has no table: a line {\"table\": ...} must come before";
+    return "has no table: a line {\"table\": ...} must precede it";
   return NULL;
 }
 
@@ -558,17 +558,17 @@ static const char *find_fault(const carom_record *record, int kind, const char *
   return NULL;
 }
 
-/* Whether the seal of a line that was read is the hash so far, which the line becomes a part of. */
+/* Whether the seal of a line that was read is the hash so far, to which the line is then added. */
 static bool check_seal(reader *in, int kind, uint64_t seal) {
   const carom_record *record = in->record;
   in->key = "hash";
   if (!line_of(kind)->is_sealed)
     return true;
   if (record->match != 1)
-    return seal == 0 || wrong(in, "stands in lines of matches alone, format 3");
+    return seal == 0 || wrong(in, "is only allowed in lines of matches, format 3");
   if (seal == 0 && record->hash != 0)
     return wrong(in, "is missing");
-  return seal == record->hash || wrong(in, "is not that of the lines up to here");
+  return seal == record->hash || wrong(in, "does not match the lines up to here");
 }
 
 /* The format of the text. */
@@ -585,7 +585,7 @@ static bool check_head(reader *in) {
   return wrong(in, "must be 2 or 3: a newer carom wrote this");
 }
 
-/* A ball comes in hand, or is placed by the rules of carom_place_ball(). */
+/* A ball is taken in hand, or is placed by the rules of carom_place_ball(). */
 static bool apply_place(reader *in) {
   carom_record *record = in->record;
   int ball = -1;
@@ -609,7 +609,7 @@ static bool apply_end(reader *in, int64_t shots, uint64_t hash) {
   in->key = "shots";
   if (same_shots)
     in->key = "hash";
-  return (same_shots && same_hash) || wrong(in, "is not that of the lines above");
+  return (same_shots && same_hash) || wrong(in, "does not match the lines above");
 }
 
 /* A line that was read is applied to the game, in which `shots` and `hash` were those before. */
@@ -656,13 +656,13 @@ static int kind_of(const char *key) {
   return -1;
 }
 
-/* Whether a line of a kind may come here. */
+/* Whether a line of a kind is allowed here. */
 static bool may_come(reader *in, int kind) {
   const carom_record *record = in->record;
   const char *why = out_of_place(record, kind);
   const bool waits = kind != CAROM_RECORD_EVENT && kind != CAROM_RECORD_END;
   if (why == NULL && record->pending == CAROM_PENDING_SHOT && waits)
-    why = "comes before the shot above was played";
+    why = "is not allowed before the shot above was played";
   return why == NULL || wrong(in, why);
 }
 
@@ -676,19 +676,20 @@ static bool read_fields(reader *in, const carom_field *fields) {
   if (!expect(in, '}', "must be the only key of its line"))
     return false;
   skip_blanks(in);
-  return in->position == in->end || wrong(in, "has more text behind its object");
+  return in->position == in->end || wrong(in, "has text after its object");
 }
 
 /* The line, which is not blank, and its kind. */
 static bool read_line(reader *in, int *kind) {
   carom_record *record = in->record;
   char key[KEY_TEXT];
-  if (!expect(in, '{', "is no line of a recording: it must be an object") || !read_key(in, key))
+  if (!expect(in, '{', "is not a line of a recording, which must be an object") ||
+      !read_key(in, key))
     return false;
   in->line = key;
   *kind = kind_of(key);
   if (*kind < 0)
-    return wrong(in, "is no line of a recording");
+    return wrong(in, "is not a line of a recording");
   if (!may_come(in, *kind))
     return false;
 
@@ -701,7 +702,7 @@ static bool read_line(reader *in, int *kind) {
   if (*kind == CAROM_RECORD_END)
     return true;
 
-  /* the hash behind the line covers its seal by the lines before it alone */
+  /* the hash after the line covers its seal only through the lines before it */
   const uint64_t seal = record->seal;
   record->seal = 0;
   record->hash = hash_behind(hash, *kind, record);
@@ -752,11 +753,11 @@ static const char *not_to_be_played(const carom_record *record, carom_record_kin
   if (record->kind == CAROM_RECORD_END || record->kind == CAROM_RECORD_WRONG)
     return out_of_place(record, (int)kind);
   if (!is_shot((int)kind) || record->count < 1 || record->count > CAROM_BALLS_MOST)
-    return "there is no shot to be played";
+    return "there is no shot to play";
   if (goes_on && record->moved == 0)
-    return "there is no shot to be played";
+    return "there is no shot to play";
   if (!goes_on && record->cue.speed > 0.0 && is_moving(record))
-    return "balls move, so that no ball is struck: the shot before is to be continued";
+    return "balls move, so no ball can be struck; continue the previous shot";
   return NULL;
 }
 
@@ -778,8 +779,8 @@ static void prepare_shot(carom_record *record, bool goes_on, bool may_stop, caro
     record->state.opaque[0] = 0;
 }
 
-/* How the shot ended, with the hash of the lines before it, of the stroke, and of its end as 3
- * words and 10 of each ball. */
+/* How the shot ended, with the hash of the lines before it, of the stroke, and of its end, as 3
+ * words and 10 for each ball. */
 static void note_end(carom_record *record, carom_record_kind kind, carom_status status,
                      const carom_shot *played) {
   const carom_record_end recorded = record->recorded;
@@ -862,7 +863,7 @@ static void write_hash(writer *out, uint64_t hash) {
   write_text(out, text);
 }
 
-/* A number; JSON has none that is not finite, and not all whole ones beyond 2^53. */
+/* A number; JSON has only finite ones, and not all integers beyond 2^53. */
 static void write_number(writer *out, const carom_field *f, const unsigned char *value) {
   double x = 0.0;
   int64_t whole = 0;
@@ -995,7 +996,7 @@ static bool can_be_written(const carom_record *record, int kind) {
   return true;
 }
 
-/* Numbers that a line says beside what the record has. Returns the hash behind the line. */
+/* Numbers that a line has in addition to the record. Returns the hash behind the line. */
 static uint64_t complete_line(carom_record *record, int kind) {
   if (kind == CAROM_RECORD_HEAD) {
     record->format = FORMAT;

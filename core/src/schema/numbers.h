@@ -6,7 +6,7 @@
  *
  * key:    in files of `carom shoot`.
  * low, high: both ends belong to the range.
- * other:  a value beside the range; NAN: there is none. Where it is 0, that is a default.
+ * other:  an allowed value outside the range; NAN: there is none. Where it is 0, that is a default.
  * ERROR:  the status of a number that is neither.
  * READER: ALWAYS, BY_CUSHION(MODEL) or BY_FRICTION(LAW): what reads it. WITH(MODEL, number): a
  *         cushion too, and where that other number is 0, this one must be 0.
@@ -83,16 +83,16 @@
           "change of roll_loss for each unit of ln(speed)")
 
 /* Conditions on several numbers of `k`, each of which is within its range: BALL(member to blame,
- * condition, ERROR, text) or CUSHION(...), as above. The text says what the member must be. */
+ * condition, ERROR, text) or CUSHION(...), as above. The text describes the member. */
 #define CAROM_CONDITIONS(BALL, CUSHION)                                                          \
   BALL(law_b, k->law_a + k->law_b <= 1.0, MU_BALL, "at most 1 - law_a")                          \
   BALL(nose_height, k->nose_height < 2.0 * k->radius, BALL_CUSHION, "below 2 R")                 \
   CUSHION(smooth_x, (k->smooth_q > 0) <= (k->smooth_x > 0), SMOOTH, "above 0 where smooth_q is") \
   CUSHION(smooth_t, (k->smooth_q > 0) <= (k->smooth_t > 0), SMOOTH, "above 0 where smooth_q is")
 
-/* Numbers of other structs, of doubles but where the header says otherwise, in their order:
- * ROW(member, key, unit, low, high, other, ERROR, text), as above. LATER(...): it is checked where
- * more is known, as the radius of the balls. */
+/* Numbers of other structs, doubles unless the header says otherwise, in their order: ROW(member,
+ * key, unit, low, high, other, ERROR, text), as above. LATER(...): it is checked where more is
+ * known, as the radius of the balls. */
 #define CAROM_CUE_NUMBERS(ROW, LATER)                                                             \
   ROW(speed, "V0", "m/s", 0, 1e3, NAN, CUE_SPEED,                                                 \
       "speed of the cue before the strike; 0: no strike")                                         \
@@ -182,9 +182,9 @@
   LATER(w, "", "rad/s", -1e6, 1e6, NAN, SPIN, "angular velocity") \
   LATER(label, "", "", 0, 6, NAN, LABEL, "how it moves, a carom_label")
 
-/* What a number of a ball stands for where it is 0 and 0 is a default: carom_ball_kind_resolve()
- * writes these, and whoever reads a number takes them from here. That of the law of friction is
- * carom_alciatore(). */
+/* What a number of a ball represents where it is 0 and 0 is a default: carom_ball_kind_resolve()
+ * writes these, and whoever reads a number takes them from here. The default of the law of friction
+ * is carom_alciatore(). */
 #define CAROM_USUAL_OMEGA_RATIO 1.8
 #define CAROM_USUAL_RESTITUTION_TABLE 0.5
 #define CAROM_USUAL_MODULUS 6.6e9 /* phenolic resin, docs/understanding/clusters.md */

@@ -1,11 +1,12 @@
 /* Options of calls: one row each. Checks, the line of options in recordings, the fingerprint of a
- * stopped shot, copies, options of the command and those of other languages are made of these rows.
+ * stopped shot, copies, and the options of the command and of other languages are made from these
+ * rows.
  *
  * OPTION(member, key, FORM, low, high, ERROR, text)
  *
- * key:  the option of the command; "": it has none.
- * FORM: WORDS(OF), an enumeration from 0 of which `high` is the last; COUNT; FLAG, 0 or 1;
- *       SEED, any; NUMBER(unit), a double; SET(OF), whose bits are values with words, or BALLS.
+ * key: the option of the command; "": no option. FORM: WORDS(OF), an enumeration from 0 of which
+ * `high` is the last; COUNT; FLAG, 0 or 1;
+ *       SEED, any; NUMBER(unit), a double; SET(OF), whose bits are values with names, or BALLS.
  * low, high, ERROR: as in numbers.h; and 0, which is the default of each. */
 #ifndef CAROM_SRC_SCHEMA_OPTIONS_H
 #define CAROM_SRC_SCHEMA_OPTIONS_H
@@ -15,7 +16,7 @@
 #include <stdint.h>
 
 /* Options of carom_shot_options that decide the motion, in the order of recordings. The number
- * behind the text is the place of the option's 32 bits in the fingerprint of a stopped shot. */
+ * behind the text is the position of the option's 32 bits in the fingerprint of a stopped shot. */
 #define CAROM_MOTION_OPTIONS(OPTION)                                                               \
   OPTION(world, "world", WORDS(WORLD), 0, CAROM_WORLD_POOLTOOL, WORLD,                             \
          "rules of contact, and the default models", 0)                                            \
@@ -85,7 +86,7 @@
          "sign of the spin in the slip over the cloth")                 \
   CAROM_CALL_OPTIONS(OPTION)
 
-/* Options of carom_cushion_options, beside the numbers of numbers.h. */
+/* Options of carom_cushion_options, in addition to the numbers of numbers.h. */
 #define CAROM_RAIL_OPTIONS(OPTION)                                                              \
   OPTION(model, "model", WORDS(CUSHION_MODEL), 0, CAROM_CUSHION_MODEL_COUNT - 1, CUSHION_MODEL, \
          "model of the impact")                                                                 \

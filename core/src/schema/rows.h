@@ -1,4 +1,4 @@
-/* How rows of numbers.h and options.h become those that programs ask for, and what a layer above
+/* How rows of numbers.h and options.h become those that programs request, and what a layer above
  * the library's own adds to them. */
 #ifndef CAROM_SRC_SCHEMA_ROWS_H
 #define CAROM_SRC_SCHEMA_ROWS_H
@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A row of any struct; behind its text stand the members of carom_number that it has besides. */
+/* A row of any struct; its text is followed by further members of carom_number. */
 #define CAROM_TYPE_OF(x) \
   _Generic(x, double *: CAROM_TYPE_DOUBLE, double: CAROM_TYPE_DOUBLE, \
            int64_t: CAROM_TYPE_INT64, uint64_t: CAROM_TYPE_UINT64, default: CAROM_TYPE_INT32)
@@ -45,7 +45,7 @@ typedef struct carom_word_row {
   const char *word, *text;
 } carom_word_row;
 
-/* The numbers of a part, and words, that a layer above adds. */
+/* The numbers of a part, and named values, that a layer above adds. */
 typedef struct carom_upper_rows {
   carom_part_kind part;
   const carom_number *numbers;

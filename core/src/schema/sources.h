@@ -1,4 +1,4 @@
-/* What models stand on: the entries of shot/cite.c, as a set. */
+/* What models are on: the entries of shot/cite.c, as a set. */
 #ifndef CAROM_SRC_SCHEMA_SOURCES_H
 #define CAROM_SRC_SCHEMA_SOURCES_H
 

@@ -1,4 +1,5 @@
-/* Words of enumerations: one row each. cushion/list.h and friction/laws.h have those of models.
+/* Names of enumerations' values: one row each. cushion/list.h and friction/laws.h have the names of
+ * models.
  *
  * WORD(OF, VALUE, word, text): OF is a carom_words, CAROM_VALUE the value. */
 #ifndef CAROM_SRC_SCHEMA_WORDS_H

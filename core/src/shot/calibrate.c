@@ -1,21 +1,21 @@
 /* The cushion of a table by three banks.
  *
- * A lone ball is played three times, and comes back to its rail at y_i(e, mu), i = 1 to 3, with the
+ * A lone ball is played three times, and returns to its rail at y_i(e, mu), i = 1 to 3, with the
  * restitution e and the friction mu of the cushion. A player reads r_i there. The most probable
  * pair minimises
  *
  *     sum (r_i - y_i)^2 / s^2 + (e - e_0)^2 / s_e^2 + (mu - mu_0)^2 / s_mu^2
  *
- * by Gauss and Newton, with differences of whole shots. e_0 and mu_0 are those of the ball. s_e and
- * s_mu say how much tables differ from them: public systems of players leave 0.74 to 0.89 and 0.18
- * to 0.42. s = 50 mm is the error of a reading, 25 mm, of which most is the speed of the stroke,
- * with what the law of the cushion leaves out. The bands are the roots of the diagonal of the
- * inverse of the matrix. A hard bank determines e, because friction has little to do with it; soft
- * ones determine mu.
+ * by Gauss and Newton, with differences of complete shots. e_0 and mu_0 are the ball's. s_e and
+ * s_mu are how much tables differ from them: public systems of players leave 0.74 to 0.89 and 0.18
+ * to 0.42. s = 50 mm contains the error of a reading, 25 mm, most of which is the speed of the
+ * stroke, and what the law of the cushion leaves out. The bands are the roots of the diagonal of
+ * the inverse of the matrix. A hard bank determines e, because friction has little to do with it;
+ * soft ones determine mu.
  *
  * The banks and s are those that help, or harm least, on drawn tables of three laws
  * (study/lab/cushions.py). With 25 mm, or with a soft bank through 3.5, numbers fitted to a table
- * of Han's cushion predict it less well than the usual numbers do. The three come back away from
+ * of Han's cushion predict it less well than the usual numbers do. The three return away from
  * pockets, beyond the side pocket. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
@@ -42,7 +42,7 @@ carom_status carom_bank_of(int bank, carom_bank *out) {
   return CAROM_OK;
 }
 
-/* Where a ball with these two numbers comes back to its rail, in m from the corner. */
+/* Where a ball with these two numbers returns to its rail, in m from the corner. */
 static carom_status comes_back(const carom_table *table, const carom_ball_kind *kind,
                                const carom_bank *bank, double *place) {
   /* the line from behind the corner through the sight */
@@ -148,7 +148,7 @@ carom_status carom_calibrate(const carom_table *table, const carom_ball_kind *ba
   double number[2] = {out->restitution, out->friction}, inverse[2][2] = {{0}};
   double place[CAROM_BANKS], m[CAROM_BANKS] = {0};
 
-  /* without readings: where the banks come back */
+  /* without readings: where the banks return */
   for (int k = 0; k < CAROM_BANKS && reading != NULL; k++) {
     if (!(reading[k] > 0.0 && reading[k] < 8.0))
       return CAROM_ERROR_POSITION;
@@ -162,7 +162,7 @@ carom_status carom_calibrate(const carom_table *table, const carom_ball_kind *ba
   if (status != CAROM_OK)
     return status;
 
-  /* what is told of it */
+  /* the results */
   double squares = 0.0;
   for (int index = 0; index < CAROM_BANKS; index++) {
     out->comes_back[index] = place[index] / diamond;

@@ -1,4 +1,4 @@
-/* The one place where the arguments of a shot are checked, by the conditions of the comments in
+/* The only place where the arguments of a shot are checked, by the conditions of the comments in
  * carom_shot.h: the table and the options once for a batch; a layout, its cue, and whether the
  * table suits the radius of its balls, for each. */
 #include "cushion/list.h"
@@ -21,7 +21,7 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
   return carom_ok_if(o->unused == 0 && CAROM_RESERVED_IS_ZERO(o), CAROM_ERROR_SHOT_OPTIONS);
 }
 
-/* Prepares the table for the balls of a layout. In flat play all radii are to be that of the
+/* Prepares the table for the balls of a layout. In flat play all radii must be equal to the
  * first. */
 static carom_status prepare_table(const carom_prepared *prepared, bool flat,
                                   carom_features *features, int *where) {
@@ -158,12 +158,12 @@ void carom_take_row(carom_prepared *prepared, const carom_shot_job *job, size_t 
   }
 }
 
-/* What a world and its options ask of the balls of a row. */
+/* What the rules of contact and the options require of the balls of a row. */
 typedef struct row_rules {
   bool flat, one_mass;
 } row_rules;
 
-/* A ball by itself, beside the first one, and for the table. */
+/* A ball by itself, next to the first one, and for the table. */
 static carom_status check_alone(const carom_prepared *prepared, const row_rules *rules, int index) {
   const carom_ball_kind *kind = prepared->kind[index], *first = prepared->kind[0];
   /* most balls are of the kind of the one before, which is good */
@@ -186,7 +186,7 @@ static carom_status check_alone(const carom_prepared *prepared, const row_rules 
   return check_state(prepared->state[index], kind->radius, rules->flat);
 }
 
-/* Where a ball is: on the table or above it, and beside the balls before it, whose centres have
+/* Where a ball is: on the table or above it, and next to the balls before it, whose centres have
  * these heights. */
 static carom_status check_position(const carom_prepared *prepared, int index,
                                    const double *height) {

@@ -1,4 +1,4 @@
-/* What shots stand on, as BibTeX: one row an entry, with the models that use it. The command, the
+/* What shots are on, as BibTeX: one row an entry, with the models that use it. The command, the
  * Python package and CITATION.cff have their references from here. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
@@ -175,7 +175,7 @@ size_t carom_cite(const carom_shot_options *options, char *text, size_t room) {
   const unsigned sources = sources_of(o);
   size_t length = 0;
   for (size_t index = 0; index < sizeof entries / sizeof entries[0]; index++) {
-    /* an empty line stands between entries; text that does not fit is only counted */
+    /* an empty line is between entries; text that does not fit is only counted */
     const char *parts[] = {"\n", entries[index].text};
     for (size_t p = length == 0; p < 2 && (entries[index].source & sources) != 0; p++)
       for (const char *c = parts[p]; *c != '\0'; c++, length++)

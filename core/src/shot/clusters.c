@@ -12,7 +12,7 @@ static const double neighborhood = 0.01; /* m; members.c looks closer */
 static const double simultaneous = 1e-9; /* of a contact's duration: touches that are nearer in
                                             time count as one */
 
-/* The steps of a cluster in the duration of a contact, as asked or as usual. */
+/* The steps of a cluster in the duration of a contact, as requested or as usual. */
 static double steps_of(const carom_shot_options *opt) {
   if (opt->cluster_steps > 0)
     return (double)opt->cluster_steps;
@@ -34,7 +34,7 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
     member.v[2] = 0.0;
   }
 
-  /* what it is made of, where 0 stands for usual */
+  /* what it is made of, where 0 means the usual value */
   member.flies = flies;
   member.index = (int8_t)ball;
   member.radius = kind->radius;
@@ -66,7 +66,7 @@ static int in_order(const carom_cluster_state *cluster, uint8_t order[CAROM_CLUS
   for (int index = 0; index < cluster->contacts; index++) {
     if (!(cluster->contact[index].impulse > 0.0))
       continue;
-    /* put in its place from behind: before all that touch later by more than a tie */
+    /* put in its position from behind: before all that touch later by more than a tie */
     int place = count++;
     for (;
          place > 0 && cluster->contact[index].time < cluster->contact[order[place - 1]].time - tie;
@@ -108,12 +108,12 @@ bool carom_third_is_near(const carom_sim *sim, int i, int j) {
 
 /* ---- In turn
  *
- * Touches that do not overlap are what events in turn are. Each has its contact by the model of two
+ * Touches that do not overlap are successive events. Each has its contact by the model of two
  * balls, where their paths bring them together. A ball then starts now, from where and as fast as
  * its last path was, followed back to now; so friction with the cloth counts from the touch on. If
  * that would raise the energy, speeds are followed back by a share. With f the separation of a
- * cluster (places.c), its balls get f of that and 1 - f of what the integrator has. So a cluster
- * that falls into two leaves no jump. */
+ * cluster (places.c), its balls get f times that result plus 1 - f times the integrator's. So a
+ * cluster that falls into two leaves no jump. */
 
 void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball_state *state_a,
                          carom_ball_state *state_b, double last, double since[2], double *impulse) {
@@ -191,7 +191,7 @@ void carom_start_in_turn(const carom_ball_kind *kind, double since, double share
   }
 }
 
-/* The touches of a cluster, to be taken in turn. */
+/* The touches of a cluster, to be resolved successively. */
 static void note_touches(const carom_cluster_state *cluster, carom_in_turn *turn) {
   turn->balls = cluster->balls;
   turn->touches = cluster->touches;
@@ -241,7 +241,7 @@ void carom_take_in_turn(const carom_sim *sim, carom_in_turn *turn) {
   turn->known = true;
 }
 
-/* Gives balls and contacts so much of what touches in turn have. */
+/* Mixes the result of successive touches into balls and contacts, by this fraction. */
 static void pass_on(const carom_sim *sim, const carom_in_turn *turn, double share,
                     carom_cluster_state *cluster) {
   double impulse[CAROM_CLUSTER_CONTACTS] = {0.0};
@@ -272,7 +272,7 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_in_turn *turn,
                       carom_cluster_state *cluster, uint8_t order[CAROM_CLUSTER_CONTACTS]) {
   CAROM_PROMISE(i < j);
 
-  /* all balls in play, as they are now; the two that meet, by their places in the list */
+  /* all balls in play, as they are now; the two that meet, by their positions in the list */
   cluster->balls = 0;
   cluster->struck = cluster->on_slate = false;
   cluster->steps = steps_of(sim->opt);
@@ -403,7 +403,7 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
   if (cluster->contacts > 0)
     count = in_order(cluster, order);
 
-  /* none of those near was touched: all is as if it were alone */
+  /* none of the near balls was touched: the result is the same as for a single contact */
   if (count == 0 && !slate && !again) {
     struck = cluster->tip.ball;
     cluster->ball[struck] = member_now(sim, sim->struck);
@@ -486,8 +486,8 @@ static carom_status check(const carom_shot_ball *balls, int count, const carom_s
   return CAROM_OK;
 }
 
-/* Cluster by cluster, the fastest contact first; balls far from each other are in clusters of
- * their own. */
+/* Cluster by cluster, the fastest contact first; balls far from each other are in separate
+ * clusters. */
 static carom_status solve(const carom_shot_ball *balls, int count, const carom_shot_options *opt,
                           carom_motion *out, carom_cluster_contact *contacts, int room,
                           int *found) {
@@ -519,7 +519,7 @@ static carom_status solve(const carom_shot_ball *balls, int count, const carom_s
         return CAROM_ERROR_OVERFLOW;
     }
 
-    /* and its contacts are told */
+    /* and its contacts are reported */
     uint8_t order[CAROM_CLUSTER_CONTACTS];
     const int touched = in_order(&cluster, order);
     for (int index = 0; index < touched; index++, ++*found)

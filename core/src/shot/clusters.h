@@ -9,7 +9,7 @@
  * them. */
 bool carom_third_is_near(const carom_sim *sim, int i, int j);
 
-/* What touches of a cluster in turn leave, clusters.c. */
+/* The result of the successive touches of a cluster, clusters.c. */
 typedef struct carom_in_turn_ball {
   carom_ball_state state;
   int index; /* the caller's */
@@ -22,17 +22,17 @@ enum { CAROM_TURN_TOUCHES = 10 + CAROM_CLUSTER_REPEATED }; /* every pair of 5 ba
 typedef struct carom_in_turn {
   bool known; /* what they leave, and not only which they are */
   int balls, touches;
-  double duration; /* of the cluster, s: those that are later are events of their own */
+  double duration; /* of the cluster, s: later ones are separate events */
   carom_in_turn_ball ball[CAROM_CLUSTER_IN_TURN];
   carom_in_turn_touch touch[CAROM_TURN_TOUCHES];
 } carom_in_turn;
 void carom_take_in_turn(const carom_sim *sim, carom_in_turn *turn);
 
 /* The cluster around balls i < j, which touch now and close at the speed of slow contacts or
- * faster. Returns how many contacts had an impulse, in the order of order[]; 0 where the contact
- * of i and j is one of two balls alone; -1 where the cluster has too many contacts, or takes too
- * many steps; CAROM_TAKE_IN_TURN where its touches have to be taken in turn first. The caller does
- * that, and asks again, because a cluster and a contact together need too much stack. */
+ * faster. Returns how many contacts had an impulse, in the order of order[]; 0 if the contact of i
+ * and j involves only these two balls; -1 if the cluster has too many contacts, or needs too many
+ * steps; CAROM_TAKE_IN_TURN if its touches must first be resolved successively. The caller does
+ * that, and calls again, because a cluster and a contact together need too much stack. */
 enum { CAROM_TAKE_IN_TURN = -2 };
 int carom_cluster_now(carom_sim *sim, int i, int j, carom_in_turn *turn,
                       carom_cluster_state *cluster, uint8_t order[CAROM_CLUSTER_CONTACTS]);
@@ -40,9 +40,9 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_in_turn *turn,
 /* The motion of a ball after its cluster. */
 void carom_cluster_take(const carom_cluster_ball *ball, carom_ball_state *state);
 
-/* The contact of two balls, each of which is as given at a time of its own, s from now on: they
- * become as they are after it, these times that of the touch, and the impulse counts it. Nothing
- * changes where they do not touch by the `last` time. */
+/* The contact of two balls, each of which is as given at its own time, s from now on: they get
+ * their states after it, these times become the time of the touch, and the impulse includes it.
+ * Nothing changes where they do not touch by the `last` time. */
 void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball_state *state_a,
                          carom_ball_state *state_b, double last, double since[2], double *impulse);
 /* A ball becomes as it has to start now in order to be as given then; of the change of its motion
@@ -68,12 +68,12 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
 int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
                          carom_cluster_state *cluster, uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
-/* follow_through.c. The cue goes on from now at a speed, its tip `lead` m ahead of where the
- * ball has it, as places.c has it. */
+/* follow_through.c. The cue continues from now at a speed, its tip `lead` m ahead of its position
+ * at the ball, as in places.c. */
 void carom_follow_on(carom_play *play, double speed, double lead);
 /* Sets play->follow.time: when its tip touches the struck ball again. */
 void carom_follow_find(carom_play *play);
-/* *moved_cue becomes the cue with the place of its tip and its speed. Returns whether that is a
+/* *moved_cue becomes the cue with the position of its tip and its speed. Returns whether that is a
  * touch. */
 bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue);
 

@@ -1,7 +1,7 @@
-/* What a ball is played with where 0 stands for a default: the one reading of a game's numbers.
- * The functions that play a shot read a number by its row of CAROM_USUAL_... (schema/numbers.h), or
- * by the law of friction of models.c; here the same rows are written into the ball, so a shot of
- * the ball that comes out has the bits of the shot of the ball that went in. */
+/* What a ball is played with where 0 means a default: the one reading of a game's numbers. The
+ * functions that play a shot read a number by its row of CAROM_USUAL_... (schema/numbers.h), or by
+ * the law of friction of models.c; here the same rows are written into the ball, so a shot of the
+ * resulting ball has the bits of a shot of the original one. */
 #include "platform/ranges.h"
 #include "schema/numbers.h"
 #include "shot/shot.h"
@@ -19,8 +19,8 @@ static double common_nose_height(const carom_table *table) {
   return height;
 }
 
-/* The law of friction between balls, one number of which is above 0, as all 0 are a default: for
- * a constant friction the width law_c of a change of 0 is that of carom_alciatore(). */
+/* The law of friction between balls, one number of which is above 0, as all 0 are a default: for a
+ * constant friction the width law_c of a change of 0 is taken from carom_alciatore(). */
 static void write_law(carom_ball_friction friction, carom_ball_kind *kind) {
   double law[3];
   carom_law_of_ball(friction, kind, law);

@@ -8,7 +8,7 @@
  * CHORD. On [0, T] the separation d = p + e t + a t^2 has the chord T c, c = e + T a, and differs
  * from it by -a t (T - t), which is a T^2/4 at most. So it stays farther from the origin than
  *
- *            .--''''--.     the path, T^2/4 a at most beside its chord
+ *            .--''''--.     the path, T^2/4 a at most off its chord
  *          o---- T c --->o
  *        p  \           /  p + T c
  *            \         /
@@ -54,7 +54,7 @@ static void range_of(double start, double speed, double half_acceleration, doubl
   }
 }
 
-/* Distance from a line, or place along a rail. */
+/* Distance from a line, or position along a rail. */
 static double place(const double line[3], const line_of_motion *track, double time) {
   return line[0] * (track->r[0] + time * (track->v[0] + time * track->a[0])) +
          line[1] * (track->r[1] + time * (track->v[1] + time * track->a[1])) + line[2];
@@ -114,7 +114,7 @@ static double meet_jaw(const carom_sim *sim, int index, double radius, const lin
              : sim->rules->touch_jaw(&separation, reach, horizon);
 }
 
-/* When the centre comes over the circle of a pocket, up to the horizon; or infinity. */
+/* When the centre crosses the circle of a pocket, up to the horizon; or infinity. */
 static double meet_pocket(const carom_sim *sim, int index, const line_of_motion *track,
                           double horizon) {
   const carom_pocket *pocket = &sim->table->pocket[index];
@@ -139,13 +139,13 @@ static double leave_hull(const carom_features *features, const line_of_motion *t
   return first;
 }
 
-/* The box of a path up to the horizon: its range of x, then that of y. */
+/* The box of a path up to the horizon: its range of x, then of y. */
 static inline void box_of(const line_of_motion *track, double horizon, double box[4]) {
   range_of(track->r[0], track->v[0], track->a[0], horizon, &box[0], &box[1]);
   range_of(track->r[1], track->v[1], track->a[1], horizon, &box[2], &box[3]);
 }
 
-/* Lists the features of the table whose boxes meet that of a path. Without branches, since which
+/* Lists the features of the table whose boxes meet the box of a path. Without branches, since which
  * ones they are cannot be predicted. */
 static inline int list_near(const carom_features *features, const double box[4],
                             uint8_t neighbors[MOST_FEATURES]) {
@@ -166,7 +166,7 @@ static inline int list_near(const carom_features *features, const double box[4],
 }
 
 /* When a ball meets a feature of the table, up to the horizon. `unlike`, a constant: whether noses
- * and jaws are reached at distances of their own, nose.c. */
+ * and jaws have separate distances of contact, nose.c. */
 static inline __attribute__((always_inline)) carom_meeting
 meet_feature(const carom_sim *sim, int ball, int feature, const line_of_motion *track,
              double horizon, const bool unlike) {
@@ -276,7 +276,7 @@ static void meet_balls(carom_sim *sim, int ball, int done) {
     end[partner] = common;
   }
 
-  /* those that may meet; each pair stands at the lower index */
+  /* those that may meet; each pair is at the lower index */
   for (int partner = 0; partner < count; partner++) {
     if (partner == ball || partner == done)
       continue;

@@ -1,4 +1,4 @@
-/* What the rules of games ask of a shot (carom_facts), noted event by event. */
+/* What the rules of games need to know about a shot (carom_facts), noted event by event. */
 #include "shot/facts.h"
 #include "table/marks.h"
 
@@ -30,8 +30,8 @@ static carom_ball_state state_now(const carom_sim *sim, int ball) {
   return current;
 }
 
-/* Widens the range of places where the cue ball was before it met a ball. `begins`: it is the first
- * such place. */
+/* Widens the range of positions of the cue ball before it met a ball. `begins`: this is the first
+ * position. */
 static void widen_range(carom_facts *facts, const carom_sim *sim, bool begins) {
   const carom_ball_state current = state_now(sim, sim->struck);
   for (int axis = 0; axis < 2; axis++) {
@@ -64,7 +64,7 @@ static void fly_over(carom_facts *facts, const carom_sim *sim) {
   }
 }
 
-/* How the cue ball comes to its first ball. */
+/* How the cue ball reaches its first ball. */
 static int32_t approach_of(const carom_sim *sim, int ball) {
   const uint32_t rails = sim->shot->facts->rails[sim->struck];
   if (rails == 0)
@@ -91,7 +91,7 @@ static void meet(carom_facts *facts, const carom_sim *sim, int ball) {
     return;
   facts->order[count] = ball;
 
-  /* the first ball, and those of the same instant */
+  /* the first ball, and the balls of the same instant */
   if (count == 0) {
     const carom_ball_state current = state_now(sim, sim->struck);
     memcpy(facts->first_place, current.r, sizeof facts->first_place);
@@ -108,7 +108,7 @@ static void meet(carom_facts *facts, const carom_sim *sim, int ball) {
   }
 }
 
-/* Whether a ball that meets a cushion is frozen to it: the ball lies where it lay at first. */
+/* Whether a ball that meets a cushion is frozen to it: the ball is where it lay at first. */
 static bool is_frozen(const carom_sim *sim, int ball) {
   const double *first = sim->layout->state[ball]->r;
   const carom_ball_state current = state_now(sim, ball);
@@ -127,7 +127,7 @@ static void meet_cushion(carom_facts *facts, const carom_sim *sim, const carom_d
     facts->rails[ball] |= set_of(part);
 }
 
-/* Whether a ball that falls into a pocket has met a rail that does not end beside it. */
+/* Whether a ball that falls into a pocket has met a rail that does not end next to it. */
 static bool is_banked(const carom_sim *sim, int ball, int pocket) {
   const uint32_t rails = sim->shot->facts->rails[ball];
   for (int rail = 0; rails >> rail != 0; rail++)
@@ -137,7 +137,7 @@ static bool is_banked(const carom_sim *sim, int ball, int pocket) {
 }
 
 /* A ball has an event: where it has been. Its last event was at the start of its path; where it
- * comes to rest, it has no other one. */
+ * stops, it has no other one. */
 static void been_at(carom_facts *facts, const carom_sim *sim, int ball, bool rests) {
   double y = sim->path[ball].from.r[1];
   if (rests)

@@ -1,5 +1,5 @@
-/* What the rules of games ask of a shot (carom_facts), noted event by event. Every function but
- * carom_facts_begin() notes into sim->shot->facts. */
+/* What the rules of games need to know about a shot (carom_facts), noted event by event. Every
+ * function but carom_facts_begin() notes into sim->shot->facts. */
 #ifndef CAROM_SHOT_FACTS_H
 #define CAROM_SHOT_FACTS_H
 

@@ -1,4 +1,4 @@
-/* What is at fault in a shot that is refused: of which part, and which of its numbers. */
+/* What is at fault in a shot that is rejected: of which part, and which of its numbers. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 #include "table/table.h"
@@ -23,7 +23,7 @@ static double value_of(const carom_number *n, const void *object, int k) {
   }
 }
 
-/* The status of the numbers that a status is about, beside others. */
+/* The status of the numbers that a status is about, combined with others. */
 static carom_status status_of_numbers(carom_status status) {
   static const struct {
     carom_status beside_others, of_numbers;
@@ -42,7 +42,7 @@ static carom_status status_of_numbers(carom_status status) {
 }
 
 /* Blames the first number of a part that has the status of the fault and is outside its range; or
- * with `within` is in it, so that it is at fault beside others. */
+ * with `within` is in it, so that it is at fault together with others. */
 static bool blame(carom_fault *f, carom_part_kind part, int index, const void *object,
                   bool within) {
   carom_status status = f->status;
@@ -69,8 +69,8 @@ typedef struct suspect {
 
 enum { SUSPECTS_MOST = 8 };
 
-/* Lists what comes once in a shot, and the parts and the ball at the place `index` of the fault, in
- * the order of blame; returns how many there are. */
+/* Lists what occurs once in a shot, and the parts and the ball at the index `index` of the fault,
+ * in the order of blame; returns how many there are. */
 static int list_suspects(const carom_table *t, const carom_shot_ball *ball, int index,
                          const carom_cue *cue, const carom_shot_options *opt,
                          suspect suspects[SUSPECTS_MOST]) {
@@ -95,8 +95,8 @@ static int list_suspects(const carom_table *t, const carom_shot_ball *ball, int 
   return count;
 }
 
-/* Blames a number that is in its range, but not beside others: of the cue, or of the ball at the
- * place; where no number of that ball is to blame, the ball itself. */
+/* Blames a number that is in its range, but invalid together with others: of the cue, or of the
+ * ball at the index; if no number of that ball is to blame, the ball itself. */
 static void blame_beside_others(carom_fault *f, const carom_shot_ball *ball, int index,
                                 const carom_cue *cue) {
   if (cue != NULL && blame(f, CAROM_PART_CUE, 0, cue, true))
@@ -149,7 +149,7 @@ carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls
       return fault->status;
     }
 
-  /* Of the numbers beside others, those of a ball have conditions with texts of their own. */
+  /* Among the numbers that depend on others, a ball's have conditions with their own texts. */
   const carom_number *n = NULL;
   if (ball != NULL)
     n = carom_ball_fault(&ball->kind, text, room);

@@ -12,7 +12,7 @@
  *
  * RAIL. |d|^2 = (s - delta)^2 + (z - h)^2 is a quartic in t, that of two centres with d in two
  * coordinates (gap.c); a contact beyond the ends of the rail is none, since a jaw or another
- * rail stands there.
+ * rail is there.
  *
  * JAW. With q the horizontal distance from the axis, c = rho + delta and F = (q - c)^2 + (z -
  * h)^2 - R^2, squaring twice would give degree 8. But q'' >= 0 on a straight track, so where q
@@ -26,7 +26,7 @@
  * disc, and the contact is that of the top.
  *
  * TOP. The plane z = h + R over the strip -W <= s < delta behind a nose, W the width of the
- * rails, and over the disc of a jaw. A ball that lies on it, with v_z = 0, has left the table.
+ * rails, and over the disc of a jaw. A ball that is on it, with v_z = 0, has left the table.
  *
  * POCKET. The ball is over the circle from t_in to t_out, zeros of a quadratic. Where t_in is
  * before its landing it is looked at at t* = min(t_out, landing): if its centre is not above the
@@ -78,7 +78,7 @@ typedef struct jaw_gap {
   const nose_circle *circle;
 } jaw_gap;
 
-/* How fast the ball leaves the axis, q', from a place seen from there. */
+/* How fast the ball leaves the axis, q', from a position seen from there. */
 static double leaving(const flight *track, double time, double x, double y, double q) {
   return q > 0.0 ? (x * speed_at(track, 0, time) + y * speed_at(track, 1, time)) / q : 0.0;
 }
@@ -158,7 +158,7 @@ static double touch_circle(const flight *track, const nose_circle *circle, doubl
 }
 
 /* The times at which the track crosses a circle, seen from above; the number of them, 0 or 2,
- * infinite where it stands inside. On a slope those up to the horizon, the first of them 0 inside.
+ * infinite where it is inside. On a slope those up to the horizon, the first of them 0 inside.
  */
 static int cross_circle(const flight *track, const double centre[2], double radius, double horizon,
                         double times[2]) {
@@ -203,7 +203,7 @@ static double meet_jaw(const flight *track, const nose_circle *circle, double ho
 
 /* ---- Rails and tops */
 
-/* Distance from a line, or place along a rail. */
+/* Distance from a line, or position along a rail. */
 static double across(const double line[3], const flight *track, double time) {
   return line[0] * place_at(track, 0, time) + line[1] * place_at(track, 1, time) + line[2];
 }
@@ -212,9 +212,9 @@ static bool is_between_ends(const double along[3], const flight *track, double t
   return place >= 0.0 && place <= 1.0;
 }
 
-/* The part of the time up to the horizon in which the ball is between the ends of a rail: place is
- * linear in t. False where there is none. On a slope the part in which its chord is, or it could be
- * by its bulge. */
+/* The part of the time up to the horizon in which the ball is between the ends of a rail: the
+ * position is linear in t. False where there is none. On a slope the part in which its chord is, or
+ * it could be by its bulge. */
 static bool while_beside(const double along[3], const flight *track, double horizon,
                          double window[2]) {
   const double bent = horizon * carom_plane_dot(along, track->a);
@@ -257,7 +257,7 @@ static double meet_rail(const carom_features *features, int rail, double height,
   return time;
 }
 
-/* When the ball falls on a plane; *lies becomes whether it lies on it now. A ball that is hardly
+/* When the ball falls on a plane; *lies becomes whether it is already on it. A ball that is hardly
  * lower counts as on it, unless it rises over it. */
 static double fall_on(const flight *track, double plane, bool *lies) {
   double above = track->r[2] - plane;
@@ -284,8 +284,8 @@ static bool is_beside(const carom_features *features, int index, const float box
          features->low_y[index] <= box[3] && features->high_y[index] >= box[2];
 }
 
-/* The box of the track from above and `more` around it, in single precision, which those of the
- * features allow for. */
+/* The box of the track from above and `more` around it, in single precision, for which the boxes of
+ * the features allow. */
 static void box_of(const flight *track, double horizon, double more, float box[4]) {
   for (int axis = 0; axis < 2; axis++) {
     const double end = place_at(track, axis, horizon),
@@ -339,10 +339,10 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
   const double low = carom_nose_height(kind, features->nose_low),
                rise = track->v[2] > 0.0 ? 0.5 * track->v[2] * track->v[2] / track->gravity : 0.0;
 
-  /* it is or comes to be higher than a rail */
+  /* it is or will be higher than a rail */
   const bool above = track->r[2] + rise >= low + track->radius - on_top;
 
-  /* of the parts beside the track only, as noses are inside their walls by less than a radius;
+  /* of the parts next to the track only, as noses are inside their walls by less than a radius;
    * their tops from above */
   float box[4];
   box_of(track, *horizon, features->reference, box);

@@ -1,6 +1,6 @@
 /* The cue after its push: it follows through, and touches the cue ball again where it reaches it.
  *
- * Its tip goes on along the axis c at the speed V that the push has left it, for the length
+ * Its tip continues along the axis c at the speed V that the push has left it, for the length
  * cue.follow from where it struck. That length is a convention: the arm, which stops the cue, is
  * not computed. With p from the centre of the struck ball to the tip, the next touch is where
  *
@@ -10,11 +10,11 @@
  *      |---- along ---|-- V t --|<-----o    the ball, at v t + a t^2 from where it is now
  *      ================= c ====>   R
  *
- * (gap.c). There it pushes as tip.h has it, with the (a, b) of p, and goes on at the speed that is
- * left. It is looked for from the first contact of the cue ball with another ball or a cushion
+ * (gap.c). There it pushes as tip.h has it, with the (a, b) of p, and continues at the speed that
+ * is left. It is looked for from the first contact of the cue ball with another ball or a cushion
  * after a touch on: before that the ball runs away from the cue, but in slow draws, in which an arm
- * stops. A tip that closes slower than CAROM_LEAST_TOUCH lies at the ball until the next event; one
- * that comes past its middle misses: there the follow-through ends. */
+ * stops. A tip that closes slower than CAROM_LEAST_TOUCH is at the ball until the next event; a tip
+ * that passes its middle misses: there the follow-through ends. */
 #include "cluster/cue.h"
 #include "motion/gap.h"
 #include "shot/clusters.h"
@@ -23,7 +23,7 @@
 #include <math.h>
 
 /* A touch has the tip not deep in the ball, and the centre of the ball ahead of it: by more than
- * this part of |p| along the axis, as less is past the middle of the ball. */
+ * this fraction of |p| along the axis; less is past the middle of the ball. */
 static const double least_distance2 = 0.25; /* |p|^2, of R^2 */
 static const double least_ahead = 0.1;
 

@@ -20,7 +20,8 @@ typedef struct replayed {
   int64_t begun; /* 0 where the path has no more than its start and the state there */
 } replayed;
 
-/* A shot at a time. Where `turns`, balls turn; then each path is begun as its event comes. */
+/* A shot at a time. If `turns` is set, balls turn; then each path is begun when its event
+ * occurs. */
 typedef struct replay {
   uint64_t balls_hash; /* fingerprint of the slope and the balls */
   uint64_t last_of;    /* and of the last event until then */
@@ -40,7 +41,7 @@ _Static_assert(sizeof(film) <= sizeof(carom_frames), "a film fits in the words o
 /* Keyframes: replays at some times, from which an earlier time is near.
  *
  * A shot has spans, and a span has cells, all of the same length. Each span has a slot for its
- * begin. The further cells of all spans share slots, so that these have the cells of the span in
+ * begin. The further cells of all spans share slots, so that they hold the cells of the span in
  * which the film was last. So a film that runs back replays each span once, and then each frame
  * from its cell. */
 typedef struct keyframes {
@@ -214,7 +215,7 @@ static bool find_states(replay *state, double *left, carom_ball_state *states,
   return true;
 }
 
-/* The shot whose frames are asked for. */
+/* The shot whose frames are requested. */
 typedef struct shown_shot {
   const carom_shot_ball *balls;
   int count;
@@ -246,7 +247,7 @@ static bool show(replay *state, const shown_shot *shown, bool turns, double time
   return go_by_cells(state, keep, shown->shot, shown->known, time, left);
 }
 
-/* Whether a ball moves when the replay has come to the end: its motion after it is unknown. */
+/* Whether a ball moves when the replay has reached the end: its motion after it is unknown. */
 static bool has_moving_ball(const replay *state) {
   for (int i = 0; i < state->count; i++) {
     const int64_t label = state->ball[i].path.from.label;
@@ -256,7 +257,7 @@ static bool has_moving_ball(const replay *state) {
   return false;
 }
 
-/* One frame, whose states and turns go to the places given; turned may be NULL. */
+/* One frame, whose states and turns go to the positions given; turned may be NULL. */
 static carom_status show_frame(replay *state, const shown_shot *shown, double time, double *left,
                                carom_ball_state *states, double (*turned)[4]) {
   const double end = shown->shot->time;

@@ -1,4 +1,4 @@
-/* Collisions of balls with each other and with cushions, by the model that the options ask for. */
+/* Collisions of balls with each other and with cushions, by the model that the options request. */
 #include "cushion/models.h"
 #include "cluster/cluster.h"
 #include "friction/laws.h"
@@ -170,7 +170,7 @@ static carom_status balls_on_cloth(const carom_sim *sim, const carom_due *pendin
   return status;
 }
 
-/* Spheres in space; without friction where the model has none. */
+/* Spheres in space; without friction if the model has no friction. */
 static void balls_in_space(const carom_sim *sim, const carom_due *pending_event,
                            const double normal[3], carom_ball_state *a, carom_ball_state *b) {
   const carom_ball_kind *kind_a = sim->layout->kind[pending_event->a],
@@ -187,8 +187,8 @@ static void balls_in_space(const carom_sim *sim, const carom_due *pending_event,
   take_motion(&out.b, b);
 }
 
-/* Turns the plane of the normal n and the level direction across it into that of the cloth: n to
- * `level`, and k, which is up across n, to z. Or back. */
+/* Turns the plane of the normal n and the level direction across it into the plane of the cloth: n
+ * to `level`, and k, which is up across n, to z. Or back. */
 static void turn_plane(const double source[2][3], const double target[2][3], double vector[3]) {
   double along[2];
   for (int axis = 0; axis < 2; axis++)
@@ -294,7 +294,8 @@ carom_nose carom_nose_of(const carom_sim *sim, const carom_due *pending_event,
 CAROM_CUSHION_MODELS(AGREES)
 #undef AGREES
 
-/* Number by number, where they are read: each copy of the whole costs 1 % of a shot. */
+/* Number by number, where they are read, because each copy of the complete struct takes 1 % of a
+ * shot. */
 static void take_cushion_options(const carom_sim *sim, const carom_ball_kind *kind,
                                  carom_cushion_options *options) {
   options->model = carom_cushion_model_of(sim->opt, kind);
@@ -341,7 +342,7 @@ static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const
   carom_take_impulse(&touch, kind->radius, (1.0 + c.e) * touch.closing, J_t, state);
 }
 
-/* A ball on the cloth, by the model asked for. */
+/* A ball on the cloth, by the model requested. */
 static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind *kind,
                                     const double normal[2], const carom_nose *nose,
                                     carom_ball_state *state) {
@@ -360,7 +361,7 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
   carom_motion out;
   carom_status status = carom_cushion_solve(&in, &options, &out);
 
-  /* a shot goes on by the same model's steps where its limit is refused, as for a ball whose
+  /* a shot continues by the same model's steps where its limit is rejected, as for a ball whose
    * rolling is exact but for rounding
    */
   if (status == CAROM_ERROR_UNRESOLVED && options.model == CAROM_CUSHION_MATHAVAN) {
@@ -387,8 +388,8 @@ carom_status carom_model_cushion(const carom_sim *sim, const carom_due *pending_
   if (chi >= 1.0)
     return CAROM_OK;
 
-  /* the flat model, along the horizontal part of n; a ball that does not move into the cushion
-   * stays as it is */
+  /* the flat model, along the horizontal part of n; a ball that does not move into the cushion does
+   * not change */
   const double size = carom_plane_size(normal), level[2] = {normal[0] / size, normal[1] / size};
   const double v_z = carom_lesser(flat.v[2], 0.0);
   const carom_status status = impact_on_cloth(sim, kind, level, &nose, &flat);

@@ -1,13 +1,13 @@
 /* States for drawing: pocketed balls that fall.
  *
  * For the shot a ball that reaches a pocket's circle is down. For drawing it falls freely from
- * there, until it lies at the pocket's depth, where it stays. Let p be its place from the pocket's
+ * there, until it is at the pocket's depth, where it stays. Let p be its position from the pocket's
  * middle, and v its horizontal velocity, where it reaches the circle. It goes straight,
  *     p(t) = p + v t,
- * to the wall, which is the circle of radius W on which its centre can be; then with the part of
- * v along the wall, u, around on it by the angle u t / W. W is the pocket's radius less the ball's;
- * where its way passes the middle farther off than that, W is that distance, and where it flies
- * across the circle and is on its way out, W is where it is.
+ * to the wall, which is the circle of radius W on which its centre can be; then with the component
+ * of v along the wall, u, around on it by the angle u t / W. W is the pocket's radius minus the
+ * ball's; if its path passes the middle at a greater distance, W is that distance, and if it flies
+ * across the circle and is leaving, W is its present distance.
  *
  *         .-'''''-.   pocket       v   p: from the middle to where the ball comes in
  *       .' .-'''-. '.          .-'     W: the wall, on which its centre goes around
@@ -17,11 +17,11 @@
  *       '.  '---'  .'
  *         '-.....-'
  *
- * A ball that comes down on one that lies, at q, goes on around it in the direction in which it
+ * A ball that comes down on one that lies, at q, continues around it in the direction in which it
  * touched it, at the level distance
  *     D = sqrt((R + R_q)^2 - (z - z_q)^2),
  * or in the nearest direction in which that is within the wall. Where there is none, or it touches
- * a third one, it lies there. */
+ * a third one, it is there. */
 #include "carom_shot.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
@@ -31,7 +31,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Where a ball lies. */
+/* Where a ball rests. */
 typedef struct lying {
   int64_t pocket;
   double r[3], radius;
@@ -43,7 +43,7 @@ typedef struct pocket_fall {
   const carom_ball_kind *kind;
   const carom_ball_state *entry;
   double wall, hit; /* W, and when the ball is there, s */
-  double end;       /* when it lies, s */
+  double end;       /* when it comes to rest, s */
   const lying *others[CAROM_BALLS_MOST];
   int count;
   /* that which it touches, when, s, and how far from the pocket's middle at most; in the frame of
@@ -57,7 +57,7 @@ static double height_of(const pocket_fall *fall, double time) {
   return fall->entry->r[2] + time * (fall->entry->v[2] - 0.5 * fall->kind->gravity * time);
 }
 
-/* The wall, and when the ball comes to it. */
+/* The wall, and when the ball reaches it. */
 static void find_wall(pocket_fall *fall) {
   /* the middle of the way is nearest to the pocket's; W */
   const double x = fall->entry->r[0] - fall->pocket->centre[0],
@@ -81,7 +81,7 @@ static void find_wall(pocket_fall *fall) {
   }
 }
 
-/* The way of a ball in an empty pocket: place from the pocket's middle, and velocity. */
+/* The path of a ball in an empty pocket: position from the pocket's middle, and velocity. */
 static void fall_alone(const pocket_fall *fall, double time, double place[2], double velocity[2]) {
   /* straight to the wall */
   const double straight = carom_lesser(time, fall->hit);
@@ -103,13 +103,14 @@ static void fall_alone(const pocket_fall *fall, double time, double place[2], do
   velocity[1] = along * x / fall->wall;
 }
 
-/* Level distance that a ball at a height has to keep from one that lies. */
+/* Horizontal distance that a ball at a height has to keep from a resting one. */
 static double distance_from(const pocket_fall *fall, const lying *neighbor, double height) {
   const double sum = fall->kind->radius + neighbor->radius, up = height - neighbor->r[2];
   return sqrt(carom_greater(sum * sum - up * up, 0.0));
 }
 
-/* That one of those that lie, other than the touched one, in which a ball would be at a place. */
+/* That one of those that lie, other than the touched one, in which a ball would be at a
+ * position. */
 static const lying *in_its_way(const pocket_fall *fall, double time, const double place[2]) {
   const double height = height_of(fall, time);
   for (int index = 0; index < fall->count; index++) {
@@ -123,7 +124,7 @@ static const lying *in_its_way(const pocket_fall *fall, double time, const doubl
   return NULL;
 }
 
-/* From one that lies, the direction of the pocket's middle, and its distance. */
+/* From a resting ball, the direction of the pocket's middle, and its distance. */
 static double to_middle(const pocket_fall *fall, const lying *neighbor, double toward[2]) {
   const double x = fall->pocket->centre[0] - neighbor->r[0],
                y = fall->pocket->centre[1] - neighbor->r[1], far = sqrt(x * x + y * y);
@@ -136,7 +137,7 @@ static double to_middle(const pocket_fall *fall, const lying *neighbor, double t
   return far;
 }
 
-/* The place from the pocket's middle around the one that was touched. Returns whether there is
+/* The position from the pocket's middle around the one that was touched. Returns whether there is
  * one within the wall. */
 static bool around(const pocket_fall *fall, double time, double place[2]) {
   double toward[2];
@@ -156,15 +157,15 @@ static bool around(const pocket_fall *fall, double time, double place[2]) {
   return least <= 1.0;
 }
 
-/* The place from the pocket's middle, and the velocity of a ball that touches none. Returns whether
- * it is free. */
+/* The position from the pocket's middle, and the velocity of a ball that touches none. Returns
+ * whether it is free. */
 static bool place_at(const pocket_fall *fall, double time, double place[2], double velocity[2]) {
   fall_alone(fall, time, place, velocity);
   const bool within = fall->touched == NULL || time < fall->touch || around(fall, time, place);
   return within && in_its_way(fall, time, place) == NULL;
 }
 
-/* The last time up to the end at which the place is still free, from a time on. */
+/* The last time up to the end at which the position is still free, from a time on. */
 static double last_free(const pocket_fall *fall, double start) {
   static const int parts = 200; /* of the time: drawings show no shorter passage */
   enum { BISECTIONS = 40 };     /* to rounding */
@@ -190,7 +191,7 @@ static double last_free(const pocket_fall *fall, double start) {
   return fall->end;
 }
 
-/* The first touch, and when the ball lies: at the depth, or on others. */
+/* The first touch, and when the ball rests: at the depth, or on others. */
 static void find_end(pocket_fall *fall) {
   const double gravity = fall->kind->gravity, rise = fall->entry->v[2],
                down = carom_greater(fall->entry->r[2] + fall->pocket->depth, 0.0);
@@ -232,7 +233,7 @@ static void state_at(const pocket_fall *fall, double time, carom_ball_state *sta
   const bool lies = time >= fall->end;
   time = carom_lesser(time, fall->end);
   place_at(fall, time, place, velocity);
-  /* around another one the velocity is that of the way */
+  /* around another ball the velocity is the path's */
   if (!lies && fall->touched != NULL && time > fall->touch) {
     place_at(fall, carom_greater(time - soon, 0.0), previous, none);
     for (int axis = 0; axis < 2; axis++)
@@ -280,7 +281,7 @@ carom_status carom_shot_falls(const carom_table *table, const carom_shot_ball *b
         state_at(&fall, times[instant] - event->time,
                  &states[instant * (size_t)count + (size_t)event->a]);
 
-    /* where it lies at last, for those that fall on it */
+    /* where it is at last, for those that fall on it */
     if (down == CAROM_BALLS_MOST) /* events that no shot has */
       continue;
     carom_ball_state last = event->before[0];

@@ -21,7 +21,7 @@
  * stay.
  *
  * SPRINGS. Both contacts load as k d, and unload as k/e^2 (d - rest) with rest = (1 - e^2) d_max,
- * so that e^2 of the work comes back. Where the force has reached 0 the contact leaves: it has no
+ * so that e^2 of the work returns. Where the force has reached 0 the contact leaves: it has no
  * force, and the set recovers as d falls. If it closes again before d is 0, it loads along the line
  * of unloading from there. It is open where d < 0; what closes then touches anew. A cue without a
  * follow-through does not touch anew.
@@ -31,10 +31,10 @@
  *
  *   z(t) = z(0) C(t) + z'(0) U(t)     C'' = -lambda C, C(0) = 1, C'(0) = 0, and U' = C, U(0) = 0
  *
- * and C and U of a sum of two times follow from those of both. No step has to be small: steps are
+ * and C and U of a sum of two times follow from C and U of both. No step has to be small: steps are
  * taken only to find where a phase ends. That is where a value changes its sign within a step, or
- * dips below 0 and comes back. Hermite's cubic gives the time, and one step of Newton's method on
- * the modes themselves makes it exact. Slip and impulses follow from the speeds.
+ * dips below 0 and returns. Hermite's cubic gives the time, and one step of Newton's method on the
+ * modes themselves makes it exact. Slip and impulses follow from the speeds.
  *
  * The law is homogeneous: all speeds over V are the same for each V, and only the ratio of the
  * times of tip and slate counts. Two limits break this, the end of the follow-through and the end
@@ -53,19 +53,20 @@
 #include <string.h>
 
 enum { PHASES_MOST = 400, STEPS_OF_PHASE = 3000, FINER_MOST = 5 };
-static const double STEP = 0.6;      /* of a phase's faster mode, rad */
-static const double FINER = 6.0;     /* parts of a step whose ends do not tell what happens in it */
-static const double too_slow = 1e-9; /* of the cue's speed: contacts that close slower are none */
-static const double least_e = 0.2;   /* of a slate */
+static const double STEP = 0.6;       /* of a phase's faster mode, rad */
+static const double FINER = 6.0;      /* subdivisions of a step whose ends do not show what happens
+                                        in it */
+static const double too_slow = 1e-9;  /* of the cue's speed: contacts that close slower are none */
+static const double least_e = 0.2;    /* of a slate */
 static const double least_tip = 0.05; /* e of a tip, as in cluster/push.c */
 
-/* A vertex is too near to 0 to tell its sign where it is less than this part of its fall. */
+/* A vertex is too near to 0 to determine its sign if it is less than this fraction of its fall. */
 #define UNCLEAR_PART 0.1
-/* Eigenvalues are this part of their sum apart at least, so that there are two modes. */
+/* Eigenvalues differ by at least this fraction of their sum, so that there are two modes. */
 #define LEAST_SPLIT 1e-8
-/* Newton's method corrects the end of a phase by less than this part of a step. */
+/* Newton's method corrects the end of a phase by less than this fraction of a step. */
 #define CORRECTION_MOST 0.2
-/* A phase that ends within this part of a step has taken no time. */
+/* A phase that ends within this fraction of a step has taken no time. */
 #define NO_TIME 1e-9
 
 /* What can end a phase: the branch of a contact, or the state of the foot. The branches:
@@ -89,7 +90,7 @@ typedef struct push_spring {
 typedef struct push_state {
   double B, S, D, mu;    /* the numbers of the equations */
   double V, mass_ratio;  /* of the cue: speed before the strike, m/s; m/M */
-  double follow;         /* m: how far the cue goes on */
+  double follow;         /* m: how far the cue continues */
   push_spring spring[2]; /* of tip and slate */
   double time;           /* s since the touch */
   double slip;           /* s, m/s */
@@ -120,7 +121,7 @@ typedef struct instant {
 /* A value whose sign ends a phase: at the start of a step and at its end, or at its vertex within
  * the step, and its rates there. */
 typedef struct ending {
-  double start, from_rate, end, to_rate, share; /* share: the part of the step up to `to` */
+  double start, from_rate, end, to_rate, share; /* share: the fraction of the step up to `to` */
   int next;                                     /* the branch that follows */
 } ending;
 
@@ -152,7 +153,7 @@ static void turn_to(push_spring *spring, int next) {
 }
 
 /* Whether a value that is not beyond 0 at either end of a step is so at its vertex within it.
- * *is_unclear becomes true where that is too close to tell. */
+ * *is_unclear becomes true if that is too close to decide. */
 static bool dips(double value, double from_rate, double to_rate, double step, int next,
                  bool *is_unclear, ending *found) {
   const bool falls_first =
@@ -231,7 +232,7 @@ static bool foot_ends(const push_state *push, const instant *start, const instan
   return inside && dips(start->foot, start->foot_rate, end->foot_rate, step, 0, is_unclear, found);
 }
 
-/* The part of a step at which an ending is 0: of Hermite's cubic, less the zeros that it has
+/* The fraction of a step at which an ending is 0: of Hermite's cubic, without the zeros that it has
  * at its start, by Newton's method within bounds. */
 static double part_of_step(const ending *found, double step) {
 
@@ -266,9 +267,9 @@ static double part_of_step(const ending *found, double step) {
 
 /* ---- A phase */
 
-/* C and U of an eigenvalue at a time t up to STEP of the faster mode, to 1e-15, by sums and
- * products alone. With q = -lambda t^2, C is the sum of q^n/(2n)!, and U/t that of q^n/(2n + 1)!,
- * each by its even and its odd powers, which are computed at one time. */
+/* C and U of an eigenvalue at a time t up to STEP of the faster mode, to 1e-15, only by sums and
+ * products. With q = -lambda t^2, C is the sum of q^n/(2n)!, and U/t that of q^n/(2n + 1)!, each by
+ * its even and its odd powers, which are computed together. */
 static void swing_of(double lambda, double time, double *C, double *U) {
   const double q = -lambda * time * time, q2 = q * q;
   const double c_even = 1.0 + q2 * (1.0 / 24.0 + q2 * (1.0 / 40320.0 + q2 * (1.0 / 479001600.0)));
@@ -304,7 +305,7 @@ static swing swing_on(const push_phase *phase, const swing *first, const swing *
 static void begin_phase(const push_state *push, push_phase *phase) {
   const push_spring *tip = &push->spring[TIP], *slate = &push->spring[SLATE];
 
-  /* A, with the friction of the foot in place: that which holds, or mu N */
+  /* A, with the friction of the foot: the friction that holds, or mu N */
   const double held = push->D * push->D / CAROM_SPHERE_SLIP;
   const double B = push->slips ? push->B : push->B - held,
                S = push->slips ? push->S + push->mu * push->D : push->S; /* of N in x'' */
@@ -379,7 +380,7 @@ static void instant_at(const push_state *push, const push_phase *phase, const sw
   }
 }
 
-/* Which of the endings comes first within a step, or -1, and at which part of it. */
+/* Which of the endings is first within a step, or -1, and at which fraction of it. */
 static int first_ending(const push_state *push, const instant *start, const instant *end,
                         double step, bool *is_unclear, double *part, ending *first) {
   int contact = -1;
@@ -539,8 +540,8 @@ static double impulse_of_tip(const push_state *push) {
          both;
 }
 
-/* How long a contact that has no force needs until it has one again; infinite: it has none any
- * more. */
+/* How long a contact without a force needs until it has one again; infinite: it never has one
+ * again. */
 static double wait_of(const push_state *push, int contact) {
   const push_spring *spring = &push->spring[contact];
   if (spring->branch == LEAVES)

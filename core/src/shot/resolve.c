@@ -32,38 +32,38 @@
  * a ball is left that moves into the cushion. It would hit again at the same instant, a thousand
  * times where the nose is near the cloth. The same event lets it part as a slow contact does.
  *
- * IN SPACE. Where a ball flies, or two radii differ, the line of centres and the normal of a
- * nose have a third component, and the models are those of spheres, far enough from the cloth;
- * the rules above are the same. A ball on the cloth may leave it then: pushed down it is airborne
- * with v_z < 0 and lands at the same instant, as an event of its own, since two balls part long
- * before ball and cloth do.
+ * IN SPACE. Where a ball flies, or two radii differ, the line of centres and the normal of a nose
+ * have a third component, and, far enough from the cloth, the models for spheres are used; the
+ * rules above are the same. A ball on the cloth may leave it then: pushed down it is airborne with
+ * v_z < 0 and lands at the same instant, as its own event, since two balls part long before ball
+ * and cloth do.
  *
- * NEAR THE CLOTH. The cloth holds a ball that a cushion presses down, which takes longer than
- * the contact with the cloth; nose and slate one after the other would let it hop by
- * centimetres. A ball on the cloth has the flat model, a flying one that of a free sphere; and
- * with chi = (z - R) / 1 mm < 1 it has (1 - chi) of the flat result and chi of the free one, in
- * v and w, the flat one's v_z being min(v_z, 0). This is continuous at both ends and safe:
- * kinetic energy is convex and neither end has more than before, and both ends part. 1 mm is a
- * convention.
+ * NEAR THE CLOTH. The cloth holds a ball that a cushion presses down, which takes longer than the
+ * contact with the cloth; nose and slate one after the other would let it hop by centimetres. A
+ * ball on the cloth has the flat model, a flying ball the model of a free sphere; and with chi = (z
+ * - R) / 1 mm < 1 its v and w are (1 - chi) times the flat result plus chi times the free one,
+ * where v_z of the flat result is min(v_z, 0). This is continuous at both ends and safe: kinetic
+ * energy is convex and neither end has more than before, and both ends part. 1 mm is a convention.
  *
- * Two balls near the cloth are alike: they have (1 - phi) of the model on the cloth and phi of that
- * of spheres. cluster/cluster.h has phi, which grows with the height and with the tilt of the line
- * of centres, so that it is 0 for equal balls on the cloth. The model on the cloth has its plane
- * through the line of centres then, and leaves velocities across that plane as they are. Both ends
- * part along the line of centres. A ball that is lifted flies, one that is pressed down lands.
+ * Two balls near the cloth are treated in the same way: (1 - phi) times the model on the cloth plus
+ * phi times the model of spheres. cluster/cluster.h has phi, which grows with the height and with
+ * the tilt of the line of centres, so that it is 0 for equal balls on the cloth. The model on the
+ * cloth has its plane through the line of centres then, and leaves velocities across that plane as
+ * they are. Both ends part along the line of centres. A ball that is lifted flies, one that is
+ * pressed down lands.
  *
- * PRESSED BY WEIGHT. A ball that lies on another, or on a nose, is pressed by its weight, which
+ * PRESSED BY WEIGHT. A ball that is on another, or on a nose, is pressed by its weight, which
  * does not end as spin does. So a slow contact in space takes energy from phi of the motion of
  * the balls past each other, too, as opposite impulses on both. The cloth takes an impulse that
  * pushes a ball down at once, without a landing. The upper ball hops as it rolls off.
  *
  * ON TOP. Two balls above each other, n_z > 0.7, have s >= 20 mm/s: hops of the upper one are as
- * high as the least of the slate. Exactly above each other they would hop in place for ever. So
+ * high as the least of the slate. Exactly above each other they would hop on one spot for ever. So
  * near the top, at q = sqrt(n_x^2 + n_y^2) < 0.05, they part aside at (1 - q / 0.05) of the speed
  * at which they part upwards, or of 20 mm/s, at least, with the energy that they have. A ball that
  * is balanced there on one that the cloth holds has no such energy: it parts at 10 mm/s at least,
- * as if it had been laid down from 5 um. Energy rises nowhere else, and there by 9 uJ at most.
- * A fall then ends after 130 events in the mean, and after 301 of 2,912 falls at most
+ * as if it had been laid down from 5 um. Energy rises nowhere else, and there by 9 uJ at most. A
+ * fall then ends after 130 events in the mean, and after 301 of 2,912 falls at most
  * (core/tests/physics/air.c). */
 #include "cluster/cluster.h"
 #include "platform/promise.h"
@@ -109,8 +109,8 @@ typedef struct contact_pair {
   double normal[3];    /* from a to b, or into the cushion */
   bool in_space;       /* a ball flies, or the radii differ */
   double freedom;      /* phi, NEAR THE CLOTH */
-  bool held_a, held_b; /* the cloth takes the vertical part of an impulse that pushes the ball
-                          down */
+  bool held_a, held_b; /* the cloth receives the vertical component of an impulse that pushes the
+                          ball down */
 } contact_pair;
 
 /* An impulse along a direction, against a and on b. */
@@ -168,7 +168,7 @@ static double part_slowly(const contact_pair *contact, double slow, double m, do
   if (!(lost > 0.0))
     return fmax(closing, 0.0);
 
-  /* the same share of all spins and of the motion past each other */
+  /* the same fraction of all spins and of the motion past each other */
   const double share = sqrt(1.0 - lost / spin) * (1.0 - ROUNDED_ENERGY);
   CAROM_PROMISE(!(share < 0.5 || share > 1.0));
   slow_spin(contact->a, share);
@@ -197,8 +197,8 @@ static void resolve_slowly(const contact_pair *contact, double slow, double clos
       contact->a->v[axis] -= change * contact->normal[axis];
 }
 
-/* ON TOP: the least part of the motion that goes aside. Returns whether it was less. Apart, for the
- * stack of derivatives. */
+/* ON TOP: the smallest fraction of the motion that is sideways. Returns whether it was less. Apart,
+ * for the stack of derivatives. */
 __attribute__((noinline, cold)) static bool part_aside(const contact_pair *contact, double slow) {
   const double q2 = carom_plane_dot(contact->normal, contact->normal),
                q = q2 > 0.0 ? sqrt(q2) : 0.0;
@@ -347,8 +347,8 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *pending_event, carom
                speed = carom_closing(a, b, contact.normal),
                slow = above ? carom_greater(usual, slow_steep) : usual;
 
-  /* by the model, or slowly; a ball that the model leaves moving into a cushion parts slowly, as
-   * the head says */
+  /* by the model, or slowly; a ball that the model leaves moving into a cushion separates slowly,
+   * as explained above */
   carom_status status = CAROM_OK;
   double closing = speed;
   if (speed >= slow)

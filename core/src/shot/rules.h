@@ -1,6 +1,6 @@
 /* The rules of a world: everything that shots do otherwise in one world than in another, but for
  * its default models, shot.h. The loop, the detection and the models read them here, and do not
- * ask which world it is. */
+ * test which rules apply. */
 #ifndef CAROM_SRC_SHOT_RULES_H
 #define CAROM_SRC_SHOT_RULES_H
 
@@ -8,13 +8,13 @@
 #include "shot/sim.h"
 
 typedef struct carom_rules {
-  bool flat;           /* balls stay on the cloth, whatever the options say */
+  bool flat;           /* balls stay on the cloth, whatever the options are */
   bool one_mass;       /* all balls have equal masses */
   bool clusters;       /* contacts of several balls at one instant may last: options.simultaneous */
   bool contacts_slide; /* after a strike or a contact a ball slides, even where it would roll */
   bool abrupt_jaws;    /* jaws have their own friction right from their seams on */
   double simultaneous; /* s: events this much later than the earliest are simultaneous with it */
-  /* numbers that models read besides the options */
+  /* numbers that models read in addition to the options */
   carom_slip euler_slip;               /* of Euler's model of two balls */
   carom_cushion_convention convention; /* of the models of cushions */
   double least_step;                   /* N s, of Euler's model of a cushion */
@@ -22,7 +22,7 @@ typedef struct carom_rules {
   carom_due (*choose)(const carom_sim *sim, const carom_due *pending_events, int count);
   /* The times in [0, T] at which a ball touches the line of a rail, for a gap of g[0] + g[1] t +
    * g[2] t^2, the first one first; the number of them, 0 to 2. The caller takes the first at
-   * which the ball is beside the rail. */
+   * which the ball is next to the rail. */
   int (*touch_rail)(const double g[3], double T, double times[2]);
   /* The first time in [0, T] at which a ball on the cloth touches a jaw or another ball, its
    * centre `reach` away, or falls into a pocket of a radius; or infinity. */

@@ -1,12 +1,11 @@
 /* The rules of the world carom: the order of simultaneous events, and which zeros of a gap are
  * contacts.
  *
- * Events within 1e-12 s of the earliest count as simultaneous, since rounding decides between
- * them. Of those, balls that fall into pockets come first, then ends of phases on the cloth and
- * balls that leave the table, then contacts, landings among them, the one that closes fastest
- * first; where that too is equal to a part in 1e9, the one of the lower index, and of one ball
- * its landing, then cushions, then balls. So a symmetrical layout is resolved in an order that
- * rounding does not change.
+ * Events within 1e-12 s of the earliest count as simultaneous, since rounding decides between them.
+ * Of those, the order is: balls that fall into pockets, then ends of phases on the cloth and balls
+ * that leave the table, then contacts, including landings, the fastest closing first; if the speeds
+ * are equal to a part in 1e9, the lower index first, and for one ball its landing, then cushions,
+ * then balls. So a symmetrical layout is resolved in an order that rounding does not change.
  *
  * A contact is where a gap is 0 and closing (gap.c). */
 #include "motion/gap.h"
@@ -90,7 +89,7 @@ static int touch_rail(const double gap[3], double horizon, double times[2]) {
   return times[0] <= horizon;
 }
 
-/* A ball in a pocket's circle is there by rounding, at an event on the circle: a layout has none
+/* A ball in a pocket's circle is there by rounding, at an event on the circle; a layout has no ball
  * in there. */
 static double enter_pocket(const carom_separation *separation, double radius, double horizon) {
   if (carom_plane_dot(separation->d0, separation->d0) <= radius * radius)

@@ -27,9 +27,9 @@
 static const double root_least = 2.220446049250313e-14;
 static const double spacer = 1e-6, longest = 5e-6; /* m */
 /* Balls keep touching where their normal velocities, m/s, differ by less than this, and the cosine
- * of their directions is above that; this part of the faster one passes over. */
+ * of their directions is above that; this fraction of the faster one is passed on. */
 static const double keeps_touching = 0.01, nearly_parallel = 0.9, passed_over = 0.1;
-static const double nearly_real = 1e-3; /* imaginary part of a zero, of its real part */
+static const double nearly_real = 1e-3; /* imaginary part of a zero, relative to its real part */
 
 /* ---- ORDER */
 

@@ -12,7 +12,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Counts an event, and gives the place where its states go: in the caller's list, or a spare one
+/* Counts an event, and gives the position where its states go: in the caller's list, or a spare one
  * where that has no room. */
 static inline carom_event *note(carom_sim *sim, carom_event *spare,
                                 const carom_due *pending_event) {
@@ -89,7 +89,7 @@ static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
   }
 }
 
-/* A cluster that hands on places may move a ball on the cloth beyond a nose that it had not
+/* A cluster that changes positions may move a ball on the cloth beyond a nose that it had not
  * reached: it stays at the nose, whose impact then follows. */
 static void stay_before_noses(const carom_sim *sim, int ball, const carom_ball_state *before,
                               carom_ball_state *state) {
@@ -131,12 +131,12 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *clu
   carom_status status = CAROM_OK;
   const int struck = sim->struck;
   for (int index = 0; index < count; index++) {
-    /* one contact as an event of its own; balls stand in the caller's order */
+    /* one contact as its own event; balls are in the caller's order */
     const carom_cluster_contact_state *touching = &cluster->contact[order[index]];
     const carom_cluster_ball *two[2] = {&cluster->ball[touching->i], &cluster->ball[touching->j]};
     const carom_due contact = {sim->time, CAROM_EVENT_BALL_BALL, two[0]->index, two[1]->index};
     CAROM_PROMISE(contact.a < contact.b);
-    /* whether the shot stops is asked for the first contact of the struck ball */
+    /* the first contact of the struck ball decides whether the shot stops */
     if ((contact.a == struck || contact.b == struck) && pending_event->a != struck &&
         pending_event->b != struck)
       *pending_event = contact;
@@ -176,9 +176,9 @@ static carom_status unresolved(carom_sim *sim) {
   return CAROM_ERROR_UNRESOLVED;
 }
 
-/* Those contacts by the cluster; false where its touches have to be taken in turn first. *count
- * becomes that of its contacts. This is a function of its own because a cluster needs 30 KiB of
- * stack. */
+/* Resolves those contacts by the cluster; false if its touches must first be resolved successively.
+ * *count becomes the number of its contacts. This is its own function because a cluster needs 30
+ * KiB of stack. */
 __attribute__((noinline, cold)) static bool step_cluster(carom_sim *sim, carom_due *pending_event,
                                                          carom_in_turn *turn, int *count,
                                                          carom_status *status) {
@@ -213,12 +213,12 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
   return count != 0;
 }
 
-/* Which strike a push is: the first strike of a ball that has others near, the first strike of a
- * ball that has none, or a further touch of the tip. */
+/* Which strike a push is: the first strike of a ball with others nearby, the first strike of a ball
+ * without, or a further touch of the tip. */
 typedef enum push_kind { PUSH_OF_SEVERAL, PUSH_OF_ONE, PUSH_AGAIN } push_kind;
 
 /* Resolves the push of a cue together with the contacts of balls that last meanwhile; their events
- * stand behind that of the strike. Returns false, with nothing changed, where no other ball takes
+ * follow the event of the strike. Returns false, with nothing changed, where no other ball takes
  * part in a PUSH_OF_SEVERAL, and where a PUSH_AGAIN closes below CAROM_LEAST_TOUCH. *contact
  * becomes the first contact of the struck ball. */
 __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_cue *cue,
@@ -268,7 +268,7 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   const carom_status of_contacts = note_contacts(sim, &cluster, order, count, changed, contact);
   if (*status == CAROM_OK)
     *status = of_contacts;
-  /* a tip that is gone stands still */
+  /* a tip that has left does not move */
   carom_follow_on(play, cluster.tip.gone ? 0.0 : cluster.tip.V, carom_cluster_tip_lead(&cluster));
   return true;
 }
@@ -279,7 +279,7 @@ static inline bool may_last(const carom_sim *sim, const carom_due *pending_event
          carom_lasts(sim->opt) && carom_third_is_near(sim, pending_event->a, pending_event->b);
 }
 
-/* One event, or those of a cluster. */
+/* One event, or the events of a cluster. */
 static carom_status step(carom_sim *sim, carom_due *pending_event) {
   carom_status together;
   if (may_last(sim, pending_event) && step_together(sim, pending_event, &together))
@@ -328,7 +328,7 @@ static carom_status step(carom_sim *sim, carom_due *pending_event) {
   return status;
 }
 
-/* Whether the cue strikes at all: it moves, and every ball that is in play lies still. */
+/* Whether the cue strikes at all: it moves, and every ball in play is at rest. */
 static bool may_strike(const carom_sim *sim) {
   if (sim->cue == NULL || !(sim->cue->speed > 0.0))
     return false;
@@ -349,7 +349,7 @@ static carom_strike_kind strike_kind_of(const carom_sim *sim) {
   return CAROM_STRIKE_IN_SPACE;
 }
 
-/* The strike of a ball that meets no other meanwhile, which has the motion `alone` after it. */
+/* The strike of a ball that meets no other meanwhile, whose motion after it is `alone`. */
 static void note_strike(carom_sim *sim, const carom_ball_state *alone, const carom_raised *raised,
                         bool in_space, bool is_push) {
   const int ball = sim->struck;
@@ -453,7 +453,7 @@ static bool stops_at(const carom_sim *sim, const carom_due *event, bool first) {
 }
 
 /* The tip touches the struck ball again, or the follow-through ends. *pending_event becomes what
- * happens; *lies whether the tip closes too slowly, and lies at the ball. */
+ * happens; *lies whether the tip closes too slowly, and stays at the ball. */
 __attribute__((noinline, cold)) static carom_status
 touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
   carom_sim *sim = &play->sim;
@@ -477,18 +477,18 @@ touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
     const carom_due strike_event = {sim->time, CAROM_EVENT_STRIKE, sim->struck, -1};
     if (status == CAROM_OK && stops_at(sim, &strike_event, false))
       status = CAROM_STOPPED_AT_EVENT;
-  } else if (touches) { /* the cue goes on */
+  } else if (touches) { /* the cue continues */
     *f = until_now;
     f->time = INFINITY;
   }
-  /* whether the shot stops at the strike is decided here; at a contact beside it, in go_on() */
+  /* whether the shot stops at the strike is decided here; at a contact next to it, in go_on() */
   if (pending_event->type == CAROM_DUE_NOTHING)
     pending_event->type = CAROM_DUE_PIECE;
   return status;
 }
 
 /* From event to event, until nothing moves or the shot is to stop. Nothing is changed by
- * stopping, so the loop goes on later as if it had not. */
+ * stopping, so the loop continues later as if it had not. */
 static carom_status go_on(carom_play *play) {
   carom_sim *sim = &play->sim;
   int64_t events_most = 10000;
@@ -517,7 +517,7 @@ static carom_status go_on(carom_play *play) {
       return out_of_time;
     }
 
-    /* another piece of a path is no event: only what it meets is looked for */
+    /* another piece of a path is not an event: only what it meets is looked for */
     if (pending_event.type == CAROM_DUE_PIECE) {
       sim->shot->time = sim->time = carom_greater(sim->time, pending_event.time);
       sim->round++;
@@ -560,7 +560,7 @@ static carom_status finish(carom_play *play, carom_status status) {
   for (int ball = 0; shot->final != NULL && ball < sim->count; ball++)
     carom_path_at(&sim->path[ball], &sim->rates[ball], shot->time, &shot->final[ball]);
 
-  /* a shot that a bound has cut off goes on with a greater one */
+  /* a shot that a bound has cut off continues with a greater one */
   const bool goes_on =
       status >= 0 || status == CAROM_ERROR_TOO_LONG || status == CAROM_ERROR_TOO_MANY_EVENTS;
   if (shot->state != NULL && goes_on)
@@ -570,7 +570,7 @@ static carom_status finish(carom_play *play, carom_status status) {
   return status;
 }
 
-/* The strike, and whether the shot is to go on after it. */
+/* The strike, and whether the shot is to continue after it. */
 static carom_status start(carom_play *play) {
   carom_sim *sim = &play->sim;
   carom_due contact = {0.0, CAROM_DUE_NOTHING, -1, -1};
@@ -643,8 +643,8 @@ shoot(const carom_prepared *prepared, const carom_cue *cue, carom_shot *shot, bo
   return finish(&play, status);
 }
 
-/* The same for a caller who does not want the facts that belong to the state. This is a function of
- * its own so that other shots do not need its stack. */
+/* The same for a caller who does not want the facts that belong to the state. This is a separate
+ * function so that other shots do not need its stack. */
 __attribute__((noinline, cold)) static carom_status shoot_with_facts(const carom_prepared *prepared,
                                                                      const carom_cue *cue,
                                                                      carom_shot *shot, bool anew) {
@@ -655,7 +655,7 @@ __attribute__((noinline, cold)) static carom_status shoot_with_facts(const carom
   return status;
 }
 
-/* As a result begins: nothing happened, and there is nothing to go on with. */
+/* As a result begins: nothing happened, and there is nothing to continue with. */
 static void clear(carom_shot *shot) {
   shot->count = 0;
   shot->time = 0.0;
@@ -783,7 +783,7 @@ carom_status carom_shoot_batch(const carom_shot_job *job) {
   const size_t first_bad = carom_in_threads(shoot_rows, job, (size_t)job->n, opt->threads, LEAST);
   if (first_bad == job->n)
     return CAROM_OK;
-  /* Only its index came back through the threads; playing the shot again tells its status. */
+  /* The threads only returned its index; playing the shot again returns its status. */
   checked last;
   no_layout(job, &last);
   return shoot_row(job, first_bad, &last);

@@ -1,5 +1,5 @@
 /* What other rooms may know of shots: layouts, their checks, a shot without them, its models, and
- * the slate. sim.h is for this room alone, and for tangent/text.h, which differentiates it. */
+ * the slate. sim.h is only for this folder, and for tangent/text.h, which differentiates it. */
 #ifndef CAROM_SRC_SHOT_SHOT_H
 #define CAROM_SRC_SHOT_SHOT_H
 
@@ -8,8 +8,8 @@
 #include "schema/numbers.h"
 #include "table/table.h"
 
-/* A layout that has been checked, on its table, with its balls wherever they are. carom_prepare()
- * and carom_prepare_row() alone make one, so whoever has it need not check again. */
+/* A layout that has been checked, on its table, with its balls wherever they are. Only
+ * carom_prepare() and carom_prepare_row() make one, so its users need not check again. */
 typedef struct carom_prepared {
   const carom_table *table;
   const carom_features *features; /* of the table, prepared for the balls */
@@ -22,7 +22,7 @@ typedef struct carom_prepared {
 /* check.c: the arguments that the shots of a batch share; */
 carom_status carom_check_common(const carom_table *table, int64_t count,
                                 const carom_shot_options *opt, int *where);
-/* what a job needs beside them; */
+/* what a job needs in addition to them; */
 carom_status carom_check_job(const carom_shot_job *job);
 /* one layout on the table and with the same options, for which this prepares *features, unless
  * they are for its radii; */
@@ -35,14 +35,14 @@ carom_status carom_prepare(const carom_table *table, const carom_shot_ball *ball
 carom_status carom_check_strike(const carom_prepared *prepared, const carom_cue *cue);
 /* Whether all balls are at rest or out of play, but one (-1: none). */
 bool carom_is_at_rest(const carom_prepared *prepared, int but);
-/* Takes balls, which are not checked yet: those of an array, or of shot k of a job. */
+/* Balls that are not checked yet: of an array, or of shot k of a job. */
 void carom_take_balls(carom_prepared *prepared, const carom_shot_ball *balls, int64_t count);
 void carom_take_row(carom_prepared *prepared, const carom_shot_job *job, size_t row);
 /* shoot.c: carom_shoot() with a prepared layout. */
 carom_status carom_shoot_prepared(const carom_prepared *prepared, const carom_cue *cue,
                                   carom_shot *shot);
 
-/* How many balls or parts of the table an event's b may be one of; INT64_MAX: it is none. */
+/* The number of balls or parts of the table for an event's b; INT64_MAX: b is neither. */
 static inline int64_t carom_others_of(const carom_table *table, int count, int type) {
   switch (type) {
   case CAROM_EVENT_BALL_BALL:
@@ -60,7 +60,7 @@ static inline int64_t carom_others_of(const carom_table *table, int count, int t
   }
 }
 
-/* The options of a shot that its caller gave, or those that NULL stands for. */
+/* The options of a shot that its caller gave, or those that NULL represents. */
 static inline const carom_shot_options *carom_options_or_usual(const carom_shot_options *opt) {
   static carom_shot_options usual; /* all zero; never written: C++ wants no initializer here */
   return opt != NULL ? opt : &usual;
@@ -78,8 +78,8 @@ static inline int64_t carom_events_kept(const carom_shot *shot) {
   return shot->count < shot->room ? shot->count : shot->room;
 }
 
-/* The models of a shot, where 0 is that of its world. A cushion that was measured goes with the
- * balls that have its numbers. */
+/* The models of a shot, where 0 is the default of its rules of contact. A cushion that was measured
+ * goes with the balls that have its numbers. */
 static inline carom_ball_model carom_ball_model_of(const carom_shot_options *options) {
   if (options->ball_model != CAROM_BALL_MODEL_DEFAULT)
     return options->ball_model;
@@ -96,8 +96,8 @@ static inline carom_cushion_model carom_cushion_model_of(const carom_shot_option
   return kind->smooth_q > 0 ? CAROM_CUSHION_SMOOTH : CAROM_CUSHION_HAN;
 }
 
-/* slate.c: the restitution of a ball with the slate, from restitution_table of its kind: 0 stands
- * for the default, -1 for none. */
+/* slate.c: the restitution of a ball with the slate, from restitution_table of its kind: 0 means
+ * the default, -1 none. */
 static inline double carom_slate_restitution(double value) {
   return value >= 0.0 ? carom_or_usual(value, CAROM_USUAL_RESTITUTION_TABLE) : 0.0;
 }
@@ -118,8 +118,8 @@ typedef struct carom_raised {
 } carom_raised;
 
 /* raised.c: a raised cue, cue->tip_time >= 0, strikes a ball at rest on the slate that nothing else
- * touches. *state has the motion by the strike alone, carom_strike_motion() in space, and gets that
- * behind the strike. Returns false where that takes too many steps; *state is as it was then. */
+ * touches. *state has the motion by only the strike, carom_strike_motion() in space, and gets the
+ * motion after it. Returns false where that takes too many steps; *state is as it was then. */
 bool carom_push_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *state,
                       carom_raised *out);
 

@@ -1,4 +1,4 @@
-/* A shot on its way, which the parts of this room share. One carom_play stands on the stack of
+/* A shot in progress, which the sources of this folder share. One carom_play is on the stack of
  * carom_shoot(), nothing is allocated. */
 #ifndef CAROM_SRC_SHOT_SIM_H
 #define CAROM_SRC_SHOT_SIM_H
@@ -14,7 +14,7 @@ typedef struct carom_meeting {
 
 struct carom_rules;
 
-/* The cue that goes on after its push, follow_through.c. */
+/* The cue that continues after its push, follow_through.c. */
 typedef struct carom_follow {
   double end;       /* s: it moves up to then; -1: it does not */
   double start, V;  /* s: it moves since then; at this speed, m/s */
@@ -42,17 +42,17 @@ typedef struct carom_sim {
   carom_world world;
   bool has_hit;  /* the cue ball has met another, */
   bool turned;   /* or a cushion */
-  bool unlike;   /* radii differ from each other or from the table's reference: contacts are those
-                  of spheres in space */
+  bool unlike;   /* radii differ from each other or from the table's reference: contacts are
+                    contacts of spheres in space */
   int flying;    /* airborne balls */
   double widest; /* m: the greatest radius of the balls */
   double time;
   int64_t slow_instants; /* that had a slow contact, so far; see resolve.c */
   double slow_last;      /* s: the last of them */
-  int64_t round;         /* events so far: tells when an entry below was computed */
+  int64_t round;         /* events so far: shows when an entry below was computed */
   carom_ball_rates rates[CAROM_BALLS_MOST];
   carom_path path[CAROM_BALLS_MOST];
-  /* the paths once more, in columns: those of pairs are searched many at a time */
+  /* the paths once more, in columns: many pairs are searched at a time */
   double x[CAROM_COLUMN], y[CAROM_COLUMN], v_x[CAROM_COLUMN], v_y[CAROM_COLUMN], a_x[CAROM_COLUMN],
       a_y[CAROM_COLUMN], start[CAROM_COLUMN], horizon[CAROM_COLUMN];
   /* R, 0 and 0 but for airborne balls */
@@ -67,7 +67,7 @@ typedef struct carom_sim {
   int8_t first_with[CAROM_BALLS_MOST];
 } carom_sim;
 
-/* A shot on its way, with the cue that goes on. Only the loop of the shot needs the cue. */
+/* A shot on its way, with the cue that continues. Only the loop of the shot needs the cue. */
 typedef struct carom_play {
   carom_sim sim;
   carom_follow follow;
@@ -79,8 +79,8 @@ typedef struct carom_due {
   int type, a, b; /* a type of event, or one of the following */
 } carom_due;
 
-/* Beside the types of events. CAROM_DUE_PIECE, another piece of ball a's path, is reported to
- * nobody; in the order of simultaneous events it counts as an end of a phase. */
+/* In addition to the types of events. CAROM_DUE_PIECE, another piece of ball a's path, is reported
+ * to nobody; in the order of simultaneous events it counts as an end of a phase. */
 enum {
   CAROM_DUE_REST = -1,         /* nothing will happen any more */
   CAROM_DUE_NOTHING = 0,       /* no event, where one may be */
@@ -88,7 +88,7 @@ enum {
   CAROM_DUE_PIECE = CAROM_EVENT_LEFT_TABLE + 1
 };
 
-/* Whether contacts are looked for in space, and not on the cloth alone. */
+/* Whether contacts are looked for in space, and not only on the cloth. */
 static inline bool carom_in_space(const carom_sim *sim) {
   return sim->flying > 0 || sim->unlike;
 }
@@ -113,9 +113,9 @@ void carom_detect_columns(carom_sim *sim);
 /* state.c: takes fingerprints of table, balls and options, where a state will be kept. */
 void carom_state_begin(carom_sim *sim);
 /* Leaves the shot, of which the state is the copy, without the caller's pointers. The facts so far
- * are those of play->sim.shot. */
+ * are in play->sim.shot. */
 void carom_state_save(carom_play *play, carom_shot_state *state);
-/* Whether play, the copy of a state with the caller's pointers, can go on: CAROM_OK or why not.
+/* Whether play, the copy of a state with the caller's pointers, can continue: CAROM_OK or why not.
  * Numbers that follow from others are computed again; count, time and facts so far go into
  * play->sim.shot. */
 carom_status carom_state_check(carom_play *play, const carom_shot_state *state, int count);
@@ -148,7 +148,7 @@ typedef struct carom_nose {
   double mu_cushion, restitution;
 } carom_nose;
 
-/* models.c: v and w after a collision by the model asked for. normal: unit vector from the first
+/* models.c: v and w after a collision by the model requested. normal: unit vector from the first
  * ball to the second one, or into the cushion. Balls `in_space` are not both on the cloth, or have
  * unlike radii: they collide the more as spheres the higher they are and the more n is tilted; an
  * airborne ball meets a nose with less of the cloth the higher it is. */
@@ -174,7 +174,7 @@ void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_st
  * mean of each. */
 void carom_law_of_ball(carom_ball_friction law, const carom_ball_kind *kind, double k[3]);
 
-/* check.c: the place for events, the options of a shot, and a ball by itself. */
+/* check.c: the position for events, the options of a shot, and a ball by itself. */
 carom_status carom_check_room(const carom_shot *shot);
 carom_status carom_check_shot_options(const carom_shot_options *opt);
 carom_status carom_check_ball(const carom_shot_ball *ball, bool flat);
@@ -203,7 +203,7 @@ void carom_answer_of_slate(const carom_ball_kind *kind, const carom_touch *touch
 
 /* ---- spheres.c: two spheres that collide in space, n the unit vector from ball a to ball b */
 
-/* The speed at which the surface of a slips on that of b, m/s. Positions are not read. */
+/* The speed at which the surface of a slips on the surface of b, m/s. Positions are not read. */
 double carom_spheres_slip(const carom_impact *in, const double normal[3]);
 /* The motion after the impact of balls that close along n. */
 void carom_spheres_collide(const carom_impact *in, const double normal[3], carom_result *out);

@@ -21,10 +21,9 @@
  * acts for the same normal impulse as in the motion on the cloth, so |w_z| falls by 5 mu_sp J /
  * (2 m R), not below 0. The top of a rail is taken for slate.
  *
- * END OF HOPS. v' = sqrt(e^2 v_n^2 - s^2), and 0 where e v_n <= s or v' < 1e-9 m/s, s = 0.02
- * m/s: besides e a fixed loss of m s^2/2, a hop of 20 um. It is continuous in v_n, so no hop of
- * finite height vanishes. With v_k^2 = e^2 v_(k-1)^2 - s^2 a ball that falls at v_0 lands at
- * most
+ * END OF HOPS. v' = sqrt(e^2 v_n^2 - s^2), and 0 where e v_n <= s or v' < 1e-9 m/s, s = 0.02 m/s:
+ * in addition to e a fixed loss of m s^2/2, a hop of 20 um. It is continuous in v_n, so no hop of
+ * finite height vanishes. With v_k^2 = e^2 v_(k-1)^2 - s^2 a ball that falls at v_0 lands at most
  *
  *   n = 2 + ln(1 + v_0^2 (1 - e^2) / s^2) / ln(1 / e^2)
  *
@@ -47,7 +46,7 @@ static const double hop_loss = 0.02, least_hop = 1e-9;
 carom_touch carom_touch_of(const double N[3], double radius, const carom_ball_state *state) {
   const double *velocity = state->v, *rotation = state->w, closing = carom_space_dot(velocity, N);
 
-  /* u: the velocity across N, and that of the turn */
+  /* u: the velocity across N, and the velocity of the turn */
   double turn[3], sliding[3];
   carom_cross(rotation, N, turn);
   for (int axis = 0; axis < 3; axis++)
@@ -97,7 +96,7 @@ carom_touch carom_touch_slate(const carom_ball_kind *kind, const carom_ball_stat
   return touch;
 }
 
-/* A ball falls on the slate, and hops or lies. */
+/* A ball falls on the slate, and hops or stays. */
 void carom_hit_slate(const carom_ball_kind *kind, carom_ball_state *state) {
   const double restitution = carom_slate_restitution(kind->restitution_table);
   const carom_touch touch = carom_touch_slate(kind, state);

@@ -1,4 +1,4 @@
-/* A stopped shot in the keeping of the caller, so that it can go on: carom_shot_state has the
+/* A stopped shot in the keeping of the caller, so that it can continue: carom_shot_state has the
  * carom_sim of the shot, and behind it what the caller has of the result so far.
  *
  * The caller may have kept it in a file, so nothing in it is believed. A state is taken only
@@ -7,7 +7,7 @@
  * columns and firsts.
  *
  * With the state are kept fingerprints of the table, the balls and the options that it is of, so
- * that it does not go on with others. */
+ * that it does not continue with others. */
 #include "platform/fingerprint.h"
 #include "schema/options.h"
 #include "shot/rules.h"
@@ -26,7 +26,7 @@ typedef struct result {
 enum { SIZE = sizeof(carom_play) + sizeof(result) };
 
 /* The first number of a state: another version, another revision of the physics, and another size
- * are refused. */
+ * are rejected. */
 static uint64_t resumable(void) {
   const uint64_t revision = (uint64_t)carom_physics_revision();
   return (uint64_t)CAROM_VERSION_NUMBER << 32 | revision << 20 | SIZE;
@@ -99,7 +99,7 @@ static uint64_t seal_of(const carom_shot_state *state) {
   return carom_fingerprint(resumable(), state->opaque + SEALED, SIZE - SEALED * sizeof(uint64_t));
 }
 
-/* Whether nothing stands in the bytes behind the shot. */
+/* Whether nothing is in the bytes behind the shot. */
 static bool ends_empty(const carom_shot_state *state) {
   uint64_t any = 0;
   for (size_t index = SIZE / sizeof any; index < sizeof *state / sizeof any; index++)
@@ -115,13 +115,13 @@ void carom_state_seal(carom_shot_state *state) {
 void carom_state_save(carom_play *play, carom_shot_state *state) {
   carom_sim *sim = &play->sim;
   const carom_shot *shot = sim->shot;
-  result so_far; /* that of the state until now, of which the events stay */
+  result so_far; /* the shot of the state so far, whose events are kept */
   memcpy(&so_far, state->opaque + sizeof *play / sizeof *state->opaque, sizeof so_far);
   add_events(&so_far, shot, shot->count);
   so_far.time = shot->time;
   so_far.facts = *shot->facts;
   sim->can_go_on = resumable();
-  sim->rules = NULL; /* these come with the next call */
+  sim->rules = NULL; /* the next call provides these */
   sim->table = NULL;
   sim->features = NULL;
   sim->layout = NULL;
@@ -186,7 +186,7 @@ static bool good_meeting(const carom_sim *sim, int i) {
   return m->part >= 0 && m->part < parts && parts < INT64_MAX;
 }
 
-/* Whether the pairs of a ball with those behind it can meet when they are said to. */
+/* Whether the pairs of a ball with later ones can meet at the times given. */
 static bool good_pairs(const carom_sim *sim, int i) {
   bool good = true;
   for (int j = i + 1; j < sim->count; j++) {
@@ -197,7 +197,7 @@ static bool good_pairs(const carom_sim *sim, int i) {
   return good;
 }
 
-/* Whether the result so far can be that of the shot. */
+/* Whether the result so far can belong to the shot. */
 static bool good_result(const carom_sim *sim, const result *so_far) {
   const carom_facts *f = &so_far->facts;
   const int64_t most = so_far->events;
@@ -214,7 +214,7 @@ static bool good_result(const carom_sim *sim, const result *so_far) {
   return good;
 }
 
-/* Whether a cue that goes on can do so. */
+/* Whether a cue that continues can do so. */
 static bool good_follow(const carom_play *play) {
   const carom_sim *sim = &play->sim;
   const carom_follow *f = &play->follow;
@@ -224,7 +224,7 @@ static bool good_follow(const carom_play *play) {
           f->time >= sim->time && carom_check_cue(&f->cue) == CAROM_OK);
 }
 
-/* Whether all indices and numbers are those of a shot of sim->layout on sim->table; those that
+/* Whether all indices and numbers are possible for a shot of sim->layout on sim->table; those that
  * follow from others are computed again. */
 static bool restore(carom_play *play) {
   carom_sim *sim = &play->sim;

@@ -1,12 +1,12 @@
 /* The parts of a table that balls up to a radius can meet, prepared once for all shots that
  * share both: lines with unit normals, boxes for rejection, the hull outside of which no
- * centre has a place, and a box in which every centre has one.
+ * centre has a position, and a box in which every centre has one.
  *
- * That box is around the eye, a place to which a ball can be rolled. As a rule this is the middle
- * of the table: it is on the table if it can be seen from a place beside the longest rail, on its
- * played side. The box is free of the boxes of all parts, so a centre in it can be rolled to the
- * eye. Each part limits its half width or its half length: that of which it leaves the larger
- * share. */
+ * That box is around the eye, a position to which a ball can be rolled. As a rule this is the
+ * middle of the table: it is on the table if it can be seen from a position next to the longest
+ * rail, on its played side. The box is free of the boxes of all parts, so a centre in it can be
+ * rolled to the eye. Each part limits its half width or its half length, whichever keeps the larger
+ * fraction. */
 #include "platform/promise.h"
 #include "table/marks.h"
 #include "table/table.h"
@@ -14,8 +14,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double single_rounding = 1e-5; /* m: of places up to 100 m in single precision */
-static const double single_part = 1e-6;     /* the same, of a place */
+static const double single_rounding = 1e-5; /* m: for positions up to 100 m in single precision */
+static const double single_part = 1e-6;     /* the same, of a position */
 static const double usual_width = 0.12;     /* m: of the top of a rail */
 
 static inline float lesser(float a, float b) {
@@ -84,15 +84,15 @@ static void clear_around_eye(carom_features *features) {
     room_y = lesser(room_y, is_across ? INFINITY : along);
   }
 
-  /* a trace less, for rounding of the places of a table, which may be far from 0 */
+  /* a trace less, for rounding of the positions of a table, which may be far from 0 */
   features->clear[0] =
       (double)room_x - single_part * (fabs(features->hull[0]) + fabs(features->hull[1]));
   features->clear[1] =
       (double)room_y - single_part * (fabs(features->hull[2]) + fabs(features->hull[3]));
 }
 
-/* Finds the eye: the middle of the table if it is seen from the place beside the longest rail;
- * else that place, if it is on the table. */
+/* Finds the eye: the middle of the table if it is seen from the position next to the longest rail;
+ * else that position, if it is on the table. */
 static void find_eye(const carom_table *table, carom_features *features) {
   const carom_ball_kind ball = {.radius = features->radius};
   double place[2];

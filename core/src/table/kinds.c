@@ -28,7 +28,8 @@ static void take_smooth_law(carom_ball_kind *kind) {
   kind->roll_loss_log = 0.034;
 }
 
-/* Takes away what the default's model of the cushion has beside friction and restitution. */
+/* Takes away what the default's model of the cushion has in addition to friction and
+ * restitution. */
 static void drop_smooth_law(carom_ball_kind *kind) {
 #define DROP(member, usual) kind->member = 0.0;
   CAROM_USUAL_SMOOTH(DROP)
@@ -52,7 +53,7 @@ static void take_snooker(carom_ball_kind *kind) {
   kind->drag = 0.0107;
   kind->restitution = 0.955;
 
-  /* the change with speed is that of measured straight rebounds, at 0.5 to 2.5 m/s */
+  /* the change with speed was measured in straight rebounds, at 0.5 to 2.5 m/s */
   take_smooth_law(kind);
   kind->smooth_x = 1.0;
   kind->mu_cushion = 0.28;
@@ -83,7 +84,7 @@ static void take_billiard(carom_ball_kind *kind) {
   kind->roll_loss = 0.091;
 }
 
-/* Games whose balls are those of another one in a size of their own, a row each. */
+/* Games with the balls of another game in another size, a row each. */
 static const struct sized {
   carom_game game, base;
   double radius, mass;
@@ -92,7 +93,7 @@ static const struct sized {
     {CAROM_GAME_PYRAMID, CAROM_GAME_POOL, 0.034, 0.285},
     {CAROM_GAME_FOURBALL, CAROM_GAME_BILLIARD, 0.03275, 0.210 * 1.0650 * 1.0650 * 1.0650}};
 
-/* The row of a game; NULL of one that has numbers of its own. */
+/* The row of a game; NULL for a game with its own constants. */
 static const struct sized *sized_of(carom_game game) {
   for (size_t index = 0; index < sizeof sized_games / sizeof *sized_games; index++)
     if (sized_games[index].game == game)
@@ -168,8 +169,8 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
   return kind;
 }
 
-/* The numbers of a game for a model that is not its default. Those of billiard are in list.h,
- * because a fit of another table begins with them. */
+/* The numbers of a game for a model that is not its default. The constants of billiard are in
+ * list.h, because a fit of another table begins with them. */
 static const struct model_numbers {
   carom_game game;
   carom_shot_cushion cushion;
@@ -184,7 +185,7 @@ static const struct model_numbers {
     {CAROM_GAME_SNOOKER, CAROM_SHOT_CUSHION_MATHAVAN, 0.9, 0.17, 0.0, 0.0, 0.0, 0.0},
     {CAROM_GAME_SNOOKER, CAROM_SHOT_CUSHION_EULER, 0.9, 0.17, 0.0, 0.0, 0.0, 0.0}};
 
-/* Gives a kind the numbers of another model; false where the game has none for it. */
+/* Sets the constants of a kind for another model; false if the game has none for it. */
 static bool take_other(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind) {
   drop_smooth_law(kind);
   if (game == CAROM_GAME_BILLIARD) {
@@ -233,7 +234,7 @@ int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion, carom_ball_
 /* Conditions of a pool table; 0: the number stays. docs/reference/constants.md has the sources
  * of the signs and of the range of mu_roll. The changes of the cushion are one standard deviation
  * of the tables that public systems of players describe, as in calibrate.c. The friction of old
- * ones has two, because with less the banks of a slower rebound come back longer, not shorter. */
+ * ones has two, because with less the banks of a slower rebound return longer, not shorter. */
 static const struct condition_numbers {
   double mu_roll, restitution, mu_cushion;
 } conditions[] = {[CAROM_CONDITION_SLOW_CLOTH] = {0.015, 0.0, 0.0},

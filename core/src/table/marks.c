@@ -1,4 +1,4 @@
-/* The marks of a table for callers, and what lies in the D. */
+/* The marks of a table for callers, and what is in the D. */
 #include "table/marks.h"
 
 #include <stddef.h>

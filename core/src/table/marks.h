@@ -1,5 +1,5 @@
-/* The marks of a table, from which all parts read their places: spots and lines by the rules of the
- * sports. The D is that of a table of snooker of 3.569 by 1.778 m, scaled. */
+/* The marks of a table, from which all parts read their positions: spots and lines by the rules of
+ * the sports. The D is scaled from a snooker table of 3.569 by 1.778 m. */
 #ifndef CAROM_SRC_TABLE_MARKS_H
 #define CAROM_SRC_TABLE_MARKS_H
 

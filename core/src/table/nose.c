@@ -1,6 +1,6 @@
 /* Where the nose of a cushion is, for balls that touch it at any height.
  *
- * A rail stands for a wall at L: a ball on the cloth touches it when its centre is its radius
+ * A rail represents a wall at L: a ball on the cloth touches it when its centre is its radius
  * from L, though it touches the nose at its height h. So the true nose is the line at height h,
  *
  *   delta = R_ref - sqrt(h (2 R_ref - h))

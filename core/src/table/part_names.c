@@ -1,14 +1,14 @@
-/* Where rails and pockets are, in the words of a player at the head of the table, and which of them
- * are beside each other. */
+/* Where rails and pockets are, in the names of a player at the head of the table, and which of them
+ * are next to each other. */
 #include "table/table.h"
 
 #include <math.h>
 #include <stddef.h>
 
-/* rails shorter than this part of the longest one are cuts of pockets */
+/* rails shorter than this fraction of the longest one are cuts of pockets */
 static const double cut_most = 0.2;
-/* A rail whose end is so near to the centre of a pocket is beside it: radii of the pocket. A corner
- * pocket of a pool table has its rails' ends at 1.2 to 1.6 radii; 6 radii would be 0.4 m. */
+/* A rail whose end is so near to the centre of a pocket is next to it: radii of the pocket. A
+ * corner pocket of a pool table has its rails' ends at 1.2 to 1.6 radii; 6 radii would be 0.4 m. */
 static const double beside_most = 3.0;
 
 static double square_of_length(const carom_rail *rail) {
@@ -38,7 +38,7 @@ int carom_is_beside(const carom_table *table, int rail, int pocket) {
          carom_is_near_pocket(table, pocket, table->rail[rail].q);
 }
 
-/* The name of the side of the rectangle, from 0 to width and length, on which a rail lies, or
+/* The name of the side of the rectangle, from 0 to width and length, on which a rail is, or
  * NULL. */
 static const char *side_of(const carom_table *table, int rail) {
   static const char *const names[2][2] = {{"left", "right"}, {"head", "foot"}};
@@ -52,7 +52,7 @@ static const char *side_of(const carom_table *table, int rail) {
   return NULL;
 }
 
-/* A table of too many parts, which every call refuses, is none. */
+/* A table of too many parts, which every call rejects, is none. */
 static bool is_rectangle(const carom_table *table) {
   if (table->rails > CAROM_RAILS_MOST || table->pockets > CAROM_POCKETS_MOST)
     return false;

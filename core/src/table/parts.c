@@ -7,8 +7,8 @@
 static const double least_pocket = 1e-9;  /* m: of a radius */
 static const double off_line_most = 1e-6; /* m: of an end of a rail from its line */
 
-/* 0 where all are finite, else NaN. The parts of a table are checked for each shot that is
- * played alone, so without a branch for each number. */
+/* 0 where all are finite, else NaN. The parts of a table are checked for each single shot, so there
+ * is no branch for each number. */
 static inline double zero_if_finite(const double *values, int count) {
   double sum = 0.0;
   for (int index = 0; index < count; index++)
@@ -35,7 +35,7 @@ static bool good_height(double height, double radius) {
   return height > 0.0 && height < 2.0 * radius;
 }
 
-/* Sets the place of an error. */
+/* Sets the position of an error. */
 static carom_status place_fault(int *where, int index, carom_status status) {
   *where = index;
   return status;
@@ -81,8 +81,8 @@ carom_status carom_prepare_table(const carom_table *table, double least, double 
                                  double reference, carom_features *features, int *where) {
   if (features->radius == greatest && features->least == least && features->reference == reference)
     return CAROM_OK;
-  /* a ball that is behind a narrower top could be below it and clear of the nose, and so come
-   * over the nose from behind */
+  /* a ball behind a narrower top could be below it and clear of the nose, and so cross the nose
+   * from behind */
   if (table->rail_width > 0.0 && table->rail_width < greatest)
     return place_fault(where, -1, CAROM_ERROR_TABLE);
   const double lowest = carom_lesser(least, reference);
@@ -111,7 +111,7 @@ carom_status carom_check_parts(const carom_table *table, double radius, double u
   *part = (carom_part){CAROM_PART_NONE, 0};
   if (carom_surplus_of(status) != CAROM_PART_NONE)
     *part = (carom_part){carom_surplus_of(status), where};
-  /* the checks tell an index alone: they go through rails, jaws and pockets in this order */
+  /* the checks report only an index: they go through rails, jaws and pockets in this order */
   if ((status == CAROM_ERROR_TABLE || status == CAROM_ERROR_NOSE_HEIGHT) && where >= 0) {
     const carom_rail *rail = &table->rail[where];
     const double lowest = carom_lesser(radius, carom_reference_of(table, usual));

@@ -1,9 +1,9 @@
-/* Where balls have a place on a table: the geometry of rails, jaws and pockets for the centre of
+/* Where balls have a position on a table: the geometry of rails, jaws and pockets for the centre of
  * a ball.
  *
- * The parts of a table are a closed ring to the centre of a ball: none gets out but across a
- * part. So a place that is seen from the eye of the table, to which balls can be rolled, is on
- * the table too. Other places are looked at more closely (ring.c), which takes longer. */
+ * For the centre of a ball, the parts of a table are a closed ring: it can only leave across a
+ * part. So a position that is seen from the eye of the table, to which balls can be rolled, is on
+ * the table too. Other positions are examined more closely (ring.c), which takes longer. */
 #include "table/table.h"
 
 #include <math.h>
@@ -40,9 +40,9 @@ static bool in_jaw(const carom_jaw *jaw, const double centre[2], double reach) {
   return in_circle(jaw->centre, jaw->radius + reach - CAROM_MOST_OVERLAP, centre);
 }
 
-/* Whether the way from the eye to a place leads across a rail, as the centre of a ball does that
- * touches it at the distance `reach`. It crosses that line where the place along the rail is the
- * mean of those of both ends, weighted by the distance of the other. */
+/* Whether the way from the eye to a position leads across a rail, as the centre of a ball does that
+ * touches it at the distance `reach`. It crosses that line where the position along the rail is the
+ * mean of the positions of both ends, each weighted by the distance of the other. */
 static bool crosses_rail(const carom_features *features, int rail, const double centre[2],
                          double reach) {
   const double gap_at_eye = distance_to(features, rail, features->eye) - reach,
@@ -54,13 +54,13 @@ static bool crosses_rail(const carom_features *features, int rail, const double 
                        (gap_at_eye - gap_at_place);
   return place >= 0.0 && place <= 1.0;
 }
-/* The same for a circle: whether the place of the way that is nearest to its centre is in it. */
+/* The same for a circle: whether the position of the way that is nearest to its centre is in it. */
 static bool crosses_circle(const carom_features *features, const double centre[2], double radius,
                            const double point[2]) {
   const double way[2] = {point[0] - features->eye[0], point[1] - features->eye[1]},
                to_centre[2] = {centre[0] - features->eye[0], centre[1] - features->eye[1]};
 
-  /* the place of the way that is nearest to the centre of the circle, between both ends */
+  /* the position of the way that is nearest to the centre of the circle, between both ends */
   const double size2 = carom_plane_dot(way, way),
                along = carom_lesser(carom_greater(carom_plane_dot(way, to_centre), 0.0), size2),
                share = size2 > 0.0 ? along / size2 : 0.0;
@@ -99,7 +99,7 @@ bool carom_is_in_sight(const carom_ground *ground, const double centre[2]) {
   return true;
 }
 
-/* Of a place that is not clear. */
+/* Of a position that is not clear. */
 static bool is_outside(const carom_ground *ground, const double centre[2]) {
   const carom_features *features = ground->features;
   return !is_in_hull(features, centre) ||

@@ -33,7 +33,7 @@ static const double FARTHEST = 1e6;  /* m: of a corner, a mouth or a jaw; farthe
 static const double STRAIGHT = 1e-9; /* of the sum of two directions at a straight corner */
 static const double POCKET_DEPTH = 0.08; /* m: where balls lie in drawings */
 static const double CLEARLY = 0.17;      /* sine of the turn at a corner where rails need no jaw */
-static const double SAFE = 0.9;          /* part of the greatest d */
+static const double SAFE = 0.9;          /* fraction of the greatest d */
 
 /* A corner: where it is, the directions to the next and the one before, and where rails end. */
 typedef struct corner_joint {
@@ -47,7 +47,7 @@ static double direction(const double start[2], const double end[2], double way[2
   return size;
 }
 
-/* The table is to the left of a rail from p to q: a line of zeros says so. */
+/* The table is to the left of a rail from p to q, which a line of zeros means. */
 static void add_rail(carom_table *table, double nose, const double p[2], const double q[2]) {
   carom_rail *rail = &table->rail[table->rails++];
   *rail = (carom_rail){.p = {p[0], p[1]}, .q = {q[0], q[1]}, .height = nose, .side = 1};
@@ -94,7 +94,7 @@ static void add_pocket(carom_table *table, const corner_joint *joint, double nos
                      .depth = POCKET_DEPTH};
 }
 
-/* Tells which corner is at fault, and beside which other; -1: none. */
+/* Reports which corner is at fault, and together with which other; -1: none. */
 static carom_status blame(carom_table_fault *fault, int corner, int second, carom_status status) {
   fault->part = (carom_part){CAROM_PART_CORNER, corner};
   if (second >= 0)

@@ -10,8 +10,8 @@
 #include <string.h>
 
 /* Racks as rows. A triangle has `rows` rows, of which row `spot` has its middle on the foot spot; a
- * diamond of nine balls has its widest row in the middle. Balls of `fixed` have their places, from
- * the front and from the left; the others have none of their own. Other balls stand on spots. */
+ * diamond of nine balls has its widest row in the middle. Balls of `fixed` have their positions,
+ * from the front and from the left; the others have no fixed ones. Other balls are on spots. */
 typedef struct rack_row {
   carom_game game;
   int size; /* with the cue ball */
@@ -100,7 +100,7 @@ static void put(rack *layout, int ball, double x, double y) {
       (carom_shot_ball){.kind = layout->kind, .state = {.r = {x, y, layout->kind.radius}}};
 }
 
-/* A place of the triangle: row 0 is its front, places count from the left. Up to a quarter of
+/* A position of the triangle: row 0 is its front, columns count from the left. Up to a quarter of
  * the gap off, in any direction. */
 static void put_in_row(rack *layout, int ball, double front, int row, int place) {
   const double pitch = 2.0 * layout->kind.radius + layout->gap;
@@ -123,7 +123,8 @@ static void shuffle(rack *layout, int *number, int count) {
   }
 }
 
-/* Fills the places that are still 0 with the numbers from 1 to `last` that have no place yet. */
+/* Fills the positions that are still 0 with the numbers from 1 to `last` that have no position
+ * yet. */
 static void fill(rack *layout, int *number, int last) {
   int rest[16], count = 0, next = 0;
   for (int index = 1; index <= last; index++) {
@@ -139,7 +140,7 @@ static void fill(rack *layout, int *number, int last) {
       number[p] = rest[next++];
 }
 
-/* Sets up the balls of a row that form a pack, whose front lies at y = front. */
+/* Sets up the balls of a row that form a pack, whose front is at y = front. */
 static void pack(rack *layout, const rack_row *row, double front) {
   static const int widths[5] = {1, 2, 3, 2, 1}; /* of a diamond */
   int last = row->rows * (row->rows + 1) / 2;
@@ -166,7 +167,7 @@ static void pack(rack *layout, const rack_row *row, double front) {
 
 /* ---- Spots by the rules of the sports */
 
-/* Places of balls on the middle line, as shares of the length, for racks without a pack. */
+/* Positions of balls on the middle line, as fractions of the length, for racks without a pack. */
 static const double middle_spots[][4] = {[CAROM_RACK_THREECUSHION] = {0.25, 0.25, 0.75},
                                          [CAROM_RACK_FOURBALL] = {0.25, 0.875, 0.25, 0.75},
                                          [CAROM_RACK_COWBOY] = {0.125, 0.25, 0.75, 0.5},
@@ -193,7 +194,7 @@ static void find_snooker_spot(const carom_table *table, int ball, double place[2
   place[1] = along[ball - YELLOW];
 }
 
-/* Whether a ball of snooker has a spot of its own. */
+/* Whether a ball of snooker has its own spot. */
 static bool has_snooker_spot(carom_rack_kind kind, int ball) {
   return kind == CAROM_RACK_SNOOKER && (ball == 0 || ball >= 16);
 }
@@ -215,7 +216,7 @@ carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int b
     spot = marks.head_spot;
   memcpy(place, spot, sizeof marks.foot_spot);
 
-  /* games whose balls have spots of their own; the cue balls of two begin beside the middle */
+  /* games whose balls have their own spots; the cue balls of two begin off the middle */
   if (row->rows == 0) {
     const int kinds = sizeof middle_spots / sizeof middle_spots[0];
     if ((int)kind >= kinds || middle_spots[kind][ball] == 0.0)

@@ -1,16 +1,16 @@
 /* The ring of a table: no way out but the pockets, and rails that are played from the right side.
- * And whether a place can be reached from a table's middle.
+ * And whether a position can be reached from a table's middle.
  *
- * To the centre of a ball of radius R, jaws are discs grown by R, pockets discs, and rails
- * segments grown by R; but detection knows of a rail only the segment at the distance R on its
- * played side, not the rounded ends, which jaws stand for. Each of these is convex, and so two
- * that overlap have no hole between them. They keep the centre in a place P exactly where a
- * closed chain of overlapping parts winds around P. So the parts are the nodes of a graph: an
- * edge goes from the middle of one part to a place in it, straight on to a place in the other,
- * and to the middle of that. Along an edge the number of times is counted that a ray from P in
- * the direction of +x is crossed, upward less downward. Over a closed chain these numbers add up
- * to how often it winds around P. A forest of the nodes, each with the sum from its root, tells
- * this for all chains at once: an edge between two nodes of one tree closes a chain.
+ * To the centre of a ball of radius R, jaws are discs grown by R, pockets discs, and rails segments
+ * grown by R; but detection knows of a rail only the segment at the distance R on its played side,
+ * not the rounded ends, which jaws represent. Each of these is convex, and so two that overlap have
+ * no hole between them. They keep the centre in a position P exactly where a closed chain of
+ * overlapping parts winds around P. So the parts are the nodes of a graph: an edge goes from the
+ * middle of one part to a position in it, straight on to a position in the other, and to the middle
+ * of that. Along an edge the number of times is counted that a ray from P in the direction of +x is
+ * crossed, upward less downward. Over a closed chain these numbers add up to how often it winds
+ * around P. A forest of the nodes, each with the sum from its root, determines this for all chains
+ * at once: an edge between two nodes of one tree closes a chain.
  *
  *      o======rail======o jaw
  *      |                 |
@@ -19,10 +19,10 @@
  *      |                 |
  *      o======rail======o
  *
- * The ring is looked at twice. With rounded rails, which do not depend on the sides, it tells
- * holes as wide as a ball; then, when the sides are known to be right, with rails as detection
- * knows them it tells ends of rails without a jaw. Where no chain is closed, the parts are grown
- * further until one is. The edge that closed it is the hole. */
+ * The ring is looked at twice. With rounded rails, which do not depend on the sides, it finds holes
+ * as wide as a ball; then, when the sides are known to be right, with rails as detection uses them,
+ * it finds ends of rails without a jaw. Where no chain is closed, the parts are grown further until
+ * one is. The edge that closed it is the hole. */
 #include "platform/promise.h"
 #include "table/table.h"
 
@@ -76,7 +76,7 @@ static void shapes_of(const carom_ground *ground, double overlap, bool round, pa
               table->pocket[index].radius, 0.0, (carom_part){CAROM_PART_POCKET, index});
 }
 
-/* The place of a segment that is nearest to a point, and how far it is. */
+/* The position of a segment that is nearest to a point, and how far it is. */
 static double nearest(const shape *segment, const double point[2], double place[2]) {
   const double way[2] = {segment->q[0] - segment->p[0], segment->q[1] - segment->p[1]},
                size2 = carom_plane_dot(way, way);
@@ -105,8 +105,8 @@ static bool cross_at(const shape *a, const shape *b, double place[2]) {
   return share_a >= 0.0 && share_a <= 1.0 && share_b >= 0.0 && share_b <= 1.0;
 }
 
-/* Edge `edge_index` of the five between two parts, its places in them, and its length: where they
- * cross, or from an end of one to the other. More than the shortest are wanted only to find
+/* Edge `edge_index` of the five between two parts, its positions in them, and its length: where
+ * they cross, or from an end of one to the other. More than the shortest are wanted only to find
  * holes: between parallel rails there is one at each end. */
 enum { EDGES = 5 };
 static double edge(const shape *a, const shape *b, int edge_index, double in_a[2], double in_b[2]) {
@@ -218,7 +218,7 @@ static bool is_free(const part_ring *ring, const double point[2]) {
   return true;
 }
 
-/* A free place near the middle of the box around a table: in rings of places around it. */
+/* A free position near the middle of the box around a table: in rings of positions around it. */
 static bool find_middle(const part_ring *ring, const carom_table *table, double P[2]) {
   enum { HALF = 4 };
   for (int far = 0; far <= HALF; far++)
@@ -249,7 +249,7 @@ bool carom_beside_longest(const carom_table *table, const carom_features *featur
   return most > 0.0;
 }
 
-/* A place for a ball on the table: near its middle; or beside the longest rail, where a ring of
+/* A position for a ball on the table: near its middle; or next to the longest rail, where a ring of
  * parts that are at most `grown` apart is closed around that and not around the middle, as in the
  * shape of a U. False if there is none. */
 static bool find_place(part_ring *ring, const carom_ground *ground, double grown, double P[2]) {
@@ -286,8 +286,8 @@ static bool find_hole(part_ring *ring, const double P[2], hole *found) {
   return high < widest && encloses(ring, low, high, P, NULL, found);
 }
 
-/* Whether the played side of a rail is turned away from the table: nowhere along it can a ball
- * that has come from P touch that side, and somewhere one is at its back. */
+/* Whether the played side of a rail faces away from the table: nowhere along it can a ball from P
+ * touch that side, and somewhere a ball is behind it. */
 static bool wrong_side(part_ring *ring, const carom_rail *rail, const double normal[3],
                        double radius, const double P[2]) {
   static const double places[] = {0.5, 0.25, 0.75, 0.1, 0.9, 0.02, 0.98};
@@ -308,7 +308,7 @@ static bool wrong_side(part_ring *ring, const carom_rail *rail, const double nor
   return at_back;
 }
 
-/* Whether the ring is closed; where it is not, *fault tells the hole. */
+/* Whether the ring is closed; if it is not, *fault describes the hole. */
 static bool is_closed(part_ring *ring, const double P[2], carom_table_fault *fault) {
   hole found;
   if (encloses(ring, touching, touching, P, NULL, &found))
@@ -358,8 +358,8 @@ __attribute__((noinline, cold)) bool carom_is_cut_off(const carom_ground *ground
   shapes_of(ground, CAROM_RING_OVERLAP, true, &ring);
   if (!features->has_eye && !find_place(&ring, ground, closed, P))
     return false;
-  /* a ring with a hole keeps no place apart; there, holes of up to the width of a ball are taken
-   * to be closed */
+  /* a ring with a hole separates no positions; there, holes of up to the width of a ball are
+   * treated as closed */
   shapes_of(ground, CAROM_RING_OVERLAP, false, &ring);
   double grown = 2.0 * ground->kind->radius;
   if (encloses(&ring, closed, closed, P, NULL, &unused))

@@ -2,7 +2,7 @@
  *
  * At a seam a jaw continues a rail: the rail ends on the circle of the jaw and is tangent to it
  * there. At the seam the jaw has the friction and the restitution of the rail, so that the rebound
- * of a ball does not jump. With the chord s from the seam to the place that the ball touches,
+ * of a ball does not jump. With the chord s from the seam to the position that the ball touches,
  *
  *     x = min(1, s / 8 mm),      w = x^2 (3 - 2 x),      mu = w mu_jaw + (1 - w) mu_rail,
  *
@@ -14,8 +14,8 @@
  * passages overlap, and each seam still has the numbers of its rail. 8 mm is a convention: the arcs
  * of pool's jaws are 10 to 14 mm long.
  *
- * Seams follow from the numbers of the table alone. They are looked for when a ball meets a jaw: to
- * prepare those of all jaws for each shot costs as much as half of a short shot. */
+ * Seams depend only on the numbers of the table. They are looked for when a ball meets a jaw:
+ * preparing the seams of all jaws for each shot would take half as long as a short shot. */
 #include "table/table.h"
 
 #include <math.h>
@@ -52,7 +52,7 @@ int carom_seams_of(const carom_table *table, int index, carom_seam seam[CAROM_SE
       if (!continues(jaw, rail, end))
         continue;
     }
-    /* rails that meet at one place share a seam */
+    /* rails that meet at one position share a seam */
     if (count > 0 && square_of_distance(end, seam[0].end) <= tolerance * tolerance)
       continue;
     seam[count].rail = rail_index;
@@ -81,7 +81,7 @@ __attribute__((noinline)) void carom_blend_jaw(const carom_table *table, int ind
   if (count == 0 || distance == 0.0)
     return;
 
-  /* the place that the ball touches, and w there */
+  /* the position that the ball touches, and w there */
   double place[2], w[CAROM_SEAMS_MOST] = {1.0, 1.0};
   for (int axis = 0; axis < 2; axis++)
     place[axis] = jaw->centre[axis] + jaw->radius / distance * (centre[axis] - jaw->centre[axis]);

@@ -9,13 +9,13 @@
  *                    /  ( hole ) \
  *                        '---'
  *
- * Rails end where the pockets' mouths begin; there a jaw, a cylinder, leads from the rail into
- * the pocket's facing. Each jaw is tangent to its rail and its facing at their ends. A mouth lies
- * between the points where its rails would meet its facings; a cut is the angle between both. With
- * c = cut - 90 degrees: a corner's points are q = mouth cos(45 degrees) from the corner; the jaw
- * takes d = jaw / tan(cut / 2) of rail and facing. Facings go back to the depth of the cushion. The
- * hole is a circle whose edge is the shelf behind the middle of the mouth. Source: pooltool's
- * generator, whose default table is CAROM_TABLE_POOLTOOL with its order of parts. */
+ * Rails end where the pockets' mouths begin; there a jaw, a cylinder, leads from the rail into the
+ * pocket's facing. Each jaw is tangent to its rail and its facing at their ends. A mouth is the
+ * distance between the points where its rails would meet its facings; a cut is the angle between
+ * both. With c = cut - 90 degrees: a corner's points are q = mouth cos(45 degrees) from the corner;
+ * the jaw takes d = jaw / tan(cut / 2) of rail and facing. Facings go back to the depth of the
+ * cushion. The hole is a circle whose edge is the shelf behind the middle of the mouth. Source:
+ * pooltool's generator, whose default table is CAROM_TABLE_POOLTOOL with its order of parts. */
 #include "platform/elementary.h"
 #include "table/table.h"
 
@@ -171,7 +171,7 @@ static void add_pockets(carom_table *table, const carom_measures *measures,
   add_holes(table, measures);
 }
 
-/* Facings, which follow the cushions of the six sides, and jaws have numbers of their own. */
+/* Facings, which follow the cushions of the six sides, and jaws have their own constants. */
 static void give_facings(carom_table *table, const carom_measures *measures) {
   static const int sides = 6;
   for (int index = sides; index < table->rails; index++) {
@@ -190,8 +190,8 @@ static void give_facings(carom_table *table, const carom_measures *measures) {
 /* clang-format off */
 /* Pool: the WPA's equipment specification: the middles of its ranges, mouths 4.5 to 4.625 and 5 to
  * 5.125 in, cuts 142 and 104 degrees, shelves 1 to 2.25 and 0 to 0.375 in, noses at 62.5 to 64.5 %
- * of the ball, cushions 1.875 to 2 in deep; 8 ft are those of homes, 7 ft those of bars. What it
- * leaves open, points and holes, is pooltool's. Facings and jaws: docs/reference/constants.md.
+ * of the ball, cushions 1.875 to 2 in deep; 8 ft is the size in homes, 7 ft in bars. What it leaves
+ * open, points and holes, is pooltool's. Facings and jaws: docs/reference/constants.md.
  */
 #define WPA \
   0.03629025, 0.0492125, \
@@ -218,8 +218,8 @@ static const carom_measures built_in[] = {
                            0.085, 135.0, 0.02995, 0.07, 0.055,
                            0.086, 90.0, 0.0085, 0.04, 0.05,
                            0.8, 0.15, 0.0, 0.0},
-  /* the playing area of the WPA's 7 ft; the templates of pockets are not published: those of
-   * snooker in the ratio of the balls */
+  /* the playing area of the WPA's 7 ft; the templates of pockets are not published: the snooker
+   * pockets, scaled by the ratio of the balls */
   [CAROM_TABLE_BLACKBALL] = {0.9144, 1.8288, 1.27 * 0.0254, 0.0508,
                              0.0837, 135.0, 0.029, 0.068, 0.0533,
                              0.0837, 90.0, 0.0082, 0.039, 0.0485,
@@ -273,10 +273,10 @@ carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
 
 /* ---- Tables of one's own */
 
-/* The place of a member among the rows of measures. */
+/* The position of a member among the rows of measures. */
 #define AT(member) ((int32_t)(offsetof(carom_measures, member) / sizeof(double)))
 
-/* Tells which measure is at fault beside which other, and its bound by the others. */
+/* Reports which measure is at fault together with which other, and its bound by the others. */
 static carom_status blame(carom_table_fault *fault, int32_t measure, int32_t second, double bound) {
   fault->part = (carom_part){CAROM_PART_MEASURES, measure};
   if (second >= 0)
@@ -324,7 +324,7 @@ carom_status carom_table_measured(const carom_measures *measures, double ball_ra
     return CAROM_ERROR_NULL;
   memset(table, 0, sizeof *table);
 
-  /* each by itself, those of pockets where there are some */
+  /* each by itself, the measures of pockets only if there are some */
   const carom_number *number;
   const bool pockets = measures->corner_mouth != 0.0 || measures->side_mouth != 0.0;
   for (int k = 0; (number = carom_number_of(CAROM_PART_MEASURES, k)) != NULL; k++) {

@@ -1,5 +1,5 @@
 /* A number with its derivatives in CAROM_DUAL_WIDTH directions, which the includer chooses: what
- * stands for `double` in the copies of the sources of motion and contacts (text.h).
+ * represents `double` in the copies of the sources of motion and contacts (text.h).
  *
  * x is the value and d has the derivatives, one for each direction. Arithmetic follows the rules
  * of differentiation:
@@ -33,7 +33,7 @@ extern "C" {
 namespace {
 
 typedef double real;
-enum { WIDTH = CAROM_DUAL_WIDTH, CLOCK = WIDTH - 1 }; /* the last direction is that of time */
+enum { WIDTH = CAROM_DUAL_WIDTH, CLOCK = WIDTH - 1 }; /* the last direction is time */
 
 /* Derivatives in all directions: a few vectors that fit registers, since compilers keep longer
  * ones in memory. */
@@ -48,7 +48,7 @@ struct row {
     return reinterpret_cast<real *>(q)[k];
   }
 };
-/* Unrolled here, because core/src/CMakeLists.txt asks gcc for less than -O3, which would unroll it.
+/* Unrolled here, because core/src/CMakeLists.txt compiles below -O3, which would unroll it.
  * */
 #define CAROM_LANES(expression)                                                 \
   row r;                                                                        \

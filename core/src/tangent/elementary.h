@@ -40,8 +40,8 @@ number carom_acos(number x) {
   return square > 0 ? number(::carom_acos(x.x), x.d * (-1 / __builtin_sqrt(square)))
                     : number(::carom_acos(x.x));
 }
-/* Where both are 0, but for rounding, each direction takes the one of its own derivatives: minmod
- * of a change is the change of minmod, to either side. */
+/* Where both are 0, but for rounding, each direction uses its own derivative: minmod of a change is
+ * the change of minmod, to either side. */
 number carom_minmod(number a, number b) {
   const bool by_a = __builtin_fabs(a.x) < __builtin_fabs(b.x);
   number c = ::carom_minmod(a.x, b.x);

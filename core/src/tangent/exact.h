@@ -7,11 +7,11 @@
  * core/src/contact_law has the derivatives by these eight variables. Everything before and behind
  * is arithmetic.
  *
- * A ball that rolls is taken to go on rolling: by the slip of a ball that rolls and is pressed
+ * A ball that rolls is taken to continue rolling: by the slip of a ball that rolls and is pressed
  * there is no derivative. A direction that has it slide is flagged as a kink. */
 
-/* A slip at most this share of a ball's speeds is that of a ball that rolls; of derivatives, a
- * rounding error. */
+/* A ball whose slip is at most this fraction of its speeds rolls; for derivatives, a rounding
+ * error. */
 static const real rolls = 1e-12, rounding = 1e-9;
 
 /* A ball that is at the beginning of its path, follow.cpp, changes by 1e-200 in any case. */
@@ -22,7 +22,7 @@ static bool changes(const number &x) {
   return any;
 }
 
-/* A law, and its derivative by lambda: a law of numbers whose first direction is that of lambda. */
+/* A law, and its derivative by lambda: a law of dual numbers whose first direction is lambda. */
 CAROM_APART static void split(const carom_law *by_lambda, ::carom_law *value, ::carom_law *slope) {
   enum { TERMS = sizeof(carom_law) / sizeof(number) };
   static_assert(sizeof(::carom_law) == TERMS * sizeof(real), "a law is numbers only");
@@ -58,7 +58,7 @@ CAROM_APART static carom_status impact(const ::carom_law *law, const ::carom_law
   return CAROM_OK;
 }
 
-/* The same number, as the first direction alone. */
+/* The same number, with only the first direction. */
 static number alone(const number &x) {
   row first = {};
   first[0] = 1;
@@ -196,8 +196,8 @@ carom_status carom_mathavan(carom_contact *c, int plain) {
 
 /* ---- Euler's steps ---- */
 
-/* A contact by the numbers of which its derivatives are taken: the slips on the cloth stand for
- * W_x and W_y, so that those of a ball that rolls do not change. */
+/* A contact by the numbers of which its derivatives are taken: the slips on the cloth represent W_x
+ * and W_y, so that the slips of a ball that rolls do not change. */
 enum { EULER_INS = 9, EULER_OUTS = 5 };
 
 static ::carom_status euler_at(const real in[EULER_INS], int steps, real least, int64_t most,
@@ -247,7 +247,7 @@ carom_status carom_cushion_euler(carom_contact *c, int steps, number least, int,
       to[r]->d += (more[r] - less[r]) / (forward ? h : 2 * h) * in[k].d;
   }
 
-  /* steps are counted in whole numbers */
+  /* steps are counted in integers */
   watched.note.flags |= ::CAROM_TANGENT_EULER | ::CAROM_TANGENT_DIFFERENCES | ::CAROM_TANGENT_KINK;
   return (carom_status)status;
 }

@@ -1,7 +1,7 @@
 /* Follows the events of a shot that has been played, with numbers that carry their derivatives
  * in up to CAROM_TANGENT_COLUMNS directions, and by time.
  *
- * VALUES are those of the shot, to the bit: after each step they are set to those played, so
+ * VALUES are equal to the shot's, to the bit: after each step they are set to the played ones, so
  * only derivatives flow.
  *
  * TIME OF AN EVENT. Let d be the derivatives of the states of its balls at a fixed time, and x'
@@ -15,11 +15,12 @@
  * path begins, at T + dT.
  *
  * CLUSTERS. All balls of a cluster change at the time of the contact that starts it. Their
- * states there stand in the rows of the result, from which each direction is taken through the
+ * states there are in the rows of the result, from which each direction is taken through the
  * cluster by itself.
  *
- * LABELS. A ball that rolls after an event, or lies, keeps doing so where a change of the first
- * order would have it slide for a time of the first order: a slip du becomes the speed -2/7 du. */
+ * LABELS. A ball that rolls after an event, or rests, is assumed to keep doing so where a change of
+ * the first order would make it slide for a time of the first order: a slip du becomes the speed
+ * -2/7 du. */
 #include "schema/options.h"
 #include "tangent/text.h"
 extern "C" {
@@ -35,8 +36,8 @@ using text::carom_sim;
 /* s: events less than this apart are simultaneous. Contacts that close slower than so much of
  * the speed graze. */
 const real SIMULTANEOUS = 1e-9, GRAZING = 0.01;
-/* s: at the beginning of a path its motion is that of a time after it that is too short to
- * change any value. */
+/* s: at the beginning of a path its motion is evaluated after a time that is too short to change
+ * any value. */
 const real AT_ONCE = 1e-200;
 
 number &number_of(carom_ball_state *s, int k) {
@@ -118,7 +119,7 @@ void set(const ::carom_ball_state &played, carom_ball_state *s) {
 
 /* ---- An event ---- */
 
-/* The data for the sources of the shot: two balls at places 0 and 1, and one part of the table. */
+/* The data for the sources of the shot: two balls at indices 0 and 1, and one part of the table. */
 struct scene {
   carom_tangent_work *w;
   const carom_event *event;
@@ -166,7 +167,8 @@ CAROM_APART void state_at(const carom_tangent_work *w, int i, int side, real tim
     to->w[2].d = path->from.w[2].d;
 }
 
-/* The derivatives at a fixed time become those of an event at the time of which dT are those. */
+/* Converts derivatives at a fixed time into derivatives of an event, whose time has the derivatives
+ * dT. */
 void add_time(const row &dT, number *x) {
   const real rate = x->d[CLOCK];
   x->d += rate * dT;
@@ -215,7 +217,7 @@ CAROM_APART void take_part(scene *s) {
   /* noses are placed by the radius of the table's balls */
   s->features.reference = w->reference;
 
-  /* the radius of the last ball places the nose, unless the table names one */
+  /* the radius of the last ball determines the position of the nose, unless the table names one */
   if (!(w->table->ball_radius > 0) && w->seeds->kind != nullptr)
     load(w->pass, w->seeds->kind,
          (int64_t)(w->count - 1) * CAROM_KIND_NUMBERS +
@@ -229,7 +231,7 @@ CAROM_APART void take_part(scene *s) {
   const bool rail =
       e->type == CAROM_EVENT_RAIL || (e->type == CAROM_EVENT_RAIL_TOP && e->b < w->table->rails);
 
-  /* its place has no seeds */
+  /* its position has no seeds */
   if (rail) {
     real line[3];
     ::carom_rail_line(&w->table->rail[b], line);
@@ -246,7 +248,7 @@ CAROM_APART void take_part(scene *s) {
   }
 }
 
-/* Whether the event is the landing of its ball, which has no event of its own. */
+/* Whether the event is the landing of its ball, which has no separate event. */
 bool lands(const scene *s) {
   const carom_event *e = s->event;
   const ::carom_ball_state *at = &e->before[0];
@@ -262,7 +264,7 @@ bool lands(const scene *s) {
           e->time >= start + s->sim.path[0].end.x - 1e-12);
 }
 
-/* The numbers of the cue, with their seeds; times and lengths have none. */
+/* The numbers of the cue, with their seeds; times and lengths have no seeds. */
 CAROM_APART void load_cue(const carom_tangent_work *w, text::carom_cue *cue) {
   *cue = {};
   number *x = &cue->speed;
@@ -274,8 +276,8 @@ CAROM_APART void load_cue(const carom_tangent_work *w, text::carom_cue *cue) {
   cue->follow = w->cue->follow;
 }
 
-/* The tip that goes on, at the time of an event, from the middle of the struck ball; the cue, with
- * the speed that it has then. */
+/* The tip that continues, at the time of an event, from the middle of the struck ball; the cue,
+ * with the speed that it has then. */
 CAROM_APART void tip_at(const scene *s, text::carom_cue *cue, number *along, number axes[3][3],
                         number p[3]) {
   const carom_tangent_work *w = s->w;
@@ -306,7 +308,7 @@ CAROM_APART void to_tip(const scene *s, number d[3], number v[3]) {
 }
 
 /* Of a ball that leaves the table in flight: how far it is from the nearest edge of the rails. No
- * flight begins beyond them: a layout there is refused. */
+ * flight begins beyond them: a layout there is rejected. */
 CAROM_APART number edge(scene *s, const carom_ball_state *a) {
   ::carom_features f;
   ::carom_features_of(s->w->table, s->w->ball[s->event->a].kind->radius, s->w->reference, &f);
@@ -400,7 +402,7 @@ CAROM_APART number gap(scene *s) {
     return off_line(s, a) - reach_on_cloth(s, s->table.rail[0].height);
   case CAROM_EVENT_RAIL_TOP:
     return a->r[2] - text::carom_height_on_top(&s->sim, 0, e->b < w->table->rails ? 0 : 1);
-  case CAROM_EVENT_LEFT_TABLE: /* it comes to lie on a rail, or to the edge of the rails */
+  case CAROM_EVENT_LEFT_TABLE: /* it stops on a rail, or reaches the edge of the rails */
     return e->before[0].v[2] == 0 && e->time <= w->ball[e->a].origin_time ? a->v[2] : edge(s, a);
   default: /* the strike */
     return 0.0;
@@ -537,7 +539,7 @@ CAROM_APART text::carom_status strike(scene *s) {
   if (status < 0)
     return status;
 
-  /* the cue goes on */
+  /* the cue continues */
   const text::carom_ball_kind *kind = &s->ball[0].kind;
   carom_ball_state *state = &s->ball[0].state;
   text::carom_raised raised = {};
@@ -567,7 +569,7 @@ CAROM_APART text::carom_status strike(scene *s) {
   return text::CAROM_OK;
 }
 
-/* How far the values are from those of the shot, over the largest of them. */
+/* The difference of the values from the shot's, over the largest of them. */
 real apart(const ::carom_ball_state *played, carom_ball_state *s) {
   real off = 0, most = 0;
   for (int k = 0; k < 3; k++) {
@@ -579,8 +581,8 @@ real apart(const ::carom_ball_state *played, carom_ball_state *s) {
   return off / most;
 }
 
-/* A cushion. Where the exact model refuses an impact a shot takes it in steps; the derivatives
- * of the impact may be known all the same, but are those of another motion. */
+/* A cushion. Where the exact model rejects an impact a shot takes it in steps; the derivatives of
+ * the impact may be known all the same, but belong to another motion. */
 CAROM_APART text::carom_status meet_cushion(scene *s) {
   const text::carom_due due = {s->event->time, s->event->type, 0, 0};
   const carom_ball_state before = s->ball[0].state;
@@ -724,10 +726,10 @@ struct cluster {
   int direction, count;
   bool on_slate; /* it is pushed by a raised cue */
   number cue[CAROM_CUE_NUMBERS];
-  double apart, most; /* values from those of the shot, and the largest of these */
+  double apart, most; /* differences from the values of the shot, and the largest of these */
   member members[CAROM_BALLS_MOST];
   const carom_tangent_cluster *task;
-  bool in_turn; /* turn[] is read: members as touches in turn leave them, */
+  bool in_turn; /* turn[] is read: members as successive touches leave them, */
   struct {
     real x[CAROM_MOTION_NUMBERS], d[CAROM_MOTION_NUMBERS]; /* v, w, shift; in this direction */
   } turn[text::CAROM_CLUSTER_IN_TURN];
@@ -756,7 +758,7 @@ int place_of(const cluster *c, int ball) {
 }
 
 /* The cue that pushes: at the start the caller's; of a further touch with the speed that is left,
- * at the place that it touches. */
+ * at the position that it touches. */
 CAROM_APART void take_cue(const scene *s, const row &dT, cluster *c) {
   carom_tangent_tip *tip = &s->w->tip;
   text::carom_cue cue;
@@ -841,7 +843,7 @@ CAROM_APART void note_gap(const cluster *c, const carom_event *e) {
   carom_tangent_work *w = c->w;
   text::carom_ball_kind kind[2];
   carom_ball_state s[2];
-  for (int side = 0; side < 2; side++) { /* as they come to their first contact */
+  for (int side = 0; side < 2; side++) { /* as they reach their first contact */
     const member *m = &c->members[place_of(c, side == 0 ? e->a : e->b)];
     load_member(w, m->ball, m->event->before[m->side], &kind[side], &s[side]);
   }
@@ -884,7 +886,7 @@ bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS + 1],
   return ball.flies;
 }
 
-/* The members by their touches in turn, as shot/clusters.c has them. */
+/* The members after their successive touches, as in shot/clusters.c. */
 CAROM_APART void take_in_turn(cluster *c) {
   carom_tangent_work *w = c->w;
   scene s;
@@ -968,7 +970,7 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS + 1],
   for (int n = 0; n < CAROM_MOTION_NUMBERS; n++) {
     const int64_t at = (int64_t)i * CAROM_STATE_NUMBERS + row_of[n];
     real *rate = &carom_tangent_columns(&w->pass, w->tangent->final, at)[c->direction];
-    if (n >= 6) { /* a shift, of places that are known to a rounding error */
+    if (n >= 6) { /* a shift, for positions that are known to a rounding error */
       *rate += to[n]->d[c->direction];
       continue;
     }
@@ -1165,7 +1167,7 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
       s.two && (text::changes(s.ball[0].state.v[2]) || text::changes(s.ball[1].state.v[2]) ||
                 text::changes(s.ball[1].state.r[2] - s.ball[0].state.r[2]));
 
-  /* the sources of the shot tell of kinks while they are watched */
+  /* the sources of the shot report kinks while they are watched */
   watched.on = is_contact(e) || e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP;
   const text::carom_status status = resolve(&s);
   watched.on = false;

@@ -25,7 +25,7 @@ void tell_tip(const text::carom_cluster_state &state, carom_tangent_cluster *c) 
   c->lead_rate = lead.d[0];
 }
 
-/* How far the touches are apart, and in which order they come. */
+/* How far apart the touches are, and in which order they occur. */
 void tell_touches(const text::carom_cluster_state &state, carom_tangent_cluster *c) {
   static_assert((int)text::CAROM_CLUSTER_TOUCHES == (int)CAROM_TANGENT_TOUCHES,
                 "there is room for each");

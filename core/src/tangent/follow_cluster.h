@@ -11,26 +11,26 @@ enum { CAROM_MEMBER_NUMBERS = 17, CAROM_MEMBER_MOTION = 3, CAROM_MOTION_NUMBERS 
 enum { CAROM_TANGENT_TOUCHES = 54 }; /* of a cluster, at most */
 
 typedef struct carom_tangent_cluster {
-  int balls, first, second; /* members; the places of the two of the contact that starts it; of a
+  int balls, first, second; /* members; the positions of the two of the contact that starts it; of a
                                push second is -1 */
   double steps, slow;       /* as in carom_cluster_state */
   int friction;             /* the law of its balls, friction/laws.h */
   bool on_slate;
   double tip_time, reach; /* of the cue that pushes ball `first`, where `second` is below 0; how far
-                             it goes on, m; */
+                             it continues, m; */
   double tip_friction;    /* of a further touch; 0: it is the first */
   /* gives the numbers of the cue and their tangents, in the order of carom_cue; */
   void (*give_cue)(void *context, double x[8], double d[8]);
   /* gives numbers and tangents of member k, the last one e of its slate, and whether it flies; */
   bool (*give)(void *context, int k, double x[CAROM_MEMBER_NUMBERS + 1],
                double d[CAROM_MEMBER_NUMBERS + 1]);
-  /* takes those of its motion, v, W and shift, and of the impulse of the slate. */
+  /* receives the tangents of its motion, v, W and shift, and of the impulse of the slate. */
   void (*take)(void *context, int k, const double x[CAROM_MOTION_NUMBERS + 1],
                const double d[CAROM_MOTION_NUMBERS + 1]);
   void *context;
-  /* written before `take` is called: how far its touches are apart, places.c, and how long the
-     integration lasts, with their tangents; the
-     touches in their order, each by the places of its two balls */
+  /* written before `take` is called: how far apart its touches are, places.c, and how long the
+     integration lasts, with their tangents; the touches in their order, each by the positions of
+     its two balls */
   double separation, separation_rate, duration;
   int touches;
   int8_t touch[CAROM_TANGENT_TOUCHES][2];

@@ -6,10 +6,10 @@
  *               s = d x v / |v| the distance at which the straight line along the relative
  *               velocity would pass the centre, r the sum of the radii
  *     hit       a miss becomes a hit: the least distance of the surfaces on the way over its
- *               derivative n . (d_b - d_a), also where a ball comes to rest short of something,
- *               or lands beside a pocket
+ *               derivative n . (d_b - d_a), also where a ball stops short of something,
+ *               or lands next to a pocket
  *     end       a ball on a rail comes to its end, where a jaw stands, or the other way round
- *     tip       the same of the tip of a cue that goes on, which also ends its way
+ *     tip       the same of the tip of a cue that continues, which also ends its way
  *     spin      a spin about the vertical ends before a contact, or lasts until it: the spin
  *               there over its derivative, at a fixed time of the contact
  *     hop       the last hop of a ball on the slate: its fall less the least one after which
@@ -26,7 +26,7 @@
 #include <stddef.h>
 #include <string.h>
 
-static const double NEAR = 0.2;      /* m: gaps beyond are not asked for; */
+static const double NEAR = 0.2;      /* m: gaps beyond are not requested; */
 static const double TOUCHING = 2e-4; /* nor those up to this, of bodies that touched or nearly did
                                         as the way began */
 enum { PARTS_OF_WAY = 6, BISECTIONS = 30 };
@@ -68,7 +68,7 @@ typedef struct miss {
   double ring, reach;
 } miss;
 
-/* Place, velocity and half the acceleration of a ball at a time; on the cloth, at the height of
+/* Position, velocity and half the acceleration of a ball at a time; on the cloth, at the height of
  * its radius. */
 static void motion_at(const carom_tangent_ball *ball, double time, double r[3], double v[3],
                       double a[3]) {
@@ -146,7 +146,7 @@ static double distance_at(const miss *m, double t, double *opens) {
     v[k] = m->v[k] + 2.0 * t * m->a[k];
   }
 
-  /* the level part of the way, or that across the line of a rail */
+  /* the horizontal part of the path, or the part across the line of a rail */
   const bool rail = m->type == CAROM_EVENT_RAIL;
   const double q = carom_plane_size(d);
   double away = q, rate;
@@ -163,7 +163,7 @@ static double distance_at(const miss *m, double t, double *opens) {
   return sqrt(level * level + d[2] * d[2]);
 }
 
-/* When the cue that goes on comes to the end of its way, s, and its tangents. */
+/* When the cue that continues reaches the end of its path, s, and its tangents. */
 static double end_of_tip(const carom_tangent_work *w, carom_tangent_row d) {
   const carom_tangent_tip *tip = &w->tip;
   const double time = (w->cue->follow - tip->along) / tip->V;
@@ -194,7 +194,7 @@ static void take_gap(carom_reach *reach, const miss *m, double t, double first) 
       take(reach, j, gap, d[j]);
 }
 
-/* Whether a place on the way is beside a rail, and not beyond its ends. */
+/* Whether a position on the way is next to a rail, and not beyond its ends. */
 static bool is_beside(const miss *m, const carom_rail *rail, double t) {
   const double e_x = rail->q[0] - rail->p[0], e_y = rail->q[1] - rail->p[1];
   const double along = -((m->d[0] + t * (m->v[0] + t * m->a[0])) * e_x +
@@ -204,7 +204,7 @@ static bool is_beside(const miss *m, const carom_rail *rail, double t) {
 
 /* The least distances on the way up to a time; stops: the end of the way counts as one. */
 static void search(carom_reach *reach, const miss *m, double end, bool stops) {
-  /* nothing is missed that is too far for the whole way */
+  /* what is too far for the complete path is not missed */
   const carom_tangent_work *w = reach->work;
   double way = 0.0, previous, current;
   const double T = end - m->start, first = distance_at(m, 0.0, &previous) - m->reach;
@@ -219,7 +219,7 @@ static void search(carom_reach *reach, const miss *m, double end, bool stops) {
     return;
   }
 
-  /* a part of the way at whose end the distance grows has a least one within */
+  /* a section of the path at whose end the distance grows has a minimum within */
   for (int k = 1; k <= PARTS_OF_WAY; k++, previous = current) {
     double low = T * (k - 1) / (double)PARTS_OF_WAY, high = T * k / (double)PARTS_OF_WAY, opens;
     distance_at(m, high, &current);
@@ -280,8 +280,8 @@ static void misses_of(carom_reach *reach, int i, const carom_event *event) {
     }
 }
 
-/* The tip that goes on, up to the event: it is looked for from the first contact of the struck ball
- * with another or a cushion on. */
+/* The tip that continues, up to the event: it is looked for from the first contact of the struck
+ * ball with another or a cushion on. */
 static void misses_of_tip(carom_reach *reach, int i, const carom_event *event) {
   const carom_tangent_work *w = reach->work;
   const carom_tangent_tip *tip = &w->tip;
@@ -323,9 +323,9 @@ static bool rounds(const carom_jaw *jaw, const double end[2]) {
   return fabs(off) < 1e-4;
 }
 
-/* The rails beside an event. A ball that meets a rail beyond its end meets the jaw there
- * instead, one that meets a jaw beyond the end of its rail the rail; and one that falls into a
- * pocket, or meets a jaw, may come to a rail before. */
+/* The rails next to an event. A ball that meets a rail beyond its end meets the jaw there instead,
+ * one that meets a jaw beyond the end of its rail the rail; and one that falls into a pocket, or
+ * meets a jaw, may meet a rail before. */
 static void take_rails(carom_reach *reach, const carom_event *event, carom_tangent_rows d) {
   const carom_tangent_work *w = reach->work;
   const carom_ball_state *s = &event->before[0];
@@ -353,7 +353,7 @@ static void take_rails(carom_reach *reach, const carom_event *event, carom_tange
   }
 }
 
-/* A landing: beside a pocket, and whether it is the last. */
+/* A landing: next to a pocket, and whether it is the last. */
 static void take_landing(carom_reach *reach, const carom_event *event, carom_tangent_rows d) {
   const carom_tangent_work *w = reach->work;
   const carom_ball_state *s = &event->before[0];
@@ -384,8 +384,8 @@ static void take_landing(carom_reach *reach, const carom_event *event, carom_tan
   }
 }
 
-/* A ball behind a contact of a cluster, where touches come and go that nobody follows: a change
- * that makes its velocity another one, by as much as the velocity itself, has others. */
+/* A ball after a contact of a cluster, in which touches appear and disappear that nobody follows: a
+ * change of its velocity by as much as the velocity itself has other touches. */
 static void take_turn(carom_reach *reach, int i) {
   const carom_tangent_work *w = reach->work;
   const double *v = w->ball[i].origin.v;
@@ -397,11 +397,11 @@ static void take_turn(carom_reach *reach, int i) {
     take(reach, j, speed, sqrt(d_x[j] * d_x[j] + d_y[j] * d_y[j]));
 }
 
-/* The order of the events of ball i: event k comes after its last one. */
+/* The order of the events of ball i: event k follows its last one. */
 static void take_order(carom_reach *reach, int64_t k, const carom_event *event, int i) {
   carom_tangent_work *w = reach->work;
   const int64_t last = reach->last_event[i];
-  /* a ball that is pressed into the slate lands at once, and one that lies on a rail is off
+  /* a ball that is pressed into the slate lands at once, and one that is on a rail is off
    * the table, whatever changes */
   const bool is_forced = event->type == CAROM_EVENT_SLATE || event->type == CAROM_EVENT_LEFT_TABLE;
   const bool at_once = is_forced && event->time <= reach->last_time[i];

@@ -18,8 +18,8 @@ void carom_reach_go_on(carom_tangent_work *work, int i);
 /* The next event, while the paths are still those before it: the bodies that its balls missed on
  * them. */
 void carom_reach_misses(carom_reach *reach, const carom_event *event);
-/* Event k, with its tangents in `work`: whether it would be a miss, or come before the last one
- * of its balls. */
+/* Event k, with its tangents in `work`: whether it would be a miss, or precede the last one of its
+ * balls. */
 void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event);
 
 #endif

@@ -36,7 +36,7 @@ static carom_status check_event(const carom_table *table, int count, const carom
   return CAROM_OK;
 }
 
-/* How many contacts are resolved with an event: those of its cluster, or it alone. */
+/* How many contacts are resolved with an event: the contacts of its cluster, or one. */
 static int contacts_of(const carom_event *event) {
   if (event->cluster == 0)
     return 1;
@@ -120,7 +120,7 @@ static carom_tangent_pass pass_of(int m, int first) {
 
 static const carom_tangent_row zeros;
 
-/* Tangents of a state into rows of the caller's; NULL stands for zeros. */
+/* Tangents of a state into rows of the caller's; NULL means zeros. */
 static void put(const work *w, carom_tangent_row *d, double *rows, int64_t index) {
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
     memcpy(carom_tangent_columns(&w->pass, rows, index * CAROM_STATE_NUMBERS + k),
@@ -146,7 +146,7 @@ static void begin(work *w, const carom_prepared *p) {
   }
 }
 
-/* The rows that the caller asks of event k, whose balls are behind it. */
+/* The rows that the caller requests for event k, with the balls after it. */
 static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reach) {
   const carom_tangent *t = w->tangent;
   const size_t columns = sizeof(double) * (size_t)w->pass.columns;
@@ -171,8 +171,8 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
   }
 }
 
-/* Whether a contact that is resolved alone has a third ball so near that a small change may have
- * it touched before. */
+/* Whether a single contact has a third ball so near that a small change may make it touch
+ * before. */
 __attribute__((noinline)) static bool is_in_pile(const work *w, const carom_event *e) {
   static const double reach = 1e-3; /* m; gaps of racks are half of it at most */
   for (int i = 0; i < w->count && e->type == CAROM_EVENT_BALL_BALL; i++) {
@@ -191,7 +191,7 @@ __attribute__((noinline)) static bool is_in_pile(const work *w, const carom_even
   return false;
 }
 
-/* Whether the struck ball meets a ball or a cushion, so that it may come back to the tip. */
+/* Whether the struck ball meets a ball or a cushion, so that it may return to the tip. */
 static bool turns_to_tip(const carom_event *e, int struck) {
   const bool ball = e->type == CAROM_EVENT_BALL_BALL && (e->a == struck || e->b == struck);
   return ball || ((e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW) && e->a == struck);
@@ -250,7 +250,7 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
     tangent->error = fmax(tangent->error, w->note.error);
   }
 
-  /* the end of the shot, where balls may still move; how they go on is not known */
+  /* the end of the shot, where balls may still move; how they continue is not known */
   for (int i = 0; i < w->count && tangent->times_count > 0; i++) {
     const int64_t label = w->ball[i].origin.label;
     if (tangent->times[tangent->times_count - 1] > shot->time && label != CAROM_BALL_STATIONARY &&
@@ -298,7 +298,7 @@ static carom_status shot_tangent(const carom_prepared *p, const carom_cue *cue,
     status = differentiate(&w, p, shot);
   }
 
-  /* derivatives that overflow, and those of an error, are NaN */
+  /* derivatives that overflow, or of an error, are NaN */
   const int64_t finals = (int64_t)p->count * CAROM_STATE_NUMBERS * seeds->directions;
   const int64_t times = shot->count * seeds->directions;
   if (status == CAROM_OK &&
@@ -377,7 +377,7 @@ carom_status carom_shot_tangent_batch(const carom_tangent_job *job) {
 
 /* ---- Single contacts ---- */
 
-/* What following a contact that the call has solved gives: rounding, or Euler's steps beside it,
+/* What following a contact that the call has solved gives: rounding, or Euler's steps next to it,
  * may end in an error that the call has not. */
 static carom_status found(carom_status followed) {
   if (followed < 0)

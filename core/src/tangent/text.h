@@ -1,6 +1,6 @@
 /* The sources of motion, contacts and the strike once more, with a dual number (dual.h) for every
  * double. dual_copies.cmake writes these copies into dual/ in the folder of the build, where they
- * can be read. They stand in a namespace of their own, beside the same types of plain doubles, and
+ * can be read. They are in their own namespace, next to the same types of plain doubles, and
  * the linker sees nothing of it. Each source is checked as C; so this file counts as one of the
  * system, whose warnings the compiler keeps to itself. */
 #ifndef CAROM_SRC_TANGENT_TEXT_H

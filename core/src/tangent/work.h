@@ -1,5 +1,5 @@
 /* Derivatives in several directions, a pass of at most CAROM_TANGENT_COLUMNS of them at a time:
- * the common part of this room's C and its C++, follow.cpp. README.md tells how they work. */
+ * the common part of this room's C and its C++, follow.cpp. README.md explains how they work. */
 #ifndef CAROM_SRC_TANGENT_WORK_H
 #define CAROM_SRC_TANGENT_WORK_H
 
@@ -39,7 +39,7 @@ typedef struct carom_tangent_ball {
   double last_contact;     /* s */
 } carom_tangent_ball;
 
-/* The tip of a cue that goes on after its push, as in carom_follow, with its tangents. */
+/* The tip of a cue that continues after its push, as in carom_follow, with its tangents. */
 typedef struct carom_tangent_tip {
   double V, along, start_time, origin[2];
   carom_tangent_row V_row, along_row, start;
@@ -73,12 +73,12 @@ typedef struct carom_tangent_work {
   carom_tangent_row margin_row;
 } carom_tangent_work;
 
-/* Whether an event is a further touch of the tip, after that of the strike. */
+/* Whether an event is a further touch of the tip, after the strike. */
 static inline bool carom_touches_again(const carom_event *e) {
   return e->type == CAROM_EVENT_STRIKE && e->time > 0.0;
 }
 
-/* The numbers of the caller that stand for row `row` in a pass. */
+/* The numbers of the caller that represent row `row` in a pass. */
 static inline double *carom_tangent_columns(const carom_tangent_pass *pass, double *rows,
                                             int64_t row) {
   return rows + row * pass->m + pass->first;
@@ -108,7 +108,7 @@ carom_status carom_tangent_of_cushion(const carom_cushion_impact *in,
                                       const carom_tangent_pass *pass, const double *seeds,
                                       double *tangent, carom_tangent_note *note);
 
-/* A build without C++ has no derivatives: tangent.c refuses before it would call these. */
+/* A build without C++ has no derivatives: tangent.c rejects before it would call these. */
 #if !defined(CAROM_WITH_TANGENTS) && !defined(__cplusplus)
 static inline carom_status carom_no_tangents(const void *first, ...) {
   (void)first;

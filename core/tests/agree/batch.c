@@ -2,7 +2,7 @@
  * precisions, every solver and slip.
  *
  * All sizes from 0 to a vector more than what is solved by calls, rows in error and rows of junk
- * between good ones, all regimes side by side, batches cut at random places, in random order,
+ * between good ones, all regimes side by side, batches cut at random positions, in random order,
  * over any number of threads. Arrays end where memory ends, so that reading or writing past them
  * is seen, and begin at odd places. */
 #include "carom_shot.h"
@@ -71,7 +71,7 @@ static carom_impact mixed_row(random_source *source, size_t k) {
   return in;
 }
 
-/* The motion has zeros of both signs in random places, and the line of centres lies along an
+/* The motion has zeros of both signs in random positions, and the line of centres is along an
  * axis. The products in the collision frame are then zeros, and their signs decide the sign of a
  * sum. */
 static carom_impact zero_row(random_source *source, size_t k) {
@@ -195,8 +195,8 @@ static void copy_row(int precision, const table *source, size_t from, const tabl
   target->status[to] = source->status[from];
 }
 
-/* Rows of all kinds and regimes in random order, cut at random places into batches, each with 1, 2,
- * 3 or 7 threads. Euler's method takes fewer rows to be worth a thread. */
+/* Rows of all kinds and regimes in random order, cut at random positions into batches, each with 1,
+ * 2, 3 or 7 threads. Euler's method takes fewer rows to be worth a thread. */
 TEST(cut_anywhere_in_any_order) {
   static const int threads[] = {1, 2, 3, 7};
   const table t = table_make(MANY), mixed = table_make(MANY);

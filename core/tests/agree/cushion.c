@@ -119,7 +119,7 @@ TEST(stronge_as_recorded) {
   }
 }
 
-/* A ball that rolls slips on the cloth by rounding alone, so pooltool's first step goes where
+/* A ball that rolls slips on the cloth only by rounding, so pooltool's first step goes where
  * its own rounding points. Two more differ by less than 1e-5: spins that amplify it. */
 TEST(euler_as_recorded) {
   static recorded rows[MOST_ROWS];
@@ -144,7 +144,7 @@ TEST(euler_as_recorded) {
 }
 
 /* Not where friction may lift the ball, sin < mu cos: there steps that chatter about stick load
- * the cloth by turns, on the mean more than sticking does. */
+ * the cloth alternately, on the mean more than sticking does. */
 TEST(euler_converges_at_first_order) {
   double mean[3] = {0};
   for (uint64_t k = 0; k < 100; k++) {

@@ -5,7 +5,7 @@
  * Random collisions come by regime (core/reference/regimes.c): slow and fast, grazing and head-on,
  * draw, follow and stun, sidespin, both moving, stick at every moment and just missed, the cloth's
  * slip passing near zero or through it, friction and restitution from 0 to 1, unequal masses.
- * $CAROM_TEST_DRAWS says how many of each.
+ * $CAROM_TEST_DRAWS reports how many of each.
  */
 #include "cases.h"
 #include "kept.h"
@@ -273,7 +273,7 @@ TEST(results_that_were_wrong) {
 }
 
 /* Collisions that a class of arcs once accepted wrongly: stick just at the end, hardly any u_z,
- * strong friction beside a light ball, no ball slip at all, a light pressed ball on rough cloth,
+ * strong friction next to a light ball, no ball slip at all, a light pressed ball on rough cloth,
  * friction so weak that the sweeps leave p rough. All are solved. */
 TEST(hard_cases) {
   expect_file("hard-paper.csv", CAROM_SLIP_PAPER, hardly, 1);

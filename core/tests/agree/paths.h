@@ -5,7 +5,7 @@
 #include "row_file.h"
 #include "tangent_support.h"
 
-/* The next word, which stands until the next call; "" at the end. */
+/* The next word, which is valid until the next call; "" at the end. */
 static inline const char *read_word(void) {
   static char word[64];
   cursor += strspn(cursor, " ");

@@ -1,4 +1,5 @@
-/* Whole shots have equal bits in a batch and in single calls, whatever the threads and the cut. */
+/* Complete shots have equal bits in a batch and in single calls, whatever the threads and the
+ * cut. */
 #include "carom_tangent.h"
 #include "random_shots.h"
 #include "shot/sim.h"
@@ -24,7 +25,7 @@ static void make_breaks(void) {
   cues[4].a = 2.0;
 }
 
-/* Plays the first rack, and goes on with it. */
+/* Plays the first rack, and continues with it. */
 static carom_status shoot(const carom_cue *cue, const carom_shot_options *options,
                           carom_shot *shot) {
   return carom_shoot(&table, balls, 16, cue, options, shot);
@@ -189,8 +190,8 @@ TEST(one_for_all) {
     free_results(play_both(&jobs[k], k < 2 ? SHOTS : SHOTS / 3));
 }
 
-/* Brief events in place of full ones tell what those do; the fuzzer has both beside each other, and
- * less room. States at a time need the full ones. */
+/* Brief events instead of full ones tell what those do; the fuzzer has both next to each other,
+ * and less room. States at a time need the full ones. */
 TEST(brief_events) {
   static carom_brief_event brief[ROOM];
   static carom_event full[ROOM];
@@ -207,14 +208,14 @@ TEST(brief_events) {
   ck_assert_int_eq(carom_shot_at(balls, 16, &b, 0.5, states), CAROM_ERROR_EVENTS_LOST);
 }
 
-/* ---- Kinds and states by reference, in place of balls */
+/* ---- Kinds and states by reference, instead of balls */
 
 enum { LAYOUTS = 60, BALLS = 6 };
 static carom_ball_kind kinds[BALLS];
 static carom_ball_state lies[LAYOUTS * BALLS];
 
-/* Random places of balls whose kinds differ; layout 7 has balls that overlap, and the cue of shot
- * 11 is bad. */
+/* Random positions of balls whose kinds differ; layout 7 has balls that overlap, and the cue of
+ * shot 11 is bad. */
 static void make_layouts(void) {
   lab_random r = {test_seed()};
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
@@ -244,7 +245,7 @@ static void make_layouts(void) {
 }
 
 /* The bits of single shots with whole balls; layouts of their own or the first one for all, to rest
- * or stopped, with states to go on. */
+ * or stopped, with states to continue. */
 TEST(kinds_and_states_have_the_bits_of_balls) {
   make_layouts();
   for (int k = 0; k < 6; k++) {
@@ -301,7 +302,7 @@ TEST(derivatives_have_the_bits_of_balls) {
     carom_tangent_job own = {
         .played = &job, .seeds = &seeds, .tangents = tangents, .status = status[by_reference]};
     ck_assert_int_eq(carom_shot_tangent_batch(&own), r->status[7]);
-    /* refused as in a batch */
+    /* rejected as in a batch */
     job.kinds = by_reference ? NULL : kinds;
     ck_assert_int_eq(carom_shot_tangent_batch(&own),
                      by_reference ? CAROM_ERROR_NULL : CAROM_ERROR_SHOT_OPTIONS);
@@ -383,7 +384,7 @@ static void same_shot(const broken *whole, const broken *parts, int count) {
   ck_assert_mem_eq(whole->events, parts->events, sizeof whole->events);
 }
 
-/* The frame of a film at a time is that of the whole shot. */
+/* The frame of a film at a time is that of the complete shot. */
 static void same_frame(const random_shot *s, const broken *whole, const broken *parts, double time,
                        carom_frames *film) {
   carom_ball_state states[2][CAROM_BALLS_MOST];
@@ -396,8 +397,8 @@ static void same_frame(const random_shot *s, const broken *whole, const broken *
   ck_assert_mem_eq(turned[0], turned[1], (size_t)s->count * sizeof *turned[0]);
 }
 
-/* A state that is loaded into a shot of its own, without the events so far, has all but a film;
- * with other events than those so far it is refused, and nothing is written. */
+/* A state that is loaded into its own shot, without the events so far, has all but a film;
+ * with other events than those so far it is rejected, and nothing is written. */
 static void load(const random_shot *s, const broken *whole, const broken *parts,
                  const carom_shot_options *options) {
   broken *b = make_broken();
@@ -467,8 +468,8 @@ static void forge(carom_shot_state *state) {
   carom_state_seal(state);
 }
 
-/* However often a shot is stopped, and in whichever shot its state goes on, it has the bits, facts
- * and film of the unbroken one; and where it stops, it has the states of that time. */
+/* However often a shot is stopped, and in whichever shot its state continues, it has the bits,
+ * facts and film of the unbroken one; and where it stops, it has the states of that time. */
 TEST(stopped_and_continued) {
   static random_shot s;
   static carom_frames film;
@@ -558,7 +559,8 @@ TEST(stopped_and_continued) {
 }
 
 /* A shot that is stopped at every event of one type, or at every contact of the cue ball, has the
- * bits of the unbroken one: random shots of all kinds, whose cues follow through and touch again. */
+ * bits of the unbroken one: random shots of all kinds, whose cues follow through and touch
+ * again. */
 TEST(stopped_at_each_type_of_event) {
   static random_shot s;
   long stops = 0, touches = 0;
@@ -598,7 +600,7 @@ TEST(stopped_at_each_type_of_event) {
   ck_assert_int_gt(touches, 10);
 }
 
-/* A ball that is stopped right before any cushion, jaw or pocket goes on to it. */
+/* A ball that is stopped right before any cushion, jaw or pocket continues to it. */
 TEST(stopped_before_every_part) {
   static carom_event events[2][ROOM];
   static carom_shot_state state;
@@ -628,8 +630,8 @@ TEST(stopped_before_every_part) {
   ck_assert_uint_eq(seen[CAROM_EVENT_POCKET], 0x3f);
 }
 
-/* A state without any, or with a bit changed, is refused, and nothing is written; unit/refusals.txt
- * has those of other shots. */
+/* A state without any, or with a bit changed, is rejected, and nothing is written;
+ * unit/refusals.txt has those of other shots. */
 TEST(bad_states) {
   make_breaks();
   broken *b = make_broken();
@@ -661,7 +663,7 @@ __attribute__((noinline)) static void soil_stack(int with) {
     stack[k] = (unsigned char)with;
 }
 
-/* A state has the same bytes whatever lay on the stack and in its place, in a batch and alone:
+/* A state has the same bytes whatever was on the stack and in its memory, in a batch and alone:
  * nothing else of the process gets into what a game saves. */
 TEST(bytes_of_states) {
   enum { TIMES = 4, FEW = 12 };
@@ -786,7 +788,7 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
 }
 
 /* The balls of a layout that the cue ball flew over before it met one: somewhere between two of its
- * events it was beside each of them, and nearer to it than both radii. */
+ * events it was next to each of them, and nearer to it than both radii. */
 static uint32_t jumped_over(const carom_event *events, int64_t count, int cue,
                             const carom_shot_ball *lie, int on_table) {
   uint32_t set = 0;
@@ -855,7 +857,7 @@ static uint32_t met_in_push(const carom_event *events, int cue) {
 }
 
 /* Facts are those of the events, whichever ball is struck, with a state or without; those of a
- * shot that is refused say that nothing happened. */
+ * shot that is rejected say that nothing happened. */
 TEST(facts_of_shots) {
   static carom_event events[10 * ROOM];
   static carom_shot_state state;
@@ -920,7 +922,7 @@ TEST(facts_of_shots) {
 }
 
 /* A shot stops at the first contact of the cue ball, or only if the other ball is not in the set,
- * and else is as without the option; it goes on as if it had not stopped. */
+ * and else is as without the option; it continues as if it had not stopped. */
 TEST(stops_at_the_first_contact) {
   static carom_shot_state state;
   static const carom_shot_options rows[] = {{.first_of = UINT64_C(0x0a0a)}, /* balls 1, 3, 9, 11 */
@@ -952,7 +954,7 @@ TEST(stops_at_the_first_contact) {
   ck_assert(stopped > 60 && played > 10);
 }
 
-/* |u| of the surfaces of a ball that moves with v and w, as it meets what lies along n. */
+/* |u| of the surfaces of a ball that moves with v and w, as it meets what is along n. */
 static double slip_of(const carom_ball_state *s, double R, double n_x, double n_y, double n_z) {
   const double *v = s->v, *w = s->w, v_n = v[0] * n_x + v[1] * n_y + v[2] * n_z;
   const double u_x = v[0] - v_n * n_x + R * (w[1] * n_z - w[2] * n_y),

@@ -1,8 +1,8 @@
-/* Results are smooth to rounding errors: collisions, and the shots that stand on them. So
+/* Results are smooth to rounding errors: collisions, and the shots that are on them. So
  * differences by any step agree with derivatives.
  *
- * A collision may be solved by another kind or number of steps on the two sides of a place, where
- * the result jumps by an error of the solver (carom.h). Such places are rare, so a line of a
+ * A collision may be solved by another kind or number of steps on the two sides of a position,
+ * where the result jumps by an error of the solver (carom.h). Such places are rare, so a line of a
  * millionth of the speed meets one in a few of 100,000 lines; the tests leave out none. */
 #include "paths.h"
 
@@ -86,7 +86,7 @@ TEST(fast_is_the_same_law) {
   ck_assert_double_lt(most, 1e-6);
 }
 
-/* ---- Differences of a shot with one contact, beside its tangents ---- */
+/* ---- Differences of a shot with one contact, compared with its tangents ---- */
 
 static const double steps[] = {1e-7, 1e-6, 1e-5, 1e-4};
 enum { STEPS = COUNT_OF(steps), SHOTS = 200 };

@@ -1,6 +1,6 @@
-/* Where derivatives of shots end: each flag of carom_tangent.h by itself, the reach beside the
+/* Where derivatives of shots end: each flag of carom_tangent.h by itself, the reach next to the
  * change at which a ball's events really change, and the derivatives by the frictions of the
- * cloth beside closed forms. */
+ * cloth compared with closed forms. */
 #include "paths.h"
 #include "table/table.h"
 
@@ -9,8 +9,8 @@ static const carom_shot_options closed = {.ball_model = CAROM_BALL_MODEL_INELAST
 static const double R = 0.028575;
 static const direction by_phi = {OF_CUE, 0, 1, 57};
 
-/* The error of column j beside differences, over the largest derivative; infinite where no step
- * has the same events. */
+/* The error of column j compared with differences, over the largest derivative; infinite where no
+ * step has the same events. */
 static double error_of(const layout *l, const direction *by, int j, int m) {
   double error, plateau;
   if (!compare(l, by, ends, j, m, &error, &plateau))
@@ -145,7 +145,7 @@ TEST(slow) {
   ck_assert_double_lt(at_90, 1e-5);
 }
 
-/* The same in space: a ball that lies on another, or on a nose, and rolls off it. */
+/* The same in space: a ball that is on another, or on a nose, and rolls off it. */
 TEST(slow_in_space) {
   random_source random = {8};
   direction by[4];
@@ -189,9 +189,9 @@ TEST(slow_in_space) {
   ck_assert_double_lt(at_90, 1e-5);
 }
 
-/* Every row that a caller asks for is written, and no number beyond the last: all are as many as
- * the header says, whatever stood there before. The passes take a part of the directions each,
- * so more are asked for than fit in one. */
+/* Every row that a caller requests is written, and no number beyond the last: all are as many as
+ * the header says, whatever was there before. The passes take a part of the directions each,
+ * so more are requested than fit in one. */
 TEST(rows_end_where_the_header_says) {
   enum { M = 11, TIMES = 3 };
   const layout l = of_two(0.55, 1.4, 3.0, 80.0, 0.2, 0.3);
@@ -268,8 +268,8 @@ TEST(square_at_a_cushion) {
   ck_assert_double_gt(largest_error, 0.0); /* of those that were found by differences */
 }
 
-/* Strikes of raised cues at a ball alone, by all numbers of the cue, beside differences. Where a
- * change of a hundredth has other phases, a flag says so. */
+/* Strikes of raised cues at a single ball, by all numbers of the cue, compared with differences.
+ * Where a change of a hundredth has other phases, a flag says so. */
 TEST(phases_of_a_strike) {
   enum { SHOTS = 300, BY = 7 };
   const int shots = draws_within(SHOTS / 3, SHOTS);
@@ -372,7 +372,7 @@ TEST(ends_of_flights) {
           end = r[2] - R < 1e-9 ? LANDS_IN : FAR_SIDE;
         else if (event->type == CAROM_EVENT_LEFT_TABLE)
           end = r[2] - R < 1e-9 ? BEYOND : EDGE;
-        /* what leaves the table at the instant of the event before lies there */
+        /* what leaves the table at the instant of the event before is there */
         if (end >= BEYOND && e > 0 && event->time == events[e - 1].time)
           end = LIES;
         if (end < 0)
@@ -402,7 +402,7 @@ static double change_of_events(const layout *l, const direction *by) {
   return INFINITY;
 }
 
-/* The reach, to first order, beside what is found by trial, of shots on the cloth and by
+/* The reach, to first order, compared with what is found by trial, of shots on the cloth and by
  * elevated cues. */
 TEST(reach_beside_trial) {
   enum { SHOTS = 120, BY = 3 };
@@ -443,7 +443,7 @@ static layout towards_a_jaw(const carom_table *table, random_source *random) {
   carom_seam seam[CAROM_SEAMS_MOST];
   ck_assert_int_eq(carom_seams_of(table, index, seam), 2);
 
-  /* a place between the seams, and a way to it */
+  /* a position between the seams, and a way to it */
   const double share = random_between(random, 0.02, 0.98),
                swing = random_between(random, -1.0, 1.0);
   double out[2], way[2];
@@ -514,7 +514,7 @@ enum { CLUSTERS = 8, WAYS = 15, FROZEN_WAYS = 13 };
 
 /* Of the cue: speed, phi, a, b; x of the cue ball; of all balls: mass, mu_slide, restitution,
  * law_a, modulus; of one among equals: the mass of ball 1, restitution and modulus of ball 2; and
- * the place of ball 1, by which balls that touch come apart. */
+ * the position of ball 1, by which balls that touch come apart. */
 static const char *const ways_of_clusters =
     "cue.speed 2 cue.phi 57 cue.a 1 cue.b 1 0.r[0] 1 all.mass 0.2 all.mu_slide 0.2 "
     "all.restitution 1 all.law_a 0.05 all.modulus 6.6e9 1.mass 0.2 2.restitution 1 "
@@ -568,7 +568,8 @@ static int64_t first_cluster(void) {
   return k;
 }
 
-/* Derivatives halfway to the event after the first cluster, beside differences of whole shots. */
+/* Derivatives halfway to the event after the first cluster, compared with differences of complete
+ * shots. */
 static void follow_clusters(random_source *random, int kind) {
   static double errors[CLUSTERS * WAYS], before[2 * ROOM * NUMBERS * WAYS],
       after[2 * ROOM * NUMBERS * WAYS];
@@ -637,7 +638,7 @@ static layout draw_double_hit(random_source *random) {
   l.cue.follow = CAROM_CUE_FOLLOW;
   l.cue.tip_time = CAROM_TIP_TIME;
 
-  /* at times a third one beside the cue ball */
+  /* at times a third one next to the cue ball */
   l.count = 2 + (random_between(random, 0.0, 1.0) < 0.3);
   l.ball[2] = ball_at(0.4 - (2.0 * R + 2e-4) * y, 0.6 + (2.0 * R + 2e-4) * x);
   return l;
@@ -653,7 +654,7 @@ static int changed_within(const layout *l, const direction *by, double most) {
   return changed;
 }
 
-/* Derivatives through further touches of the tip, beside differences; and their reach. */
+/* Derivatives through further touches of the tip, compared with differences; and their reach. */
 TEST(second_touches) {
   enum { SHOTS = 200, BY = 9 };
   const int shots = draws_within(SHOTS / 3, SHOTS);
@@ -752,7 +753,7 @@ TEST(piles_by_pairs) {
 /* ---- The reach where a ball is frozen to the cue ball */
 
 /* Of changes by a thirtieth of the reach, at most 1 in 100 lets a ball meet something else without
- * a flag: of the cue's numbers, and of the places of both balls. */
+ * a flag: of the cue's numbers, and of the positions of both balls. */
 TEST(reach_at_frozen_balls) {
   enum { SHOTS = 400, OF_REACH = 30, BY = 8, OF_CUES = 4 };
   const int shots = draws_within(SHOTS / 3, SHOTS);
@@ -816,7 +817,7 @@ TEST(reach_at_frozen_balls) {
  *   flags, with, without F  all flags, those that are among them, those that are not
  *   NAME ... LEAST MOST     a measured number, by its name in `measures`, is in this range
  *
- * CAROM_TANGENT_CLUSTER is no flag of a row, since most hits beside a cue that follows have it. */
+ * CAROM_TANGENT_CLUSTER is no flag of a row, since most hits next to a cue that follows have it. */
 
 static layout scene;
 static direction scene_by;

@@ -3,13 +3,13 @@
  *
  * Numbers are rows of schema/numbers.h, so one that is added is here too. Each scene, on the cloth
  * and in space, with pairs and clusters, is differentiated by it, and compared with differences of
- * whole shots to each side,
+ * complete shots to each side,
  *
  *     f'(+-0) = (-3 f(0) + 4 f(+-h) - f(+-2h)) / (+-2h),
  *
  * by steps h from 1e-9 to 1e-3 of the number, of which the two adjacent ones that agree best are
  * taken. At an end of the range the tangent is that of the side within. Where the sides differ it
- * is one of them, with CAROM_TANGENT_KINK. Where 0 stands for a default it is that at the
+ * is one of them, with CAROM_TANGENT_KINK. Where 0 means a default it is that at the
  * default. */
 #include "paths.h"
 #include "precise_solver.h"
@@ -96,7 +96,7 @@ static double *number_in(layout *l, const direction *by) {
   return by->of == OF_KIND ? (double *)&l->ball[0].kind + by->row : &l->nose[by->row];
 }
 
-/* What a number that is 0 stands for. */
+/* The default that a number of 0 means. */
 static const struct {
   const char *name, *numbers;
 } defaults[] = {
@@ -106,7 +106,7 @@ static const struct {
     {"tip_restitution", "cue.tip_restitution 1"},
 };
 
-/* Puts in the place of a number that is 0 what this 0 stands for, if it stands for something. */
+/* Replaces a number that is 0 by the default that this 0 means, if it means one. */
 static void stand_for_zero(layout *l, const char *name) {
   const carom_speed_law law = carom_alciatore();
 #define IS(word) (strcmp(name, word) == 0)
@@ -135,7 +135,7 @@ static void stand_for_zero(layout *l, const char *name) {
 }
 
 /* The slope of all final numbers to one side, and by how much two steps agree; infinite where
- * the side has other events, or is refused. */
+ * the side has other events, or is rejected. */
 static double slope_to(const layout *l, const direction *by, double side, double slope[MOST]) {
   double here[MOST], last[MOST], now[MOST], one[MOST], two[MOST], best = INFINITY;
   bool had = false;
@@ -166,7 +166,7 @@ static double greatest_change(const double *a, const double *b, int n) {
   return most;
 }
 
-/* Compares the tangent of a layout by a number with both sides; false where it is refused, or
+/* Compares the tangent of a layout by a number with both sides; false where it is rejected, or
  * neither side has a difference. */
 static bool is_compared(const layout *l, const number *row, const char *where) {
   layout at = *l;

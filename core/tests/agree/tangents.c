@@ -34,7 +34,7 @@ enum { SEED = 29 };
 static const double NOTHING = 1e-10; /* a derivative that is rounding errors */
 
 /* How shots start: level ones, without the terms of measured tables or with them, on a slope
- * besides, and in space. */
+ * too, and in space. */
 typedef enum { LEVEL, TERMS, SLOPED, ELEVATED, JUMPS, FLYING, UNLIKE, NOSES } start_kind;
 
 static layout draw_with(random_source *random, start_kind start) {
@@ -50,7 +50,7 @@ static layout draw_with(random_source *random, start_kind start) {
   return l;
 }
 
-/* ---- Whole shots ---- */
+/* ---- Complete shots ---- */
 
 /* Ball 0 may fly. */
 static const char *const in_space =
@@ -119,7 +119,7 @@ static layout draw_in_space(random_source *random, start_kind start) {
       l.ball[i].state.r[2] = l.ball[i].kind.radius;
     }
     l.cue.theta = random_between(random, 0.0, 1.0) < 0.5 ? 0.0 : l.cue.theta;
-  } else if (start == NOSES) { /* at a place beside a cushion, a jaw or a pocket */
+  } else if (start == NOSES) { /* at a position next to a cushion, a jaw or a pocket */
     const carom_table *table = table_of(&l);
     const int what = (int)random_between(random, 0.0, 2.999);
     const carom_jaw *jaw =
@@ -294,8 +294,8 @@ static bool solves_changed(solver *solve, const double *in, int ins, int k, doub
   return solve(changed, out) == CAROM_OK;
 }
 
-/* The error of a solver's tangent, by number k, a column of m, beside the best differences of three
- * steps; spins count by the radius. */
+/* The error of a solver's tangent, by number k, a column of m, compared with the best differences
+ * of three steps; spins count by the radius. */
 static double error_of(solver *solve, const double *in, int ins, int outs, int k, double step,
                        const double *tangent, int m) {
   double best = INFINITY, most = 0.0;
@@ -381,7 +381,7 @@ START_TEST(collisions_agree_with_differences) {
 }
 END_TEST
 
-/* A ball that meets another one, which lies along y. */
+/* A ball that meets another one, which is along y. */
 static carom_impact pair(double v_x, double v_y) {
   const carom_ball ball = {.radius = R, .mass = 0.17, .mu_slide = 0.2};
   carom_impact in = {.a = ball, .b = ball, .mu_ball = 0.06, .restitution = 0.95};
@@ -630,7 +630,7 @@ START_TEST(nothing_is_read_before_it_is_set) {
 }
 END_TEST
 
-/* edges.txt has more that is refused. */
+/* edges.txt has more that is rejected. */
 START_TEST(what_is_not_known_is_refused) {
   carom_shot_ball two[2] = {ball_at(0.4, 0.6), ball_at(0.55, 1.4)};
   const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);

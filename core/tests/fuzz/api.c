@@ -1,7 +1,7 @@
 /* The library's collisions, and impacts on cushions, with inputs made of the bytes of a fuzzer
  * (draws.h), options too. Aborts where the contract of a header is broken: a result that is not
- * finite with a status that is no error, or is with one that is; a batch with other bits than
- * calls; bytes written beside the results; a trace or a derivative that does not fit. Crashes,
+ * finite with a status that is not an error, or is with one that is; a batch with other bits than
+ * calls; bytes written outside the results; a trace or a derivative that does not fit. Crashes,
  * hangs and undefined behaviour are for the fuzzer and the sanitizers to see. */
 #include "ball_ball/kernels.h"
 #include "carom_tangent.h"
@@ -29,7 +29,7 @@ static double energy(double mass, double radius, const double v[3], const double
 }
 
 /* Seeds for derivatives in up to DIRECTIONS directions, and how many: rarely a number that is
- * refused. */
+ * rejected. */
 static int64_t make_seeds(double *seeds, int numbers) {
   const int64_t m = directions(DIRECTIONS);
   memset(seeds, 0, (size_t)numbers * DIRECTIONS * sizeof *seeds);
@@ -58,8 +58,8 @@ static void check_tangent(const double *tangent, int n, int64_t m, carom_status 
 }
 
 /* A row of a batch, among others, is a call: finite where it has a result, of the same bits, with
- * nothing written beside it. A batch whose options are refused writes no status; the call in single
- * precision is an inner one, and takes all options for good. */
+ * nothing written outside it. A batch whose options are rejected writes no status; the call in
+ * single precision is an inner one, and takes all options for good. */
 static void check_batch(carom_precision precision, const void *in, const carom_options *o) {
   const bool single = precision == CAROM_F32;
   const size_t row = single ? sizeof(carom_impact_f32) : sizeof(carom_impact),

@@ -66,7 +66,7 @@ static inline double number(double low, double high) {
   return x;
 }
 
-/* A number of directions of derivatives, up to `most`: rarely one that is refused. */
+/* A number of directions of derivatives, up to `most`: rarely one that is rejected. */
 static inline int64_t directions(int most) {
   static const int64_t refused[] = {0, -1, CAROM_DIRECTIONS_MOST + 1, INT64_MAX, INT64_MIN};
   return choice(32) == 31 ? refused[choice(5)] : 1 + choice(most);

@@ -1,5 +1,5 @@
 /* random CORPUS EXECUTIONS [SEED]: a fuzz target without a fuzzer: first on the inputs of the
- * corpus, one in hexadecimal digits a line, then on random bytes, each from a seed of its own.
+ * corpus, one in hexadecimal digits a line, then on random bytes, each from its own seed.
  * Every hundredth seed is printed, so a failure is among the hundred from the last one on:
  * `random /dev/null 100 THAT`. An input that takes 5 s of processor time is a failure too. */
 #include <ctype.h>

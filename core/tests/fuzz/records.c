@@ -1,6 +1,6 @@
 /* Gives the reader of recordings a good one with some edits that the bytes choose. Every line is
  * in memory of exactly its size, so that the sanitizers see a byte too many. Aborts if
- * - a line is refused without a reason, or a reason is not a text,
+ * - a line is rejected without a reason, or a reason is not a text,
  * - anything is read behind a line that is wrong,
  * - a line that was read and is written again, then read by a record like the one before it, says
  *   something else,
@@ -39,7 +39,7 @@ static void add_line(carom_record *game, carom_record_kind kind) {
     fail("a line cannot be written");
 }
 
-/* Puts `size` bytes in the place of `old` ones of a line. */
+/* Puts `size` bytes instead of `old` ones of a line. */
 static void splice(text *line, size_t at, size_t old, const char *bytes, size_t size) {
   if (at + old > line->size)
     old = line->size - at;
@@ -50,7 +50,7 @@ static void splice(text *line, size_t at, size_t old, const char *bytes, size_t 
   line->size = line->size - old + size;
 }
 
-/* Four bytes choose an edit: the line, the place in it, and what is done there. */
+/* Four bytes choose an edit: the line, the position in it, and what is done there. */
 static void edit(const uint8_t *data, int lines) {
   static const char *const words[] = {
       "1e999", "-1e-400", "9007199254740993",     "-1", "0",  "\"0x1p-1074\"", "\"0x1.8p+1023\"",
@@ -81,7 +81,7 @@ static void edit(const uint8_t *data, int lines) {
   case 4:
     splice(line, at, 0, word, strlen(word));
     break;
-  case 5: { /* in the place of the number, or of the word, that begins here */
+  case 5: { /* instead of the number, or of the word, that begins here */
     size_t from = at;
     while (from < line->size && strchr(":,[", line->at[from]) == NULL)
       from++;
@@ -180,7 +180,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (memcmp(&record.played, &twice.played, sizeof record.played) != 0 ||
         memcmp(record.final, twice.final, sizeof record.final) != 0)
       fail("a shot that is played twice has other bits");
-    if (record.pending == CAROM_PENDING_SHOT) /* refused, with nothing played */
+    if (record.pending == CAROM_PENDING_SHOT) /* rejected, with nothing played */
       return 0;
     if (played != (carom_status)record.played.status)
       fail("the status that was returned is not the one that was recorded");

@@ -1,7 +1,7 @@
-/* Whole shots with inputs made of the bytes of a fuzzer (draws.h): tables of any shape, layouts
+/* Complete shots with inputs made of the bytes of a fuzzer (draws.h): tables of any shape, layouts
  * on the cloth and in the air, cues, options. Aborts where the contract of carom_shot.h or
  * carom_tangent.h is broken: an end that is not finite; a batch with other bits than single
- * shots; a shot in parts with other bits than the whole; bytes written beside the results; and,
+ * shots; a shot in parts with other bits than the whole; bytes written outside the results; and,
  * where all numbers are those of play, balls that overlap, that leave the table or are in a cushion
  * without an event, derivatives that are not finite. Crashes, hangs and undefined behaviour are for
  * the fuzzer and the sanitizers to see. */
@@ -237,7 +237,7 @@ static void check_play(const carom_shot *shot) {
   if (carom_shot_at_times(balls, count, shot, times, (size_t)looks, states) != CAROM_OK)
     fail("carom_shot_at_times does not know a shot all of whose events were kept");
 
-  /* What lies on the cloth at any time is a layout that may be played: nothing is in a cushion,
+  /* What is on the cloth at any time is a layout that may be played: nothing is in a cushion,
    * in a pocket or outside. Balls that leave a cluster may overlap for a moment: two of a rack
    * that part at 3 mm/s did so, by 61 um, after 39 ms. */
   const int look = choice(looks);
@@ -385,7 +385,8 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
     unwritten(single, finals * sizeof *single,
               "derivatives are written after an error of the call");
 
-  /* Of another cue, or with an event that cannot be: a status, and nothing beside the places. */
+  /* Of another cue, or with an event that cannot be: a status, and nothing next to the
+   * positions. */
   if (choice(8) == 0 && shot->count > 0 && shot->count <= shot->room) {
     carom_event *const event = &shot->events[choice((int)shot->count)];
     const carom_event kept = *event;
@@ -415,8 +416,8 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
 
 /* ---- Shots */
 
-/* Goes on with damaged copies of a state: they are refused by their seal; under a right one the
- * shot is refused or ends. */
+/* Continues damaged copies of a state: they are rejected by their seal; under a right one the
+ * shot is rejected or ends. */
 static void check_damage(const carom_shot *shot, const carom_shot_options *on) {
   static carom_shot_state damaged;
   static carom_event events[EVENTS + 1];

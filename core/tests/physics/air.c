@@ -398,7 +398,7 @@ TEST(unlike_radii) {
   ck_assert_int_eq(hit->after[0].label, CAROM_BALL_AIRBORNE);
 }
 
-/* The largest difference of two places, m, or speeds, m/s. */
+/* The largest difference of two positions, m, or speeds, m/s. */
 static double farthest(const carom_ball_state *a, const carom_ball_state *b, int count) {
   double most = 0.0;
   for (int k = 0; k < count; k++)
@@ -521,7 +521,7 @@ TEST(rolls_off_a_ball) {
   }
 }
 
-/* carom_impact3() keeps momentum, loses energy, does the same with both balls swapped, and refuses
+/* carom_impact3() keeps momentum, loses energy, does the same with both balls swapped, and rejects
  * what has no meaning. */
 TEST(spheres) {
   random_source random = {test_seed()};

@@ -4,7 +4,7 @@
 
 static const double h = 0.036576;
 
-/* The true nose is a line this far inside the wall that stands for it. */
+/* The true nose is a line this far inside the wall that represents it. */
 static double shift(void) {
   return R - sqrt(h * (2.0 * R - h));
 }
@@ -73,7 +73,7 @@ TEST(restitution_by_closing_speed) {
     }
 }
 
-/* Near the cloth the result goes over to that of a ball that lies on it, to the last bit at z =
+/* Near the cloth the result goes over to that of a ball that is on it, to the last bit at z =
  * R; and energy never rises. */
 TEST(near_the_cloth) {
   const carom_table table = empty_table(4.0);
@@ -298,8 +298,8 @@ TEST(top_of_a_rail) {
   ck_assert_double_gt(top->after[0].v[2], 0.0);
 }
 
-/* A ball that comes to rest on the top has left the table, at the instant at which it does not hop
- * any more; the others go on. */
+/* A ball that stops on the top has left the table, at the instant at which it does not hop
+ * any more; the others continue. */
 TEST(rests_on_a_rail) {
   const carom_table table = table_with_wide_rails();
   const carom_shot_ball balls[2] = {flying(20.0, 40.2, h + R + 0.01, 0.0, 0.0, 0.0),

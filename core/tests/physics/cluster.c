@@ -1,4 +1,4 @@
-/* Contacts that last: carom_cluster() against closed forms, against an integration of its own by
+/* Contacts that last: carom_cluster() against closed forms, against its own integration by
  * the method of Runge and Kutta, against one collision, and by its symmetries. The law is
  * that of docs/understanding/clusters.md. */
 #include "cluster/cluster.h"
@@ -96,9 +96,10 @@ static carom_impact impact_of(const layout *l, bool space, double *closing) {
   return in;
 }
 
-/* One contact beside carom_collide(), and in space beside the closed form of carom_impact3().
- * Nearly all pairs are within 1e-4 at 40 steps. The others have a ball whose slip on the cloth
- * turns back within a step, which is of order 1: the worst of a thousand depends on the seed. */
+/* One contact compared with carom_collide(), and in space compared with the closed form of
+ * carom_impact3(). Nearly all pairs are within 1e-4 at 40 steps. The others have a ball whose slip
+ * on the cloth turns back within a step, which is of order 1: the worst of a thousand depends on
+ * the seed. */
 TEST(one_contact_is_a_collision) {
   enum { EACH = 1000 };
   static const int steps[2][2] = {{40, 160}, {20, 80}};
@@ -423,7 +424,7 @@ TEST(break_of_a_rack) {
 }
 
 /* Breaks as players make them, by clusters and pair by pair: 6 and 7 m/s of the cue, gaps of 0,
- * 0.05 and 0.1 mm, an aim that errs by up to 0.35 degrees, 0.2 in the mean square.
+ * 0.05 and 0.1 mm, an aim that errs by up to 0.35 degrees, 0.2 rms.
  * CAROM_TEST_DRAWS=300 gives the count of clusters.md. */
 TEST(breaks) {
   static const struct {
@@ -489,7 +490,7 @@ TEST(breaks) {
   }
 }
 
-/* ---- 25 steps beside many */
+/* ---- 25 steps compared with many */
 
 /* out[] 12 ms later, in play: a contact that closes as a cluster ends is one of the cluster, or
  * the next event. */
@@ -653,7 +654,7 @@ TEST(gap_has_no_step) {
       for (int i = 0; i < 3; i++)
         memcpy(v[k][i], final[i].v, sizeof v[k][i]);
     }
-    /* a step beside the mean of its neighbours */
+    /* a step compared with the mean of its neighbours */
     double worst = 0.0;
     for (int k = 1; k + 2 < STEPS; k++)
       for (int i = 0; i < 3; i++)
@@ -713,8 +714,8 @@ TEST(no_room_for_all_contacts) {
 /* ---- Slow contacts */
 
 /* Three balls on the cloth that are not quite in line, the light one in the middle with a gap to
- * the last: it has parted from the first as it comes back. A cluster of them that begins, whatever
- * `slow` is, and then goes on while contacts close at `slow` or faster. Returns the largest speed
+ * the last: it has parted from the first as it returns. A cluster of them that begins, whatever
+ * `slow` is, and then continues while contacts close at `slow` or faster. Returns the largest speed
  * at which a contact that has touched still closes in the end, 0 for none. */
 static double closes_at_the_end(carom_cluster_state *c, uint64_t seed, double slow) {
   random_source random = {seed};
@@ -751,7 +752,7 @@ static double closes_at_the_end(carom_cluster_state *c, uint64_t seed, double sl
 
 /* `slow` is the least speed at which a contact that has touched does so again, and that speed
  * itself is enough. So a cluster that leaves a contact closing at v, as `slow` is more than that,
- * goes on at slow = v, and ends just as before for the next larger number. */
+ * continues at slow = v, and ends just as before for the next larger number. */
 TEST(slow_is_fast_enough) {
   static carom_cluster_state c, other;
   random_source random = {test_seed()};

@@ -187,7 +187,7 @@ TEST(smooth_keeps_the_laws) {
   }
 }
 
-/* What the measured constants say: the share of its speed across the cushion that a rolling ball
+/* What the measured constants say: the fraction of its speed across the cushion that a rolling ball
  * without side spin keeps, by the sine of the angle and that speed. */
 TEST(smooth_rebounds_as_measured) {
   enum { SPEEDS = 4, SINES = 6 };
@@ -235,7 +235,7 @@ static double slope_change(const carom_cushion_options *options, double w_z, dou
   return most / size;
 }
 
-/* Where Han's derivative by the side spin jumps, that of the smooth law goes on. */
+/* Where Han's derivative by the side spin jumps, that of the smooth law continues. */
 TEST(smooth_has_no_corner) {
   const carom_cushion_options han = {.model = CAROM_CUSHION_HAN},
                               smooth = {.model = CAROM_CUSHION_SMOOTH};

@@ -1,4 +1,4 @@
-/* Pocketed balls, drawn: they fall without a jump, inside their pocket, and lie there beside each
+/* Pocketed balls, drawn: they fall without a jump, inside their pocket, and lie there next to each
  * other; the others are where they are. */
 #include "carom_shot.h"
 #include "support.h"
@@ -39,7 +39,7 @@ static double end_of_fall(const carom_event *event, double latest) {
   return high;
 }
 
-/* Those that lie in the pocket of an event after it are beside or on each other. Returns how many
+/* Those that lie in the pocket of an event after it are next to or on each other. Returns how many
  * lay there before. */
 static int check_pile(const carom_event *event, const carom_ball_state *drawn) {
   int lay = 0;
@@ -96,7 +96,7 @@ static void check_fall(const carom_event *event) {
 }
 
 /* Four balls that roll into one corner pocket behind each other, straight or a little aside: the
- * second goes around the first, to the bottom too, and the fourth lies on others. */
+ * second goes around the first, to the bottom too, and the fourth is on others. */
 TEST(beside_each_other) {
   carom_table_make(CAROM_TABLE_POOL_7FT, &table);
   for (int n = 0; n < 25; n++) {
@@ -136,7 +136,7 @@ TEST(beside_each_other) {
   }
 }
 
-/* Balls that fly into a pocket, to its middle and beside it. */
+/* Balls that fly into a pocket, to its middle and next to it. */
 TEST(out_of_the_air) {
   int in_flight = 0;
   carom_table_make(CAROM_TABLE_POOL_7FT, &table);

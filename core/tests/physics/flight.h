@@ -74,7 +74,7 @@ static inline carom_cue raised_cue(double speed, double theta, double b) {
 /* Where raised_strike() leaves the ball, m from either wall. */
 static const double struck_at = 20.0;
 
-/* Such a strike of a ball that is alone, along +y. */
+/* Such a strike of a single ball, along +y. */
 static inline carom_shot raised_strike(double speed, double theta, double b, carom_space space) {
   const carom_table table = empty_table(2.0 * struck_at);
   const carom_shot_ball ball = ball_at(struck_at, struck_at);

@@ -160,7 +160,7 @@ TEST(built_in_tables) {
   }
 }
 
-/* Each part has numbers of its own. */
+/* Each part has its own numbers. */
 static void differ(carom_table *t, random_source *random) {
   for (int k = 0; k < t->rails; k++) {
     t->rail[k].mu_cushion = random_between(random, 0.05, 0.4);

@@ -1,4 +1,4 @@
-/* Whole shots where pooltool's default engine fails (commit 9a8abfe0): full hits with follow
+/* Complete shots where pooltool's default engine fails (commit 9a8abfe0): full hits with follow
  * along x, balls that roll alike, some Newton's cradles, and a ball that moves into its rail. They
  * are right in the world carom, and by pooltool's rules an error or its own answer, never a crash,
  * a hang or a lost ball. */
@@ -98,7 +98,7 @@ TEST(starts_at_a_rail) {
 
 /* Two contacts at the same instant, mirror images of each other: one is resolved after the
  * other, by index, in a way that rounding does not decide; where both closings are alike the
- * results are the same from one place on the table to another. */
+ * results are the same from one position on the table to another. */
 TEST(two_at_once) {
   const carom_table t = empty_table(30.0);
   double first[3][2];
@@ -149,7 +149,7 @@ TEST(order_of_balls) {
   }
 }
 
-/* A ball that begins in a pocket is refused, where pooltool waits until it leaves. One that begins
+/* A ball that begins in a pocket is rejected, where pooltool waits until it leaves. One that begins
  * at its edge and moves into it falls. */
 TEST(begins_in_a_pocket) {
   carom_table t;

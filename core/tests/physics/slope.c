@@ -1,5 +1,5 @@
-/* Shots on a table that slopes, beside the equations of SLOPE in motion/path.h: integrated in
- * small steps, as energies, by symmetry, and in the limit of a level table. */
+/* Shots on a table that slopes, compared with the equations of SLOPE in motion/path.h: integrated
+ * in small steps, as energies, by symmetry, and in the limit of a level table. */
 #include "shot_support.h"
 
 static const double two_pi = 6.283185307179586;
@@ -19,7 +19,7 @@ static carom_shot_ball moving(random_source *random, double size, double speed, 
   return b;
 }
 
-/* ---- Beside small steps */
+/* ---- Compared with small steps */
 
 /* Rates of x, y, v_x, v_y, R w_x, R w_y, on the cloth or in the air. */
 static void rates_at(const carom_ball_kind *k, const carom_table *t, int64_t label,
@@ -149,7 +149,7 @@ TEST(slope_beside_small_steps) {
   }
 }
 
-/* ---- Whole shots */
+/* ---- Complete shots */
 
 /* The energy of a ball with its height on the slope. */
 static double energy_of(const carom_shot_ball *ball, const carom_table *t,
@@ -266,7 +266,7 @@ TEST(slope_of_nearly_nothing) {
   ck_assert_int_gt(moved, SHOTS / 2);
 }
 
-/* Breaks on a slope come to rest. At any time the balls stand as a layout may. */
+/* Breaks on a slope stop. At any time the balls stand as a layout may. */
 TEST(slope_and_breaks) {
   enum { BREAKS = 12, LOOKS = 40 };
   random_source random = {test_seed()};
@@ -306,7 +306,7 @@ TEST(slope_and_breaks) {
   }
 }
 
-/* A slope on which a ball would not come to rest is refused, by its greater number. */
+/* A slope on which a ball would not stop is rejected, by its greater number. */
 TEST(slope_too_steep) {
   const carom_shot_ball ball = ball_at(1.0, 1.0);
   carom_table t = empty_table(2.0);

@@ -1,5 +1,5 @@
-/* Strikes: pushes of balls that touch or nearly touch the cue ball against an integrator of its own
- * (strike_reference.h), limits in closed form and symmetries; a raised cue at a ball alone against
+/* Strikes: pushes of balls that touch or nearly touch the cue ball against its own integrator
+ * (strike_reference.h), limits in closed form and symmetries; a raised cue at a single ball against
  * the same integrator. docs/understanding/clusters.md has the law. */
 #include "cluster/cluster.h"
 #include "cluster/hertz.h"
@@ -112,8 +112,8 @@ static bool meet_others(const ref_strike *ref) {
   return other;
 }
 
-/* How far the balls start from the places of the reference, and how far off its lead the tip is,
- * over the way of the cue in the push of a ball alone. */
+/* How far the balls start from the positions of the reference, and how far off its lead the tip is,
+ * over the way of the cue in the push of a single ball. */
 static void place_errors(const ref_strike *ref, const carom_cue *cue, double errors[2]) {
   num places[REF_BALLS][3];
   carom_play play;
@@ -275,7 +275,7 @@ TEST(alone) {
 }
 
 /* A shot that is to stop at a contact, or at a first ball that is not of a set, stops after a push,
- * and goes on to the same end. */
+ * and continues to the same end. */
 TEST(stops_after_a_push) {
   static carom_shot_state state;
   const carom_table table = empty_table(table_size);
@@ -302,9 +302,9 @@ TEST(stops_after_a_push) {
   }
 }
 
-/* ---- The cue goes on */
+/* ---- The cue continues */
 
-/* A whole shot of 0.07 s with its facts. */
+/* A complete shot of 0.07 s with its facts. */
 static carom_shot follow_with(const carom_cue *cue, int count, double until) {
   const carom_table table = empty_table(table_size);
   const carom_shot_options options = {.friction = CAROM_FRICTION_CONSTANT, .time_most = until};
@@ -418,8 +418,8 @@ static double off_axis(const carom_cue *cue, const carom_event *e) {
   return e->impulse / balls[0].kind.mass - cos(phi) * (w[0] - u[0]) - sin(phi) * (w[1] - u[1]);
 }
 
-/* On smooth cloth, the sine of the angle of a push from the normal of its place. The turn that it
- * gives, 5/2 p x P/m, is at right angles to P, which gives the part of P upwards, of which the
+/* On smooth cloth, the sine of the angle of a push from the normal of its position. The turn that
+ * it gives, 5/2 p x P/m, is at right angles to P, which gives the part of P upwards, of which the
  * slate gives some back. 0 where that cannot be told. */
 static double cone_of(const carom_event *e) {
   double P[3], turn[3];
@@ -437,7 +437,7 @@ static double cone_of(const carom_event *e) {
 /* Of balls ahead, at angles, level and raised: up to the second touch all is as without a
  * follow-through, there the ball gets along the axis what the cue loses, within the cone of
  * friction and without energy, the mirror image is that of the shot, and a shot that is stopped on
- * the way goes on to the same end. */
+ * the way continues to the same end. */
 TEST(second_touches_at_angles) {
   static carom_event stopped[ROOM];
   static carom_shot_state state;
@@ -560,7 +560,7 @@ TEST(left_and_right) {
 }
 
 /* Balls that grip, the cue at phi off the line of centres and a to the side: the object ball leaves
- * at tan = (1/7)(tan phi - 2.5 a/cos phi)/nu off that line. nu, the share of the push that is
+ * at tan = (1/7)(tan phi - 2.5 a/cos phi)/nu off that line. nu, the fraction of the push that is
  * handed on, is 1/2 for a long touch. */
 TEST(frozen_at_an_angle) {
   static const double times[] = {0.001, 0.002, 0.01}, nus[] = {0.5625, 0.52, 0.5};
@@ -590,7 +590,7 @@ TEST(frozen_at_an_angle) {
 
 /* ---- A raised cue */
 
-/* The strike of a raised cue at a ball alone. Returns the touches of the tip. */
+/* The strike of a raised cue at a single ball. Returns the touches of the tip. */
 static int strike_alone(const carom_cue *cue, double e, carom_ball_state *end) {
   begin(1);
   balls[0].kind.restitution_table = e;
@@ -599,8 +599,8 @@ static int strike_alone(const carom_cue *cue, double e, carom_ball_state *end) {
   return facts.touches;
 }
 
-/* A ball alone, by its phases, beside the reference. Ends of hops are left out, as the reference
- * has none. */
+/* A single ball, by its phases, compared with the reference. Ends of hops are left out, as the
+ * reference has none. */
 TEST(raised_alone) {
   random_source r = {test_seed()};
   const int count = draws_of_test(60, 150);
@@ -658,7 +658,7 @@ TEST(hair_beside) {
   printf("\n");
 }
 
-/* In flat play squirt turns a raised push level, alone as beside a hair. */
+/* In flat play squirt turns a raised push level, alone as next to a hair. */
 TEST(flat_squirt) {
   const carom_shot_options flat = {.space = CAROM_SPACE_FLAT,
                                    .stop_at = CAROM_STOP_AT(CAROM_EVENT_STRIKE)};
@@ -831,7 +831,7 @@ TEST(elastic_pushes) {
 
 /* ---- Followed to its end */
 
-/* A cue ball that is struck straight into a cushion near it comes back onto the tip: a second
+/* A cue ball that is struck straight into a cushion near it returns onto the tip: a second
  * touch, with its speed and time. A cue that stops touches once. */
 TEST(back_from_a_cushion) {
   static const double gaps[] = {0.002, 0.005, 0.01, 0.02};

@@ -14,7 +14,7 @@
 typedef long double num;
 enum { REF_BALLS = 6, REF_TOUCHES = 64 };
 
-/* A contact that is pressed d deep, F = k d^power as it loads, 1 or 1.5, and gives back e^2
+/* A contact that is pressed d deep, F = k d^power as it loads, 1 or 1.5, and returns e^2
  * of the work. Where F has reached 0 the rest recovers as d falls. */
 typedef struct ref_press {
   num k, e, power, d, most;
@@ -44,8 +44,8 @@ typedef struct ref_strike {
   ref_press tip, under[REF_BALLS], pair[REF_BALLS][REF_BALLS];
   num n[REF_BALLS][REF_BALLS][3];
   num impulse; /* of the tip, N s */
-  num reach;   /* m: how far the cue goes on */
-  num T;       /* s: how long the tip touches a ball alone */
+  num reach;   /* m: how far the cue continues */
+  num T;       /* s: how long the tip touches a single ball */
   int touches;
 } ref_strike;
 
@@ -87,7 +87,7 @@ static inline num ref_force(ref_press *x) {
   return 0;
 }
 
-/* An impulse at the place c from the centre, over R, of ball i. */
+/* An impulse at the position c from the centre, over R, of ball i. */
 static inline void ref_hit(ref_strike *s, int i, const num c[3], const num J[3]) {
   num turn[3];
   ref_cross(c, J, turn);
@@ -97,14 +97,14 @@ static inline void ref_hit(ref_strike *s, int i, const num c[3], const num J[3])
   }
 }
 
-/* The velocity of the surface at the place c. */
+/* The velocity of the surface at the position c. */
 static inline void ref_surface(const ref_strike *s, int i, const num c[3], num u[3]) {
   ref_cross(s->W[i], c, u);
   for (int k = 0; k < 3; k++)
     u[k] += s->v[i][k];
 }
 
-/* The impulse g with which friction goes on, of size `most` at most, to end the slip u of which a
+/* The impulse g with which friction continues, of size `most` at most, to end the slip u of which a
  * unit of it takes `takes`; what it changes by is `change`. */
 static inline void ref_rub(const num u[3], num takes, num most, num g[3], num change[3]) {
   num next[3];
@@ -179,8 +179,8 @@ static inline num ref_slow(const ref_strike *s) {
 }
 static const num ref_slow_balls = 1e-6L;
 
-/* Positions and overlaps after h; those of balls that have touched go on along the normal that they
- * had then. */
+/* Positions and overlaps after h; those of balls that have touched continue along the normal that
+ * they had then. */
 static inline void ref_move(ref_strike *s, num h, bool first) {
   num w[3];
   s->time += h;
@@ -372,7 +372,7 @@ static inline bool ref_slate_ends(ref_strike *s) {
   return true;
 }
 
-/* Balls that have had a force and close again do so at once, as their places stay. */
+/* Balls that have had a force and close again do so at once, as their positions stay. */
 static inline bool ref_touch_again(ref_strike *s) {
   bool any = false;
   for (int i = 0; i < s->count; i++)
@@ -440,9 +440,9 @@ static inline void ref_solve(ref_strike *s, num h) {
   }
 }
 
-/* ---- Places */
+/* ---- Positions */
 
-/* The centroid in time of the impulse of the tip at a ball alone. */
+/* The centroid in time of the impulse of the tip at a single ball. */
 static inline num ref_lag(const ref_strike *s, num T) {
   const num e = s->tip.e;
   return T / (1 + e) * (2 / acosl(-1.0L) * (1 - e) + e);

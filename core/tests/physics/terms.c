@@ -17,7 +17,7 @@ static void exact_roll(long double A, long double k, long double left, long doub
 }
 
 /* A ball that rolls alone is where the exact solution has it, within the 1e-5 m of the header,
- * as long as it rolls, and comes to rest at the time and the place of that. */
+ * as long as it rolls, and stops at the time and the position of that. */
 TEST(drag_of_a_ball_alone) {
   enum { BALLS = 400, LOOKS = 200 };
   random_source random = {test_seed()};
@@ -217,7 +217,7 @@ TEST(each_part_has_its_own) {
       double into[2];
       for (int c = 0; c < 2; c++)
         into[c] = jaw ? table.jaw[e->b].centre[c] - e->before[0].r[c] : normals[e->b][c];
-      /* slow contacts have a rule of their own */
+      /* slow contacts have their own rule */
       if (e->before[0].v[0] * into[0] + e->before[0].v[1] * into[1] < 0.05)
         continue;
       carom_cushion_impact in =
@@ -304,7 +304,7 @@ static bool head_names(const char *head, const char *game) {
 }
 
 /* Every number of every game stands, with its source, in the tables of
- * docs/reference/constants.md, and is that number; what does not stand there is 0. */
+ * docs/reference/constants.md, and is that number; what is not there is 0. */
 TEST(constants) {
   static const char *const games[] = {"pool",          "snooker",          "billiard",
                                       "pooltool_pool", "pooltool_snooker", "pooltool_billiard"};
@@ -367,7 +367,7 @@ static carom_cushion_options own_cushion(carom_cushion_model model, const carom_
 }
 
 /* Han's cushion of snooker does to rolling balls what was measured: Mathavan 2010, figure 7, the
- * fitted line. The smooth one changes alike with the speed, but gives back less, as films show. */
+ * fitted line. The smooth one changes alike with the speed, but returns less, as films show. */
 TEST(snooker_cushion_by_speed) {
   static const double v[5] = {0.5, 1.0, 1.5, 2.0, 2.5},
                       share[5] = {0.897, 0.948, 0.936, 0.908, 0.874};
@@ -449,7 +449,7 @@ static double width_of_corner(const carom_table *table, double angle, double spe
   return fall * step;
 }
 
-/* Facings and jaws have numbers of their own: corner pockets narrow with speed, most along the
+/* Facings and jaws have their own numbers: corner pockets narrow with speed, most along the
  * rail; and the cushion of the ball does not move a facing. */
 TEST(pockets_by_speed) {
   carom_table table;

@@ -106,7 +106,7 @@ TEST(ends_at_the_result_everywhere) {
   ck_assert_double_le(worst, 5e-5);
 }
 
-/* What lies between does not depend on how many points there are, and is what Euler's method
+/* What is between does not depend on how many points there are, and is what Euler's method
  * comes to with many steps. */
 TEST(the_way_is_one) {
   case_set cases = load_cases();

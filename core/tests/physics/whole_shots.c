@@ -1,4 +1,4 @@
-/* Whole shots: invariants of random shots of every kind, the physics that players know, and the
+/* Complete shots: invariants of random shots of every kind, the physics that players know, and the
  * cases in which pooltool fails.
  */
 #include "invariants.h"
@@ -294,7 +294,7 @@ TEST(small_changes) {
   }
 }
 
-/* ---- Places */
+/* ---- Positions */
 
 /* A rail ends with its ends, and is the same from either: a short wall in the middle of a table. */
 TEST(both_ends_of_a_rail) {
@@ -514,7 +514,7 @@ TEST(tips) {
     carom_motion out;
     expect_ok(carom_strike(&cue, &kind, &out));
 
-    /* the point that is struck recedes at V (1 + 5/2 (a^2 + b^2)), the cue goes on at U */
+    /* the point that is struck recedes at V (1 + 5/2 (a^2 + b^2)), the cue continues at U */
     const double arm = 2.5 * (cue.a * cue.a + cue.b * cue.b), V = planar_size(out.v),
                  U = V0 - m / M * V;
     ck_assert_double_eq_tol(V * (1.0 + arm) - U, part * V0, 1e-14);
@@ -539,7 +539,7 @@ TEST(tips) {
               (game < CAROM_GAME_POOLTOOL_POOL ? CAROM_TIP_LEATHER : 1.0));
 }
 
-/* A ball alone: it slides to 5/7 v + 2/7 R w, then rolls v^2 / (2 mu g). */
+/* A single ball: it slides to 5/7 v + 2/7 R w, then rolls v^2 / (2 mu g). */
 TEST(alone) {
   random_source r = {test_seed()};
   const carom_table t = empty_table(200.0);

@@ -1,7 +1,7 @@
 /* CAROM_ISA=plain gives the same bits on every machine and with every compiler: a hash of
  * results for each part of the library. Inputs are drawn by correctly rounded operations alone,
  * so they have the same bits everywhere too. bits.expected has the hashes. They change only with
- * the numerics, in the commit that says why.
+ * the numerics, in the commit that explains why.
  *
  *     bits            prints a line for each part: what was computed, and the hash of its
  *                     results
@@ -327,7 +327,7 @@ static void cushion_traces(void) {
   }
 }
 
-/* ---- Whole shots ----------------------------------------------------------------------------- */
+/* ---- Complete shots -------------------------------------------------------------------------- */
 
 static uint64_t add_state(uint64_t hash, const carom_ball_state *s) {
   return add(add_numbers(hash, s->r, 9), (uint64_t)s->label);
@@ -436,7 +436,7 @@ static void shots(void) {
   }
 }
 
-/* Goes on with the hash of a shot of a cue ball at (x, 0.6) at another at (0.5, y). */
+/* Continues the hash of a shot of a cue ball at (x, 0.6) at another at (0.5, y). */
 static uint64_t add_near_ball(uint64_t hash, const carom_cue *cue, double x, double y) {
   static carom_table table;
   static carom_event events[ROOM];
@@ -481,9 +481,9 @@ static void no_follow_through(void) {
   show("shots: no follow-through", hash);
 }
 
-/* ---- Places and aims ------------------------------------------------------------------------- */
+/* ---- Positions and aims ---------------------------------------------------------------------- */
 
-/* Which places of a grid are on a table of one's own, whose rails are short. */
+/* Which positions of a grid are on a table of one's own, whose rails are short. */
 static void places(void) {
   static const carom_corner corner[9] = {
       {0, 0.9375, 0.125},     {0.125, 0.625, 0.125}, {0.25, 0.28125, 0.125},
@@ -501,7 +501,7 @@ static void places(void) {
 }
 
 #ifndef CAROM_WITHOUT_PLAN
-/* Aims of a cue that is left to the stick, beside the head cushion. */
+/* Aims of a cue that is left to the stick, next to the head cushion. */
 static void aims(void) {
   static carom_table table;
   carom_shot_ball balls[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_POOL)},

@@ -9,7 +9,7 @@ WINDOWS int __stdcall WriteFile(void *file, const void *bytes, unsigned long siz
                                 unsigned long *written, void *unused);
 WINDOWS void __stdcall ExitProcess(unsigned code);
 
-int _fltused; /* what MSVC asks for where there are doubles */
+int _fltused; /* what MSVC requires where there are doubles */
 
 static carom_record game;
 static char text[CAROM_RECORD_TEXT];

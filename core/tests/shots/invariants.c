@@ -73,8 +73,9 @@ static int in_space(const carom_shot_ball *balls, const carom_event *e) {
          balls[e->a].kind.radius != balls[e->b].kind.radius;
 }
 
-/* The share of a contact of two balls that the cloth has a part in, core/src/cluster/cluster.h: all
- * of it where equal balls lie on it, none 1 mm above it, or where the line of centres is steep. */
+/* The fraction of a contact of two balls that the cloth has a part in, core/src/cluster/cluster.h:
+ * all of it where equal balls lie on it, none 1 mm above it, or where the line of centres is
+ * steep. */
 static double share_of_cloth(const carom_shot_ball *balls, const carom_event *e) {
   double z[2], height = 0.0;
   for (int side = 0; side < 2; side++) {
@@ -129,7 +130,7 @@ static const char *type_name(int type) {
   return names[type];
 }
 
-/* The distance of two centres; what lies on the cloth is at z = R. */
+/* The distance of two centres; what is on the cloth is at z = R. */
 static double distance(const follower *f, int i, int j) {
   const carom_ball_state *a = &f->at[i], *b = &f->at[j];
   const double z_a = flies(a) ? a->r[2] : f->balls[i].kind.radius,
@@ -137,7 +138,7 @@ static double distance(const follower *f, int i, int j) {
   return hypot(length2(a->r[0] - b->r[0], a->r[1] - b->r[1]), z_a - z_b);
 }
 
-/* Noses are inside the walls that stand for them, so that balls of the table's radius touch
+/* Noses are inside the walls that represent them, so that balls of the table's radius touch
  * those on the cloth. */
 static double nose_shift(const follower *f, double h) {
   const double reference =

@@ -30,7 +30,7 @@ typedef struct shot_measures {
 shot_measures shot_measure(const carom_table *table, const carom_shot_ball *balls, int count,
                            const carom_shot *shot, carom_status status, int samples);
 
-/* That a shot is sound, with places and states within so much. */
+/* That a shot is sound, with positions and states within so much. */
 #define EXPECT_SOUND(m, within, name, number)                                                      \
   ck_assert_msg(                                                                                   \
       (m).overlap <= (within) && (m).start <= 3e-3 && (m).again <= 5e-4 &&                         \

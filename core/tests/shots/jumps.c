@@ -285,7 +285,7 @@ static verdict name_two(two_shots *s, const carom_event *x, const carom_event *y
   if (falls && is_now(x, y) && x->a == y->a)
     return EXPLAINED;
 
-  /* at one instant, both in both shots, or one in place of the other */
+  /* at one instant, both in both shots, or one instead of the other */
   const bool x_in_b = find_now(s->b, s->j, x) != NULL, y_in_a = find_now(s->a, s->i, y) != NULL;
   const bool instead = !x_in_b && !y_in_a && is_now(x, y) && x->a == y->a;
   if (!falls && (instead || (x_in_b && y_in_a))) {

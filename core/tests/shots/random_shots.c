@@ -43,7 +43,7 @@ static void add_anywhere(random_shot *s, lab_random *r, carom_game game) {
   }
 }
 
-/* A tip within `most` radii of the centre, each place as likely. */
+/* A tip within `most` radii of the centre, each position as likely. */
 static void any_tip(random_shot *s, lab_random *r, double most) {
   const double off = most * sqrt(lab_uniform(r, 0.0, 1.0)),
                way = lab_uniform(r, 0.0, 6.283185307179586);
@@ -277,7 +277,7 @@ static void coincident(random_shot *s, lab_random *r) {
   const double R = 0.03125, height = 0.0375;
   s->table = (carom_table){.width = 1.0, .length = 2.0};
   const double corner[5][2] = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 2.0}, {0.0, 2.0}, {0.0, 0.0}};
-  const int parts = lab_whole(r, 0, 1) ? 1 : 4; /* ends of rails at the places of balls */
+  const int parts = lab_whole(r, 0, 1) ? 1 : 4; /* ends of rails at the positions of balls */
   for (int k = 0; k < 4 * parts; k++) {
     const double *p = corner[k / parts], *q = corner[k / parts + 1],
                  from = (double)(k % parts) / parts, step = 1.0 / parts;
@@ -291,7 +291,7 @@ static void coincident(random_shot *s, lab_random *r) {
   if (lab_whole(r, 0, 1)) /* a post, met at its exact side */
     s->table.jaw[s->table.jaws++] =
         (carom_jaw){.centre = {0.5, 1.0}, .radius = 0.03125, .height = height};
-  /* places k + 1/2 diameters from the sides; where rails end and a post stands, whole ones */
+  /* positions k + 1/2 diameters from the sides; where rails end and a post stands, whole ones */
   const double shift = lab_whole(r, 0, 1) ? R : 2.0 * R;
   const int count = lab_whole(r, 1, 12), lines = lab_whole(r, 1, 3);
   const double e = 0.25 * lab_whole(r, 0, 4);
@@ -316,8 +316,8 @@ static void coincident(random_shot *s, lab_random *r) {
 }
 
 /* The same in the air, where time is without rounding too, as g = 8 m/s^2: balls at the heights
- * of others, of the noses and of their tops, thrown upward, downward and level, beside each
- * other or a diameter apart; and a pocket with its edge at their places. */
+ * of others, of the noses and of their tops, thrown upward, downward and level, next to each
+ * other or a diameter apart; and a pocket with its edge at their positions. */
 static void coincident_in_space(random_shot *s, lab_random *r) {
   coincident(s, r);
   const double R = 0.03125, nose = s->table.rail[0].height, lies = R;
@@ -356,7 +356,7 @@ static void jump(random_shot *s, lab_random *r) {
   s->cue.tip_time = (double[]){0.0, 0.0006, -1.0}[lab_whole(r, 0, 2)];
 }
 
-/* Whether a ball of radius R at a place is clear of all others, in space. */
+/* Whether a ball of radius R at a position is clear of all others, in space. */
 static bool is_free_in_space(const random_shot *s, const double at[3], double R) {
   for (int k = 0; k < s->count; k++) {
     const double *p = s->ball[k].state.r;

@@ -61,7 +61,7 @@ static void add_motion(recipe *r, lab_random *random, double heading) {
   r->side = lab_whole(random, 0, 1) ? 0.0 : lab_uniform(random, -1.0, 1.0);
 }
 
-/* A ball that comes at one that lies in company. */
+/* A ball that comes at one that is in company. */
 static void add_attacker(recipe *r, lab_random *random, int target, double heading) {
   const int k = r->count++;
   r->of[k] = target;
@@ -70,7 +70,7 @@ static void add_attacker(recipe *r, lab_random *random, int target, double headi
   add_motion(r, random, heading);
 }
 
-/* Ball 0 beside a cushion, far from its ends. */
+/* Ball 0 next to a cushion, far from its ends. */
 static void put_at_cushion(recipe *r, lab_random *random) {
   r->table = lab_whole(random, 0, 1) ? CAROM_TABLE_POOL_9FT : CAROM_TABLE_THREECUSHION;
   r->rail = lab_whole(random, 0, r->table == CAROM_TABLE_POOL_9FT ? 5 : 3);
@@ -243,7 +243,7 @@ int recipe_numbers(const recipe *r, recipe_number numbers[RECIPE_NUMBERS]) {
 
 /* ---- Layouts */
 
-/* The place of ball 0, and the bearing of the direction into its cushion. */
+/* The position of ball 0, and the bearing of the direction into its cushion. */
 static double put_first(const recipe *r, const carom_table *t, double R, double at[2]) {
   if (r->rail < 0) {
     at[0] = 0.5 * t->width;

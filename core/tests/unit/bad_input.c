@@ -1,8 +1,9 @@
-/* Bad input of contacts, besides the rows of refusals.txt: fields that are no numbers, options out
- * of their range, noise in the radii, balls that separate, and what stands for a default. */
+/* Bad input of contacts, in addition to the rows of refusals.txt: fields that are no numbers,
+ * options out of their range, noise in the radii, balls that separate, and what represents a
+ * default. */
 #include "functions.h"
 
-/* The status of a field that is no number, by its name without the ball and the axis. */
+/* The status of a field that is not a number, by its name without the ball and the axis. */
 static carom_status status_of(const char *field) {
   static const struct {
     const char *name;
@@ -184,7 +185,7 @@ TEST(separating_pairs_are_unchanged) {
   expect_unchanged(&in);
 }
 
-/* What has no row: a batch without rows, and details of a call that is refused. */
+/* What has no row: a batch without rows, and details of a call that is rejected. */
 TEST(nothing_to_solve) {
   set_up();
   expect_ok(carom_collide_batch(NULL, 0, NULL, NULL, NULL));

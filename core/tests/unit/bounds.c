@@ -1,7 +1,7 @@
 /* No call takes more than its stated number of iterations of the precise solver, each of which
  * computes the rates at eight nodes: CAROM_IMPACT_ITERATIONS for an impact, and as many for each
- * sample of a trace, besides the rest of the step in which that is reached. The linker puts the
- * counter below between the solver's entry and its loop; no time is measured. */
+ * sample of a trace, in addition to the rest of the step in which that is reached. The linker puts
+ * the counter below between the solver's entry and its loop; no time is measured. */
 #include "random_impacts.h"
 #include "support.h"
 

@@ -9,7 +9,7 @@ static void set_up(void) {
   usual = carom_ball_kind_of(CAROM_GAME_POOL);
 }
 
-/* Without readings the banks come back as those of the ball, away from the pockets. */
+/* Without readings the banks return as those of the ball, away from the pockets. */
 TEST(usual_table) {
   carom_calibration told;
   static const carom_table_kind kinds[] = {CAROM_TABLE_POOL_7FT, CAROM_TABLE_POOL_8FT,

@@ -1,4 +1,4 @@
-/* Every public function, a row each, for functions.h, which says what stands in a row. */
+/* Every public function, a row each, for functions.h, which says what is in a row. */
 OTHER(alciatore, (law = carom_alciatore(), ACCEPTED))
 STATUS(bank_of, INT(bank_index), PTR(&bank))
 STATUS(calibrate, PTR(&table), PTR(&balls[0].kind), MAYBE(readings), PTR(&calibration))
@@ -114,8 +114,8 @@ STATUS(match_place, PTR(begun()), INT(0), NUM(0.6), NUM(0.5))
 STATUS(match_plan, PTR(ready()), PTR(&plan), PTR(choices), LENGTH(4), PTR(&found))
 STATUS(match_prepare, PTR(ready()), INT(0), PTR(&safety))
 OTHER(match_read, GIVES(read_match(MAYBE(&reader), MAYBE(&record), MAYBE(begun()->text))))
-OTHER(match_read_from,
-      GIVES(read_match_from(MAYBE(&reader), MAYBE(&record), MAYBE(begun()->text), ANYINT(1))))
+OTHER(match_receive,
+      GIVES(receive_line(MAYBE(&reader), MAYBE(&match_room), MAYBE(begun()->text), ANYINT(1))))
 STATUS(match_replay, PTR(moving()), PTR(&second_shot))
 STATUS(match_standing, PTR(begun()), PTR(&standing))
 VALUE(match_string, MAYBE(begun()), MAYBE(text), 99)

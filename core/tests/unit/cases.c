@@ -1,5 +1,5 @@
-/* Cases as rows of a file: calls that are refused, and what they leave. A row has statements with ;
- * between them, and begins with the objects of set_up() in functions.h.
+/* Cases as rows of a file: calls that are rejected, and what they leave. A row has statements with
+ * ; between them, and begins with the objects of set_up() in functions.h.
  *
  *   table KIND, table empty SIZE      a table without balls and without a cue
  *   balls GAME COUNT                  more balls, at rest on the cloth
@@ -8,11 +8,11 @@
  *   call FUNCTION,... STATUS NOTES    each function returns this status
  *   expect PATH = VALUE within VALUE  or >
  *
- * NOTES: `without N`, argument N is NULL; `where N`, the place that a check names; `unchanged`,
+ * NOTES: `without N`, argument N is NULL; `where N`, the position that a check names; `unchanged`,
  * nothing of the shot or of states is written; `nan PATH`, this object has no numbers.
  *
- * A value is a number, a path or a word of the library. A path is like ball[1].r[0], the place of a
- * ball. */
+ * A value is a number, a path or a word of the library. A path is like ball[1].r[0], the position
+ * of a ball. */
 #include "functions.h"
 #include "row_file.h"
 
@@ -31,7 +31,7 @@ static const char *read_word(void) {
 
 /* ---- Numbers by their paths */
 
-/* What a place is: a number of a type, or a struct. Those with rows of numbers are 10 and their
+/* What a position is: a number of a type, or a struct. Those with rows of numbers are 10 and their
  * kind of part. */
 enum { DOUBLE, INT32, INT64, UINT64, STRUCT = 10 };
 enum {
@@ -66,7 +66,7 @@ enum {
 typedef struct location {
   char *address;
   int type;  /* what is there */
-  int words; /* the words of its values; -1: none */
+  int words; /* the names of its values; -1: none */
 } location;
 
 #define MEMBER(parent, name, type) \
@@ -450,7 +450,7 @@ static void run_statement(void) {
   assign();
 }
 
-/* Each case goes on where the one before it ended or failed. */
+/* Each case continues where the one before it ended or failed. */
 START_TEST(a_case) {
   set_up();
   if (_i == 0)

@@ -1,4 +1,4 @@
-/* The floating-point environment of the caller, as carom.h tells it: rounding to nearest is
+/* The floating-point environment of the caller, as carom.h describes it: rounding to nearest is
  * needed, though nothing breaks without; flushing to zero makes no difference to ordinary
  * collisions; the environment itself is left as it was, but for the flags. */
 #include "random_impacts.h"

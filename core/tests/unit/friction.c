@@ -26,7 +26,7 @@ TEST(rolling) {
   carom_rolling_velocity(v, still, 0.03, end);
   ck_assert_double_eq_tol(end[0], 1.0, 1e-15);
   ck_assert_double_eq_tol(end[1], -0.5, 1e-15);
-  carom_rolling_velocity(v, rolls, 0.03, end); /* what rolls already goes on */
+  carom_rolling_velocity(v, rolls, 0.03, end); /* what rolls already continues */
   NEAR_EACH(end, v, 3, 1e-15);
   double in_place[3] = {rolls[0], rolls[1], rolls[2]};
   carom_rolling_velocity(v, in_place, 0.03, in_place);

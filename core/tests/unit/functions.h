@@ -334,7 +334,7 @@ static OWN carom_plan_stroke choices[4];
 static OWN carom_match_setup setup;
 static OWN carom_seating seating;
 static OWN carom_standing standing;
-static OWN carom_match match, reader;
+static OWN carom_match match, reader, match_room;
 static OWN carom_bounds bounds;
 static OWN carom_turn settled;
 static OWN carom_rules_state rules_state;
@@ -451,8 +451,8 @@ static carom_match *begun(void) {
 static int64_t read_match(carom_match *to, carom_record *of, const char *line) {
   return carom_match_read(to, of, line, line == NULL ? 2 : strcspn(line, "\n"));
 }
-static int64_t read_match_from(carom_match *to, carom_record *of, const char *line, int seat) {
-  return carom_match_read_from(to, of, line, line == NULL ? 2 : strcspn(line, "\n"), seat);
+static int64_t receive_line(carom_match *to, carom_match *spare, const char *line, int seat) {
+  return carom_match_receive(to, spare, line, line == NULL ? 2 : strcspn(line, "\n"), seat);
 }
 /* A match whose cue ball is placed, and one whose balls move. */
 static carom_match *ready(void) {
@@ -468,7 +468,7 @@ static carom_match *moving(void) {
 #endif
 
 /* ---- The functions. calls.h has a row for each, with the arguments of carom_NAME(): once they
- * are its call, and once its place in a table. The call gives a STATUS; or ACCEPTED, with any
+ * are its call, and once its position in a table. The call gives a STATUS; or ACCEPTED, with any
  * VALUE, a NUMBER, NAN where there is none, a WORD, NULL where there is none, or by OTHER steps. */
 
 #define LAYOUT PTR(balls), INT(count)

@@ -151,7 +151,7 @@ TEST(pressed) {
       /* a gap of some 1e-12 m is known to the rounding of `reach` */
       ck_assert_double_eq_tol(carom_first_contact(&d, reach, 1.0), t, 1e-3 * t);
     }
-  /* by rounding alone: not before the path ends */
+  /* only by rounding: not before the path ends */
   const double rounding[3] = {0.0, 0.0, -1e-17};
   ck_assert(isinf(carom_first_touch(rounding, slack, 10.0)));
   const carom_separation tangential = {{reach, 0.0}, {0.0, 1e-9}, {-1e-17, -1.0}};

@@ -1,5 +1,5 @@
 /* Recordings: numbers as text, a game written and played again, and every way in which a
- * recording is refused. */
+ * recording is rejected. */
 #include "carom_record.h"
 #include "platform/fingerprint.h"
 #include "record/number_text.h"
@@ -107,8 +107,8 @@ static void play(carom_record_kind kind, carom_status expected) {
   }
 }
 
-/* A break that is stopped and goes on, ball in hand, a shot with other models, a layout changed by
- * hand. */
+/* A break that is stopped and continues, ball in hand, a shot with other models, a layout changed
+ * by hand. */
 static void write_game(void) {
   memset(&game, 0, sizeof game);
   size = 0;
@@ -200,7 +200,7 @@ TEST(a_game_played_again) {
   ck_assert_mem_eq(&again.facts, &game.facts, sizeof game.facts);
 }
 
-/* ---- What is refused */
+/* ---- What is rejected */
 
 /* One change of the text: what it becomes, and a part of what is said about it. */
 static void refused(const char *what, const char *with, const char *said) {
@@ -225,16 +225,16 @@ TEST(lines_that_are_refused) {
       {"\"format\":2", "\"format\":4", "recording.format must be 2 or 3"},
       {"\"format\":2", "\"format\":3", "balls.hash is missing"},
       {"\"format\":2", "\"format\":1", "recording.format is 1, whose hashes do not cover"},
-      {"\"width\":", "\"widht\":", "table.widht is no key of the format"},
+      {"\"width\":", "\"widht\":", "table.widht is not a key of the format"},
       {"\"width\":1.27,", "", "table.width is missing"},
       {"\"width\":1.27", "\"width\":1.27,\"width\":1.27", "table.width comes twice"},
-      {"\"width\":1.27", "\"width\":\"wide\"", "table.width is no hexadecimal number"},
+      {"\"width\":1.27", "\"width\":\"wide\"", "table.width is not a hexadecimal number"},
       {"\"width\":1.27", "\"width\":nan", "table.width must be a number"},
       {"\"width\":1.27", "\"width\":0.1234567890123456789", "15, and 22 places"},
       {"\"side\":1", "\"side\":1.5", "side must be a whole number"},
       {"{\"p\":[", "{\"p\":[0,", "table.rails[0].p has too many numbers"},
       {"\"hash\":\"", "\"hash\":\"g", "shot.hash must be 16 hexadecimal digits"},
-      {"{\"balls\"", "{\"bals\"", "bals is no line of a recording"},
+      {"{\"balls\"", "{\"bals\"", "bals is not a line of a recording"},
       {"{\"recording\"", "[\"recording\"", "must be an object"},
       {"{\"place\":{\"ball\":0", "{\"place\":{\"ball\":10", "place "}};
   write_game();
@@ -242,10 +242,10 @@ TEST(lines_that_are_refused) {
     refused(changes[k].part, changes[k].becomes, changes[k].fault);
   ck_assert_int_eq(replay(text, size), 5);
   ck_assert_int_eq(carom_record_read(&again, "{\"end\":{}}", 10), CAROM_ERROR_RECORD);
-  ck_assert_str_eq(again.fault, "end stands behind the end of the recording");
+  ck_assert_str_eq(again.fault, "end follows the end of the recording");
   refused("{\"table\":", "{\"event\":{\"time\":0,\"type\":1,\"a\":0}}\n{\"table\":",
           "must follow a shot");
-  refused("\"shots\":5", "\"shots\":4", "end.shots is not that of the lines above");
+  refused("\"shots\":5", "\"shots\":4", "end.shots does not match the lines above");
 
   /* a line less, and a line cut off: the shot's hashes are those of a chain */
   char *line = strstr(text, "{\"continue\":"), *next = strchr(line, '\n') + 1;
@@ -275,8 +275,8 @@ TEST(lines_that_are_refused) {
   ck_assert_uint_eq(carom_record_write(&game, CAROM_RECORD_TABLE, text, ROOM), 0);
 }
 
-/* A kind of line that is none, and a number of balls that cannot be, are refused wherever they come
- * from. */
+/* A kind of line that is none, and a number of balls that cannot be, are rejected wherever they
+ * come from. */
 TEST(records_that_cannot_be) {
   static const int64_t counts[] = {-1, INT64_MIN, CAROM_BALLS_MOST + 1, 100000, INT64_MAX};
   static const int kinds[] = {-1, -100, INT_MIN, 12, 64, INT_MAX};
@@ -298,7 +298,7 @@ TEST(records_that_cannot_be) {
 TEST(a_refused_shot_changes_nothing) {
   write_game();
   ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_SHOT, NULL), CAROM_ERROR_RECORD);
-  ck_assert_str_eq(game.fault, "stands behind the end of the recording");
+  ck_assert_str_eq(game.fault, "follows the end of the recording");
   game.kind = CAROM_RECORD_EVENT; /* the line before its end */
   game.cue.phi = NAN;
   again = game;
@@ -309,7 +309,7 @@ TEST(a_refused_shot_changes_nothing) {
   ck_assert_int_eq(game.pending, again.pending);
 }
 
-/* A shot that ran to its end cannot go on, whatever the one before left. */
+/* A shot that ran to its end cannot continue, whatever the one before left. */
 TEST(an_ended_shot_does_not_go_on) {
   memset(&game, 0, sizeof game);
   carom_table_make(CAROM_TABLE_POOL_9FT, &game.table);
@@ -326,7 +326,7 @@ TEST(an_ended_shot_does_not_go_on) {
   ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL), CAROM_ERROR_STATE);
 }
 
-/* A stroke while balls move would strike none, so it is refused and changes nothing; also once the
+/* A stroke while balls move would strike none, so it is rejected and changes nothing; also once the
  * balls were taken over, and of a recording that is read. */
 TEST(no_stroke_while_balls_move) {
   write_game();
@@ -353,8 +353,8 @@ static uint64_t step(uint64_t h, uint64_t x) {
   return (h << 27 | h >> 37) * UINT64_C(0x9e3779b97f4a7c15);
 }
 
-/* The hash of lines counts numbers that are not 0, behind their places: of the first line, and of
- * options of which one is set. */
+/* The hash of lines counts numbers that are not 0, behind their positions: of the first line, and
+ * of options of which one is set. */
 TEST(hash_of_lines) {
   memset(&game, 0, sizeof game);
   size = 0;
@@ -384,7 +384,7 @@ static void write_small_game(void) {
 }
 
 /* Every byte of a recording with one bit of three changed: a shot ends otherwise, or a line is
- * refused, or a reader sees what he saw. */
+ * rejected, or a reader sees what he saw. */
 TEST(every_changed_bit) {
   static char changed[ROOM];
   write_small_game();

@@ -7,8 +7,8 @@
 /* Writes a line; each test has its own. */
 static void add_line(carom_record *game, carom_record_kind kind);
 
-/* 3 balls on the table that is made, a stopped shot that goes on, events, how the game stands where
- * the library knows games, a cue ball that is placed, and another shot. */
+/* 3 balls on the table that is made, a stopped shot that continues, events, the state of the game
+ * where the library knows games, a cue ball that is placed, and another shot. */
 static inline void record_game(carom_record *game) {
   static carom_event events[100];
   carom_shot shot = {0};

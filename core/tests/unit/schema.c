@@ -1,4 +1,4 @@
-/* What there is, by its rows: each number is refused outside its range and told by name. */
+/* What there is, by its rows: each number is rejected outside its range and named. */
 #include "schema/numbers.h"
 #include "support.h"
 
@@ -37,7 +37,7 @@ TEST(rows_are_those_of_the_struct) {
   ck_assert_ptr_null(carom_ball_fault(NULL, text, sizeof text));
 }
 
-/* What refuses a kind tells which number it is. */
+/* A rejected kind reports which number is invalid. */
 TEST(every_refusal_names_a_number) {
   carom_table table;
   expect_ok(carom_table_make(CAROM_TABLE_POOL_9FT, &table));
@@ -52,7 +52,7 @@ TEST(every_refusal_names_a_number) {
         set(&ball.kind, carom_number_of(CAROM_PART_BALL, k), values[x / 10]);
         const carom_number *n = carom_ball_fault(&ball.kind, text, sizeof text);
         const carom_status status = carom_shot_check(&table, &ball, 1, NULL, NULL, NULL);
-        if (n == NULL) /* a radius beside its state or table */
+        if (n == NULL) /* a radius next to its state or table */
           ck_assert(status == CAROM_OK || ball.kind.radius != fit().kind.radius);
         else
           ck_assert(status < 0 && text[0] != '\0');
@@ -90,7 +90,7 @@ TEST(ranges_in_words) {
   static const struct {
     double low;
     double high;
-    double other; /* a value besides the range */
+    double other; /* a value outside the range */
     const char *unit;
     const char *words;
   } ranges[] = {
@@ -147,4 +147,39 @@ TEST(words_are_without_gaps) {
     for (int beyond = value; beyond < 40; beyond++)
       ck_assert_ptr_null(carom_word_text((carom_words)of, beyond));
   }
+}
+
+/* Players write words in many ways; a text that is a word itself means that word. */
+TEST(words_as_players_write_them) {
+  static const struct {
+    carom_words of;
+    const char *text;
+    const char *word; /* NULL: none */
+  } cases[] = {{CAROM_WORDS_RACK, "9ball", "nineball"},
+               {CAROM_WORDS_RACK, "8-ball", "eightball"},
+               {CAROM_WORDS_RACK, "Ten Ball", "tenball"},
+               {CAROM_WORDS_RACK, "billiards", "billiards"},
+               {CAROM_WORDS_TABLE, "9-foot", "9ft"},
+               {CAROM_WORDS_TABLE, "12ft", "snooker"},
+               {CAROM_WORDS_TABLE, "9", NULL},
+               {CAROM_WORDS_CONDITION, "fast", "fast_cloth"},
+               {CAROM_WORDS_EVENT, "Ball Ball", "ball_ball"},
+               {CAROM_WORDS_WORLD, "", NULL},
+               {CAROM_WORDS_WORLD, NULL, NULL},
+               {CAROM_WORDS_WORLD, "a text that is longer than any word of the library", NULL}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    const int value = carom_word_value(cases[k].of, cases[k].text);
+    if (cases[k].word == NULL)
+      ck_assert_int_eq(value, -1);
+    else
+      ck_assert_str_eq(carom_word(cases[k].of, value), cases[k].word);
+  }
+  ck_assert_str_eq(carom_word_synonym("threecushion", 1), "carom");
+  ck_assert_ptr_null(carom_word_synonym("nineball", 1));
+  ck_assert_ptr_null(carom_word_synonym("nineball", -1));
+  ck_assert_ptr_null(carom_word_synonym(NULL, 0));
+  ck_assert_int_eq(carom_word_means("top-right", "foot-right"), 1);
+  ck_assert_int_eq(carom_word_means("right_side", "side-right"), 1);
+  ck_assert_int_eq(carom_word_means("side", "side-right"), 0);
+  ck_assert_int_eq(carom_word_means(NULL, "side-right"), 0);
 }

@@ -1,8 +1,8 @@
-/* Bad input of a shot beside the rows of refusals.txt: each number out of its range, with its own
+/* Bad input of a shot next to the rows of refusals.txt: each number out of its range, with its own
  * status and place, and nothing else written. Many times and the built-in tables, too. */
 #include "functions.h"
 
-/* The shot is refused for this reason, at this ball or part. */
+/* The shot is rejected for this reason, at this ball or part. */
 static void expect(carom_status expected, int index) {
   ck_assert_int_eq(carom_shot_check(&table, balls, count, &cue, &options, &where), expected);
   ck_assert_int_eq(where, index);
@@ -12,14 +12,14 @@ static void expect(carom_status expected, int index) {
   ck_assert_int_eq(shoot_pair(), expected);
 }
 
-/* The same of a field that has a status of its own, whose name and text say the field: `text` is
+/* The same of a field that has its own status, whose name and text say the field: `text` is
  * "cue.mass must". */
 static void expect_named(const char *field, carom_status error) {
   snprintf(text, sizeof text, "%s must", field);
   ck_assert_ptr_nonnull(strstr(carom_status_name(error), strchr(field, '.') + 1));
   ck_assert_ptr_eq(strstr(carom_status_string(error), text), carom_status_string(error));
 }
-/* Each number of a struct of the set-up, beyond its range, is refused by its status, and told. */
+/* Each number of a struct of the set-up, beyond its range, is rejected by its status, and told. */
 static void expect_ranges(carom_part_kind part_kind, int index, void *object, const char *name) {
   const carom_number *n;
   for (int k = 0; (n = carom_number_of(part_kind, k)) != NULL; k++)
@@ -180,7 +180,7 @@ TEST(damaged_events) {
   const carom_tangent_seeds by_speed = {.directions = 1, .cue = seed};
   memcpy(good, events, sizeof good);
   const double time = 0.5 * (good[3].time + good[4].time);
-  /* of these values so many in each place, others from place to place; before a release all */
+  /* of these values so many in each position, others from place to place; before a release all */
   const int values = draws_within(4, bads);
   int refused = 0, unresolved = 0;
   tangents[0] = (carom_tangent){.final = heap->ends[0]};

@@ -69,7 +69,8 @@ static size_t stack_used(void *(*body)(void *)) {
   return STACK - untouched;
 }
 
-/* Measures what a body uses besides `own` bytes, by each instruction set, and prints the most. */
+/* Measures what a body uses in addition to `own` bytes, by each instruction set, and prints the
+ * most. */
 static void measure(void *(*body)(void *), const char *name, size_t own) {
   size_t most = 0;
   carom_isa_limit(CAROM_ISA_ANY);
@@ -93,7 +94,7 @@ static void measure(void *(*body)(void *), const char *name, size_t own) {
     printf("  %s with %d threads: %zu\n", name, threads, most - own);
 }
 
-/* Every function that the library exports, without threads of its own and with some. */
+/* Every function that the library exports, without its own threads and with some. */
 TEST(every_function_fits) {
   random_source source = {test_seed()};
   lab_random rng = {test_seed()};

@@ -1,7 +1,7 @@
 /* Plans, aims, players and rules with inputs made of the bytes of a fuzzer (draws.h). Aborts where
  * the contract of carom_plan.h is broken: a choice that is not finite, or a chance that is none;
  * choices that depend on threads or on what was in the memory before; bytes written with an error
- * or beside the results. Crashes, hangs and undefined behaviour are for the fuzzer and the
+ * or next to the results. Crashes, hangs and undefined behaviour are for the fuzzer and the
  * sanitizers to see. */
 #include "carom_plan.h"
 #include "draws.h"
@@ -121,7 +121,7 @@ static carom_status plan(int which, int fill, const carom_cue *cues, const doubl
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   begin(data, size);
-  tame = choice(4) != 0; /* else almost all is refused */
+  tame = choice(4) != 0; /* else almost all is rejected */
   make_inputs();
   carom_cue cues[ROOM], aimed = cue;
   for (int k = 0; k < ROOM; k++) {

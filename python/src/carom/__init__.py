@@ -1,7 +1,10 @@
-"""Billiards, computed: collisions of balls and cushions, whole shots, and millions of any of them.
+"""Billiards physics: collisions, impacts on cushions, and complete shots, one or millions at a time.
 
-    collisions   impacts, cushion_impacts, collide, cushion, mu_ball, alciatore, Outcome; step by
-                 step: trace, cushion_trace; a table's cushion by three banks: calibrate, Calibration
+Units, axes and signs: docs/reference/conventions.md. All quantities are in SI units, except that the
+cue's angles are in degrees; vectors are right-handed with z up.
+
+    collisions   impacts, cushion_impacts, collide, cushion, mu_ball, alciatore, Outcome; one impact
+                 in steps: trace, cushion_trace; a cushion from three banks: calibrate, Calibration
     layouts      tables, Table, racks, balls, by_number, cue, struck, place_ball
     shots        simulate, simulate_batch, simulate_arrow, resume, Options, ALL_THREADS
     files        load; Shot.save, Shots.save, Match.save
@@ -11,13 +14,12 @@
                  RunOut
     coach        odds, Odds; review, Review, Drill; best_breaks; ways, Ways; why, Why; breaks,
                  Breaks; practice, Practice, Reviewed
-    rules        Match, a whole game; referee, Rules, Ruling, Facts, Turn, Foul
+    rules        Match, a complete game; referee, Rules, Ruling, Facts, Turn, Foul
     other        dtypes, the structured dtypes; cite, physics_revision, isa_in_force
     modules      record, tracks, fit, jax, torch, pooltool; games: potting, drills, pool, matches,
                  gymnasium, pettingzoo, sb3
 
-`help(carom.simulate)` is the manual of a call. Units are SI; vectors are right-handed with z up.
-Every call that computes releases the GIL.
+`help(carom.simulate)` describes a function. Functions release the GIL while they compute.
 """
 
 import importlib as _importlib
@@ -137,8 +139,8 @@ if _TYPE_CHECKING:
         with_errors as with_errors,
     )
 
-# What the package gives, as dir(carom) shows it. It has no __all__, since help(carom) would print the
-# whole of every name there.
+# The public names, as dir(carom) lists them. There is no __all__, because help(carom) would then
+# print the documentation of each of them.
 _OFFERED = [
     "ALL_THREADS",
     "Breaks",
@@ -221,7 +223,7 @@ _OFFERED = [
     "with_errors",
 ]
 
-# Names of the folder games, and modules of folders, which are loaded when they are asked for.
+# Names of carom.games, and modules in subfolders, which are loaded on first use.
 _OF_GAMES = frozenset(
     [
         "Breaks",
@@ -301,7 +303,7 @@ def __dir__() -> list[str]:
 
 
 def __getattr__(name: str) -> object:
-    """What lies in a folder of the package, which the core loads only when it is asked for."""
+    """Return a name from a subfolder of the package, which is imported on first use."""
     try:
         if name in _MODULES_OF_FOLDERS or name in _PARTS:
             return _importlib.import_module(f"carom.{name}")
@@ -313,15 +315,17 @@ def __getattr__(name: str) -> object:
 
 
 def isa_in_force() -> str:
-    """The instruction set in use: "plain", "sse2", "neon", "avx2" or "avx512".
+    """Return the instruction set in use: "plain", "sse2", "neon", "avx2" or "avx512".
 
-    The variable CAROM_ISA limits it.
+    The environment variable CAROM_ISA can limit it.
     """
     return str(_ffi.string(_lib.carom_isa_name(_lib.carom_isa_in_force())).decode())
 
 
 def physics_revision() -> int:
-    """A number that changes whenever a result of any call has other bits than before: recordings
-    play back alike with the same one.
+    """Return the revision of the physics.
+
+    It changes whenever the bits of any result change. Recordings replay identically between builds
+    of the same revision.
     """
     return int(_lib.carom_physics_revision())

@@ -1,4 +1,4 @@
-"""Words and numbers of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""
+"""Names and parameters of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ StopAt = Literal[
 
 
 class Label(enum.IntEnum):
-    """How a ball moves."""
+    """The motion of a ball."""
 
     STATIONARY = 0
     SPINNING = 1
@@ -46,7 +46,7 @@ class Label(enum.IntEnum):
 
 
 class EventType(enum.IntEnum):
-    """What happened: to ball a, and to ball, rail, jaw or pocket b."""
+    """The type of an event, of ball a with ball, rail, jaw or pocket b."""
 
     STRIKE = 1
     BALL_BALL = 2
@@ -63,8 +63,7 @@ class EventType(enum.IntEnum):
 
 
 class ShotOptions(NamedTuple):
-    """By what a shot is played. `carom.simulate` takes these names as keywords, or an object of this
-    class, or both.
+    """Options of a shot. `carom.simulate` accepts them as keywords, as an object of this class, or both.
 
     Attributes
     ----------
@@ -91,14 +90,14 @@ class ShotOptions(NamedTuple):
     fast : bool
         1: computes with the instruction set in use; 0: computes the bits that all machines share
     t_final : float | None
-        The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that lasts
-        longer than 1000 s is an error.
+        The shot stops at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that lasts longer
+        than 1000 s is an error.
     stop_at : StopAt | Iterable[StopAt]
-        The shot is stopped after the first event of these, with the status STOPPED_AT_EVENT: "contact", of the cue ball with another, or a
-        type of `carom.EventType` in lower case, such as "pocket". `carom.resume` goes on with a shot that was stopped.
+        The shot stops after the first event of these kinds, with the status STOPPED_AT_EVENT: "contact", of the cue ball with another, or a
+        `carom.EventType` in lower case, such as "pocket". `carom.resume` continues a stopped shot.
     first_of : int | Iterable[int]
-        Indices of balls. The shot is stopped right after the first contact of the cue ball with another ball, with the status
-        STOPPED_AT_EVENT, unless that ball is one of these. (): it is not stopped.
+        Indices of balls. The shot stops right after the first contact of the cue ball with another ball, with the status STOPPED_AT_EVENT,
+        unless that ball is one of these. (): it does not stop.
     """
 
     world: World = "carom"
@@ -117,7 +116,7 @@ class ShotOptions(NamedTuple):
 
 
 class Changes(TypedDict, total=False):
-    """Some of the options, as keywords."""
+    """Options as keywords."""
 
     world: World
     ball_model: BallModel
@@ -134,7 +133,7 @@ class Changes(TypedDict, total=False):
     first_of: int | Iterable[int]
 
 
-# What each of them is: words, or a whole number up to this.
+# The options that are names, with their enumerations, and the largest values of the integers.
 WORDS = {
     "world": "WORLD", "ball_model": "BALL_MODEL", "cushion_model": "SHOT_CUSHION", "friction": "BALL_FRICTION", "space": "SPACE",
     "simultaneous": "SIMULTANEOUS",
@@ -143,7 +142,7 @@ COUNTS = {"cluster_steps": 10000, "steps": 2147483647, "events_most": 2147483647
 
 
 class CushionNumbers(TypedDict, total=False):
-    """Numbers of an impact on a cushion, by the models that read them."""
+    """Parameters of an impact on a cushion, with the models that use them."""
 
     roll_loss: float
     """any model: part of the speed along a cushion that an impact takes from the roll along it; 0 to 1"""
@@ -176,7 +175,7 @@ class CushionNumbers(TypedDict, total=False):
 
 
 class BallNumbers(TypedDict, total=False):
-    """Numbers of a ball and its cushions, the fields of `carom.dtypes.ball_kind`."""
+    """Properties of a ball and its cushions, the fields of `carom.dtypes.ball_kind`."""
 
     mass: npt.ArrayLike | None
     """mass; above 0 and finite, in kg"""

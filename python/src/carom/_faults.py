@@ -1,5 +1,6 @@
-"""Which argument of a shot C refuses: the exception that names the field, the value given, and what
-would be right, as C tells them.
+"""Exceptions for the arguments of a shot that C rejects.
+
+Each names the field, its value and the allowed range, as C reports them.
 """
 
 from __future__ import annotations
@@ -20,14 +21,14 @@ _TABLE = {
 
 
 def _numbers(part: int, status: int) -> list[str]:
-    """The numbers of a part that have a status."""
+    """The parameters of a part whose error is this status."""
     return [text_of(row.name) for row in numbers_of(part) if row.error == status]
 
 
 def _fault(
     status: int, name: str, fields: list[str], record: Records, must: str = ""
 ) -> CaromError:
-    """The exception for numbers of a record, called `name`."""
+    """The exception for fields of a record called `name`."""
     where = [f"{name}.{field}" for field in fields]
     values = [record[field] if record[field].ndim else record[field].item() for field in fields]
     text = (
@@ -43,12 +44,12 @@ def _fault(
 
 @functools.cache
 def _ranges(part: int) -> list[tuple[str, float, float, float, Any]]:
-    """The name, the range and the other value of each number of a part, and its row."""
+    """Name, range, extra allowed value and row of each parameter of a part."""
     return [(text_of(row.name), row.low, row.high, row.other, row) for row in numbers_of(part)]
 
 
 def refuse_numbers(part: int, name: str, record: Records) -> None:
-    """Refuses one record, called `name`, with a number outside its range."""
+    """Raise an error if a field of the record called `name` is out of range."""
     values = dict(zip(record.dtype.names or (), record.item(), strict=True))
     for field, low, high, limit, row in _ranges(part):
         if not low <= values[field] <= high and values[field] != limit:
@@ -58,7 +59,7 @@ def refuse_numbers(part: int, name: str, record: Records) -> None:
 
 
 def strike_error(status: int, cue: Records, kind: Records) -> CaromError:
-    """The exception for a cue and a kind that carom_strike() refuses."""
+    """The exception for a cue and a kind of ball that carom_strike() rejects."""
     if fields := _numbers(lib.CAROM_PART_CUE, status):
         return _fault(status, "cue", fields, cue)
     must = ffi.new("char[]", 100)
@@ -87,14 +88,14 @@ def shot_arguments(
 def argument_error(
     arguments: tuple[Any, ...], layout: Records, cue: Records | None
 ) -> CaromError | None:
-    """The exception for arguments that carom_shot_check() refuses; None if they are right."""
+    """The exception for arguments that carom_shot_check() rejects; None if they are valid."""
     where = ffi.new("int *", -1)
     if lib.carom_shot_check(*arguments, where) >= 0:
         return None
     fault, text = ffi.new("carom_fault *"), ffi.new("char[]", 100)
     code = lib.carom_shot_fault(*arguments, fault, text, 100)
     kind, index, must = fault.part.kind, fault.part.index, text_of(text)
-    # Several numbers of the cue may be at fault together.
+    # Several fields of the cue can be invalid in combination.
     name = "" if fault.row == ffi.NULL else text_of(fault.row.name)
     if name and kind == lib.CAROM_PART_CUE and cue is not None:
         return _fault(code, "cue", [name] if must else _numbers(kind, fault.row.error), cue, must)

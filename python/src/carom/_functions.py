@@ -47,12 +47,12 @@ class Final(NamedTuple):
     """Final states: arrays of float64, of the library that differentiates; and, with `reach=True`,
     how far derivatives hold.
 
-    `reach` has, by the names of the numbers, by how much each may change until an event of the shot
-    is another one, as `carom.Tangents` has it: arrays of the shape of the number, in its unit.
-    `flags` (...) has the sum of `carom.Flag` over the events of a shot. Neither has a gradient.
+    `reach` maps each parameter to the smallest change that alters the sequence of events, as in
+    `carom.Tangents`: an array of the parameter's shape, in its unit. `flags`, shape (...), combines
+    the `carom.Flag` of all events of a shot. Neither has a gradient.
     """
 
-    r: Any  # (..., balls, 2): Places, m, along x and y
+    r: Any  # (..., balls, 2): Positions, m, along x and y
     v: Any  # (..., balls, 2): Velocities, m/s, along x and y
     w: Any  # (..., balls, 3): Angular velocities, rad/s
     z: Any  # (..., balls): Heights of the centres, m
@@ -63,8 +63,9 @@ class Final(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Shots:
-    """Shots that differ by some numbers: on a table, of layouts (..., balls) and cues (...), as
-    bytes with their shapes.
+    """Shots that differ in some parameters.
+
+    The table, the layouts (..., balls) and the cues (...) are stored as bytes with their shapes.
     """
 
     table: bytes
@@ -78,7 +79,7 @@ class Shots:
     room: int
     nan: bool
     has_extras: bool
-    """Whether reach and flags are wanted beside the states."""
+    """Whether reach and flags are returned in addition to the states."""
 
     @property
     def count(self) -> int:
@@ -99,7 +100,7 @@ class Shots:
         return Table.from_record(np.frombuffer(self.table, dtypes.table)[0])
 
     def records(self, x: Doubles) -> tuple[Records, Records | None]:
-        """Layouts and cues with these numbers, of shape (..., m)."""
+        """Layouts and cues with these parameter values, of shape (..., m)."""
         layouts: Array = np.frombuffer(self.balls, dtypes.shot_ball).reshape(self.balls_shape)
         cues: Array | None = (
             None
@@ -121,15 +122,15 @@ class Shots:
 
     @functools.cached_property
     def single_shot(self) -> _One | None:
-        """Where a single shot can be played again and again."""
+        """Buffers for a single shot that is played repeatedly, if the arguments allow it."""
         single = (
             len(self.balls_shape) == 1 and self.cues_shape == () and len(self.directions) <= MOST
         )
         return _One(self) if single and "kind.radius" not in self.names else None
 
     def states(self, x: Any) -> tuple[Array, ...]:
-        """The final states, of shape (..., balls, STATE); where they are wanted, reach (..., m) and
-        flags (...).
+        """The final states, shape (..., balls, STATE), and, if requested, reach (..., m) and flags
+        (...).
         """
         numbers = np.asarray(x)
         if self.has_extras:
@@ -148,9 +149,7 @@ class Shots:
         return (self.numbers(numbers, shots.final, shots.status),)
 
     def both(self, x: Any) -> tuple[Array, ...]:
-        """What `states` gives, with the derivatives of shape (..., balls, STATE, m) after the
-        states.
-        """
+        """As `states`, with the derivatives, shape (..., balls, STATE, m), after the states."""
         numbers = np.asarray(x)
         if (
             not self.has_extras
@@ -181,7 +180,7 @@ class Shots:
 
     def second(self, x: Any) -> Doubles:
         """The second derivatives of the final states, of shape (..., balls, STATE, m, m), as
-        `carom.hessian` has them.
+        `carom.hessian` computes them.
         """
         slopes = self._along(x, np.eye(len(self.directions)))
         return (slopes + slopes.swapaxes(-1, -2)) / 2.0
@@ -190,8 +189,8 @@ class Shots:
         """The derivatives along vectors (..., p, m) of the derivatives of the final states: (...,
         balls, STATE, m, p); nan where unknown.
 
-        As many as there are numbers are products with all second derivatives, which cost no more,
-        and are symmetric.
+        For at least m vectors the complete second derivatives are computed, which takes no longer
+        and makes the result symmetric.
         """
         if vectors.shape[-2] < len(self.directions):
             return self._along(x, vectors)
@@ -230,7 +229,7 @@ class Shots:
         return found.reshape(*shape, *found.shape[1:])
 
     def numbers(self, x: Doubles, final: Records, status: Array) -> Doubles:
-        """Final states as numbers; shots in error are nan, or raise."""
+        """Final states as an array of float64; a failed shot becomes nan or raises its error."""
         invalid = status < 0
         failed = bool(invalid.any())
         if failed and not self.nan:
@@ -242,7 +241,7 @@ class Shots:
         return states
 
     def refuse(self, x: Doubles, where: tuple[int, ...], status: Status) -> None:
-        """Raises the error of one shot, with its place in the batch and its numbers."""
+        """Raise the error of one shot, with its index in the batch and its parameters."""
         text = status.text
         layouts, cues = self.records(x)
         layouts = np.broadcast_to(layouts, (*x.shape[:-1], self.count))[where]
@@ -259,8 +258,10 @@ class Shots:
 
 
 class _One:
-    """A shot in memory that is used again: a single call else spends more time on making arguments
-    than C on the shot and its derivatives.
+    """A shot in buffers that are reused.
+
+    Otherwise building the arguments of a single call takes longer than C takes for the shot and its
+    derivatives.
     """
 
     def __init__(self, shots: Shots) -> None:
@@ -273,7 +274,7 @@ class _One:
             cue = np.frombuffer(shots.cues, dtypes.cue).reshape(()).copy()
         simulate_batch(
             table, balls, cue, options=shots.options
-        )  # which refuses, and warns of, what C does not
+        )  # which checks more than C does, and warns
         self.numbers = [
             numbers_of_direction(direction, balls, cue) for direction in shots.directions
         ]
@@ -293,8 +294,9 @@ class _One:
         self.free = threading.Lock()
 
     def play(self, x: Doubles, differentiated: bool) -> tuple[Doubles, Doubles] | None:
-        """The final states and, where they are asked for, their derivatives; None where there are
-        none, and the batch says why.
+        """The final states and, if requested, their derivatives.
+
+        None if the shot fails; the batch call then reports why.
         """
         with self.free:
             for numbers, value in zip(self.numbers, x.tolist()):
@@ -333,15 +335,15 @@ def shots_of(
     options: Options,
     has_extras: bool,
 ) -> tuple[Shots, list[tuple[Any, tuple[int, ...]]], tuple[int, ...]]:
-    """The shots, each of their numbers as an `array` (...) or (..., elements) with the shape to
-    which it is broadcast, and that of the batch.
+    """The shots; each parameter as an `array` (...) or (..., elements) with its broadcast shape;
+    and the shape of the batch.
     """
     if errors not in ("raise", "nan"):
-        raise ValueError(f"errors: must be 'raise' or 'nan', not {errors!r}")
+        raise ValueError(f"errors: unknown value {errors!r}; use 'raise' or 'nan'")
     layouts = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     cues = None if cue is None else of_record(cue, dtypes.cue, "cue", "cue()")
     if layouts.ndim == 0:
-        raise ValueError("balls: the shape must be (..., balls), not ()")
+        raise ValueError("balls: the shape is (), but must be (..., balls)")
     parts: list[Any] = []
     owns: list[tuple[int, ...]] = []  # () of a number, (elements,) of several
     for (name, value), several in zip(
@@ -349,14 +351,16 @@ def shots_of(
     ):
         if several[0].array in ("table", "slope"):
             raise ValueError(
-                f"numbers: {name}: a batch has one table; kind.nose_height, kind.mu_cushion and kind.restitution_cushion can differ"
+                f"numbers: {name!r} cannot differ within a batch, which has one table; use kind.nose_height, kind.mu_cushion or kind.restitution_cushion"
             )
         if several[0].array == "cue" and cue is None:
-            raise ValueError(f"numbers: {name}: there is no cue; give one of carom.cue()")
+            raise ValueError(
+                f"numbers: {name!r} is given, but there is no cue; pass cue=carom.cue()"
+            )
         part = array(value)
         if name != several[0].name and tuple(part.shape[-1:]) != (len(several),):
             raise ValueError(
-                f"numbers: {name}: the shape must be (..., {len(several)}), not {tuple(part.shape)}"
+                f"numbers: {name!r}: the shape is {tuple(part.shape)}, but must be (..., {len(several)})"
             )
         parts.append(part)
         owns.append(() if name == several[0].name else (len(several),))

@@ -1,5 +1,7 @@
-"""Both kinds of impacts, of two balls and of a ball and a cushion: many at once, one on its way,
-and the exception for one in error.
+"""Impacts of two balls, and of a ball and a cushion.
+
+Resolves batches and single impacts, traces an impact in steps, and makes the exception for an
+invalid one.
 """
 
 from __future__ import annotations
@@ -30,14 +32,14 @@ from carom.status import CaromError
 
 
 class Outcome(NamedTuple):
-    """What impacts give: the motion after them, and how each ended."""
+    """The result of impacts: the motion after each, and its status."""
 
     motion: Array
     status: Array
 
 
 class Kind(NamedTuple):
-    """A kind of impact: its records, what C calls them, and C's functions."""
+    """A kind of impact: its records, their names in C, and the functions of C."""
 
     source: dtypes.Record
     gives: dtypes.Record
@@ -85,13 +87,13 @@ def resolve(
     threads: int,
     out: tuple[Array, Array] | None,
 ) -> Outcome:
-    """Resolves impacts, each of which takes so many seconds."""
+    """Resolve impacts; `seconds` is the time that one takes."""
     array = rows(impacts, kind.source, "impacts", single=kind.batch_f32 is not None)
     record = array.dtype.names is not None
     shape: tuple[int, ...] = array.shape if record else array.shape[:-1]
     if out is not None and not (isinstance(out, tuple) and len(out) == 2):
         raise TypeError(
-            f"out: a tuple of two arrays is needed, those of an earlier result, not {reprlib.repr(out)}"
+            f"out: {reprlib.repr(out)} is not a tuple of two arrays, such as an earlier result"
         )
     motion, status = (None, None) if out is None else out
     if record:
@@ -131,15 +133,15 @@ _NUMBERS = ffi.typeof("double[]")
 
 @functools.cache
 def _types(input_name: str, gives: str) -> tuple[Any, Any, int]:
-    """Pointers to an impact and to its motion, and how many numbers the motion has."""
+    """Pointer types of an impact and its motion, and the length of the motion in doubles."""
     return ffi.typeof(f"{input_name} *"), ffi.typeof(f"{gives} *"), ffi.sizeof(gives) // 8
 
 
 def resolve_one(kind: Kind, numbers: list[float], options: Any) -> Array:
-    """The motion after one impact, whose numbers are in the order of its record.
+    """The motion after one impact, whose values are in the order of its record.
 
-    It takes less time than `resolve`, which looks at the layout of arrays; that counts where an
-    engine resolves one impact after another.
+    Faster than `resolve`, which inspects arrays. This matters to an engine that resolves impacts
+    one at a time.
     """
     input_type, gives, size = _types(kind.names[0], kind.names[1])
     impact = ffi.new(_NUMBERS, numbers)
@@ -155,12 +157,12 @@ def resolve_one(kind: Kind, numbers: list[float], options: Any) -> Array:
 
 
 def trace(kind: Kind, impact: ArrayLike, points: int, options: Any) -> dtypes.Records:
-    """Follows one impact."""
+    """Follow one impact."""
     array = rows(impact, kind.source, "impact")
     if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():
         width = kind.source.itemsize // 8
         raise ValueError(
-            f"impact: a trace is of one impact, of shape ({width},), or structured of shape ()"
+            f"impact: a trace follows one impact, of shape ({width},), or structured of shape (); loop over several"
         )
     traced = np.zeros(whole(points, "points", least=2), kind.point)
     input_type, _, point = kind.names
@@ -173,7 +175,7 @@ def trace(kind: Kind, impact: ArrayLike, points: int, options: Any) -> dtypes.Re
 
 
 def _error(kind: Kind, code: int, array: Array, options: Any) -> CaromError:
-    """The exception for one impact, with the field at fault."""
+    """The exception for one impact, with the name of the invalid field."""
     numbers = (
         np.ascontiguousarray(array)
         .reshape(-1)

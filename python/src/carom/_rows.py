@@ -1,9 +1,8 @@
-"""Arrays as C takes them: rows of numbers without gaps, converted only where the layout does not
-fit.
-"""
+"""Arrays as C reads them: contiguous rows of numbers, converted only if their layout differs."""
 
 from __future__ import annotations
 
+import difflib
 import functools
 import importlib
 import math
@@ -14,7 +13,7 @@ import re
 import reprlib
 import sys
 import time
-from collections.abc import Callable, Hashable, Iterator, Mapping
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeVar, cast
 
@@ -31,7 +30,7 @@ INT8 = np.dtype(np.int8)
 
 
 class Arrays:
-    """A dataclass of arrays, which shows their shapes instead of their numbers."""
+    """A dataclass of arrays whose repr shows their shapes instead of their values."""
 
     def __repr__(self) -> str:
         parts = (
@@ -42,15 +41,14 @@ class Arrays:
 
 
 def as_array(values: npt.ArrayLike, name: str, dtype: npt.DTypeLike | None = None) -> Array:
-    """np.asarray(), but that what cannot be read is refused by its name, and so are masks and
-    imaginary parts, which would be lost.
+    """np.asarray() with errors that name the argument.
 
-    Of a dtype that numbers have, text and None are refused too, which NumPy would read as numbers
-    and nan.
+    Masks and imaginary parts are rejected, because the conversion would lose them. With a numeric
+    dtype, text and None are rejected too, which NumPy would read as numbers and nan.
     """
     if isinstance(values, np.ma.MaskedArray):
         raise TypeError(
-            f"{name}: masks are not read; give the rows that count alone (compressed), or the array's filled() values"
+            f"{name}: a masked array would lose its mask; pass its compressed() or filled() values"
         )
     try:
         array = np.asarray(values)
@@ -66,49 +64,48 @@ def as_array(values: npt.ArrayLike, name: str, dtype: npt.DTypeLike | None = Non
             raise (TypeError if isinstance(wrong, TypeError) else ValueError)(
                 f"{name}: {wrong}"
             ) from None
-    raise TypeError(f"{name}: real numbers are needed, not {reprlib.repr(values)}")
+    raise TypeError(f"{name}: {reprlib.repr(values)} does not consist of real numbers")
 
 
 def _is_text(value: object) -> bool:
     return value is None or isinstance(value, (str, bytes))
 
 
-def number(value: object, name: str, needed: str = "a real number is needed") -> float:
-    """A number; anything else is refused by its name."""
+def number(value: object, name: str, needed: str = "a real number") -> float:
+    """Return a number; otherwise raise an error that names the argument."""
     if isinstance(value, (float, int, np.ndarray, numbers.Real)) or hasattr(value, "__float__"):
         array = as_array(value, name, np.float64)  # type: ignore[arg-type]
         if array.size == 1:
             return float(array.reshape(()))
-    raise TypeError(f"{name}: {needed}, not {reprlib.repr(value)}")
+    raise TypeError(f"{name}: {reprlib.repr(value)} is not {needed}")
 
 
 def several(values: object, name: str, needed: str) -> list[Any]:
-    """What an argument lists; a text, or what cannot be listed, is refused by its name."""
+    """Return the items of an argument; for a string or a scalar raise an error that names it."""
     if not isinstance(values, (str, bytes)):
         try:
             return [*values]  # type: ignore[misc]
         except TypeError:
             pass
-    raise TypeError(f"{name}: {needed}, not {reprlib.repr(values)}")
+    raise TypeError(f"{name}: {reprlib.repr(values)} is not {needed}")
 
 
 def rows(values: npt.ArrayLike, record: np.dtype[Any], name: str, single: bool = False) -> Array:
-    """The values as an array in C order: of the record, of shape (..., width) in double, or in
-    single precision if allowed.
+    """The values as an array in C order: structured, or of shape (..., width) in double precision,
+    or in single precision if `single` allows it.
     """
     array = as_array(values, name)
     width = record.itemsize // 8
-    # The usual case is told by identity: comparing with a structured dtype takes longer than all
-    # else here.
+    # Identity detects the usual case: comparing with a structured dtype takes longer than the rest.
     if array.dtype is FLOAT64 or array.dtype != record:
         if array.dtype.names is not None:
             raise TypeError(
-                f"{name}: a structured array must have the dtype {described(record)}, not {described(array.dtype)}"
+                f"{name}: the dtype is {described(array.dtype)}, but must be {described(record)}"
             )
         if array.dtype is not FLOAT64 and not (single and array.dtype == FLOAT32):
             array = as_array(array, name, np.float64)
         if array.ndim == 0 or array.shape[-1] != width:
-            raise ValueError(f"{name}: the shape must be (..., {width}), not {array.shape}")
+            raise ValueError(f"{name}: the shape is {array.shape}, but must be (..., {width})")
     flags = array.flags
     if not (flags.c_contiguous and flags.aligned):
         array = array.copy(order="C")
@@ -116,41 +113,41 @@ def rows(values: npt.ArrayLike, record: np.dtype[Any], name: str, single: bool =
 
 
 def output(array: Array | None, shape: tuple[int, ...], dtype: np.dtype[Any], name: str) -> Array:
-    """The array given to be written to, checked, or a new one."""
+    """The output array passed by the caller, checked, or a new one."""
     if array is None:
         return np.empty(shape, dtype)
     as_array(array, name)
     if not isinstance(array, np.ndarray):
         raise TypeError(
-            f"{name}: an array of shape {shape} and dtype {described(dtype)} is needed, not {type(array).__name__}"
+            f"{name}: {type(array).__name__} is not an array; it must have shape {shape} and dtype {described(dtype)}"
         )
     flags = array.flags
     right = array.shape == shape and (array.dtype is dtype or array.dtype == dtype)
     if not (right and flags.c_contiguous and flags.writeable and flags.aligned):
         raise ValueError(
-            f"{name}: a writeable array in C order of shape {shape} and dtype {described(dtype)} is needed, not of shape {array.shape} "
-            f"and dtype {described(array.dtype)}"
+            f"{name}: the array has shape {array.shape} and dtype {described(array.dtype)}, "
+            f"but must be writeable, in C order, of shape {shape} and dtype {described(dtype)}"
         )
     return array
 
 
 def apart(inputs: tuple[tuple[str, Array], ...], outputs: tuple[tuple[str, Array], ...]) -> None:
-    """Refuses arrays to be written to that overlap what is read, or each other.
+    """Raise an error if an output array overlaps an input or another output.
 
-    All are in C order, so their bounds tell.
+    All are in C order, so comparing their bounds is enough.
     """
     accepted = inputs
     for output in outputs:
         for second in accepted:
             if np.may_share_memory(output[1], second[1]):
                 raise ValueError(
-                    f"{output[0]}: its memory overlaps that of {second[0]}; give an array of its own"
+                    f"{output[0]}: its memory overlaps {second[0]}; pass a separate array"
                 )
         accepted += (output,)
 
 
 def workers(threads: int) -> int:
-    """How many threads can be busy at once for an option `threads`."""
+    """The number of threads that can run at once for an option `threads`."""
     processors = (
         len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     )
@@ -158,13 +155,12 @@ def workers(threads: int) -> int:
 
 
 def in_chunks(n: int, seconds: float, threads: int, call: Callable[[int, int], int]) -> int:
-    """Calls call(first row, number of rows) for chunks of n rows, one after another, in each of
-    which C computes without Python.
+    """Call call(first row, number of rows) for consecutive chunks of n rows.
 
-    Between two chunks Python handles signals, so that Ctrl-C ends a long batch. The first chunk has
-    as many rows as take 1 ms on each thread by `seconds`, what a row usually takes; a batch of
-    fewer is one call. By the time that a chunk took, the next is to last 20 ms, or 100 ms where
-    threads have to be started for each. Gives the status of the first chunk in error, or 0.
+    C computes a chunk without Python. Between chunks Python handles signals, so Ctrl-C ends a long
+    batch. The first chunk is sized for 1 ms on each thread by `seconds`, the usual time of a row; a
+    smaller batch is one call. Later chunks are sized from the measured time to last 20 ms, or 100
+    ms if each starts threads. Returns the status of the first chunk that failed, or 0.
     """
     count = max(64, int(0.001 / seconds))
     if n <= count:
@@ -189,8 +185,9 @@ def in_chunks(n: int, seconds: float, threads: int, call: Callable[[int, int], i
 
 
 def spread(threads: int, call: Callable[[int, int], int]) -> Callable[[int, int], int]:
-    """The same call, its rows shared among threads, for C that has none of its own: a call of C
-    lets other threads run.
+    """The same call with its rows divided among threads, for functions of C without threads.
+
+    A call of C releases the GIL.
     """
     hands = workers(threads) if threads else 1
     if hands == 1:
@@ -209,37 +206,39 @@ _bytes_of = functools.cache(lambda size: np.dtype((np.void, size)))
 
 
 def raw(records: Array) -> Array:
-    """The same memory without fields, which NumPy copies several times as fast."""
+    """The same memory without fields, which NumPy copies several times faster."""
     return records.view(_bytes_of(records.itemsize))
 
 
 def copied(records: Array) -> Array:
-    """A copy of structured records, in C order: by way of bytes, which takes a third of the time of
-    copying every field.
+    """A copy of structured records, in C order.
+
+    Copying bytes takes a third of the time of copying each field.
     """
     return np.frombuffer(bytearray(records.tobytes()), records.dtype).reshape(records.shape)
 
 
 def frozen(records: Array) -> Array:
-    """A copy of structured records, in C order, that cannot be written to."""
+    """A read-only copy of structured records, in C order."""
     return np.frombuffer(records.tobytes(), records.dtype).reshape(records.shape)
 
 
 def sealed(array: Array) -> Array:
-    """A view that cannot be written to."""
+    """A read-only view."""
     view = array.view()
     view.flags.writeable = False
     return view
 
 
 def repeated(record: bytes, dtype: np.dtype[Any], shape: tuple[int, ...]) -> Array:
-    """An array of equal records, which may be written to."""
+    """A writeable array of equal records."""
     return np.frombuffer(bytearray(record * math.prod(shape)), dtype).reshape(shape)
 
 
 def addresses(array: Array, leading: int) -> Array:
-    """Where each row of an array begins, of shape (rows,): what its first `leading` indices choose,
-    in C order.
+    """The address of each row of an array, shape (rows,).
+
+    The first `leading` indices, in C order, select the row.
     """
     if array.flags.c_contiguous and array.size > 0:
         begin, rows = (
@@ -254,8 +253,9 @@ def addresses(array: Array, leading: int) -> Array:
 
 
 def one_or_all(array: Array, shape: tuple[int, ...], leading: int) -> tuple[Array, bool]:
-    """The rows of an array that is broadcast to a shape: the one row that all are, and True; or all
-    of them, in C order.
+    """The rows of an array that is broadcast to a shape.
+
+    Returns the one row and True if all rows are the same, otherwise all rows in C order and False.
     """
     if array.flags.c_contiguous and (
         array.shape == shape or array.size == math.prod(shape[leading:])
@@ -275,37 +275,35 @@ pointer: Any = ffi.from_buffer
 
 
 def whole(value: object, name: str, least: int = 0, most: int = 2**31 - 1) -> int:
-    """A whole number between bounds; anything else is refused by its name."""
+    """Return an integer within bounds; otherwise raise an error that names the argument."""
     try:
         integer = operator.index(value)  # type: ignore[arg-type]
     except TypeError:
         integer = least - 1
     if least <= integer <= most:
         return int(integer)
-    raise ValueError(
-        f"{name}: it must be a whole number from {least} to {most}, not {reprlib.repr(value)}"
-    )
+    raise ValueError(f"{name}: {reprlib.repr(value)} is not an integer from {least} to {most}")
 
 
 Seed = int | np.random.Generator
-"""What begins random numbers: a whole number, or a generator that draws one."""
+"""A seed of random numbers: an integer, or a generator that draws one."""
 
 
 def seed_of(seed: Seed, most: int = 2**31 - 1) -> int:
-    """The whole number of a seed; a generator draws it, and stands elsewhere afterwards."""
+    """The integer of a seed. A generator draws it, which advances the generator."""
     if isinstance(seed, np.random.Generator):
         return int(seed.integers(min(most, 2**63 - 1), endpoint=True))
     try:
         return whole(seed, "seed", most=most)
     except ValueError as error:
-        raise ValueError(f"{error}; a numpy.random.Generator will do too") from None
+        raise ValueError(f"{error}, or a numpy.random.Generator") from None
 
 
 _Made = TypeVar("_Made", bound=Callable[..., Any])
 
 
 def cached(function: _Made) -> _Made:
-    """functools.lru_cache of a function, which names an argument that has no hash."""
+    """functools.lru_cache with an error that names an argument that is not hashable."""
     function_cache = functools.lru_cache(maxsize=256)(function)
 
     @functools.wraps(function)
@@ -321,7 +319,7 @@ def cached(function: _Made) -> _Made:
                         for item in (part if isinstance(part, tuple) else [part])
                     ):
                         raise TypeError(
-                            f"{field}: {reprlib.repr(part)} is none of its values"
+                            f"{field}: {reprlib.repr(part)} is not a valid value"
                         ) from None
             raise
 
@@ -329,28 +327,29 @@ def cached(function: _Made) -> _Made:
 
 
 def called(function: _Made, name: str, text: str) -> _Made:
-    """A function that was made in another one, with a name and a text of its own."""
+    """Set the name and the docstring of a function that another function made."""
     function.__name__ = function.__qualname__ = name
     function.__doc__ = text
     return function
 
 
 def needed(module: str, user: str, package: str = "") -> Any:
-    """A module of another package, or the error that says how to get it. `package` is its name
-    where that differs from the module's.
+    """Import a module of another package, or raise an error that shows how to install it.
+
+    `package` is the package's name, if that differs from the module's.
     """
     try:
         return importlib.import_module(module)
     except ImportError as missing:
         package = package or module.partition(".")[0]
         raise ImportError(
-            f"{user} needs {package}, which is not installed here: pip install {package}",
+            f"{user} needs {package}, which is not installed: pip install {package}",
             name=missing.name,
         ) from missing
 
 
 def listing(module: str) -> Callable[[], list[str]]:
-    """A module's __dir__, for tab completion: what it offers, without the names that it imports."""
+    """A module's __dir__, for tab completion: its public names, without those it imports."""
 
     def names() -> list[str]:
         contents = sys.modules[module]
@@ -365,12 +364,12 @@ def listing(module: str) -> Callable[[], list[str]]:
 
 
 def text_of(words: Any) -> str:
-    """A text of C."""
+    """A Python string from a string of C."""
     return bytes(ffi.string(words)).decode()
 
 
 def numbers_of(part: int) -> Iterator[Any]:
-    """The rows of a part's numbers, each a `carom_number`."""
+    """The rows of a part's parameters, each a `carom_number`."""
     k = 0
     while (row := lib.carom_number_of(part, k)) != ffi.NULL:
         yield row
@@ -378,7 +377,7 @@ def numbers_of(part: int) -> Iterator[Any]:
 
 
 def with_numbers(part: int) -> Callable[[_Made], _Made]:
-    """Writes the numbers of a part into a docstring, in place of its parameter **kind."""
+    """Replace the parameter **kind of a docstring by the parameters of a part."""
     text = ffi.new("char[]", 100)
 
     def describe(row: Any, indent: str) -> str:
@@ -404,8 +403,8 @@ def with_numbers(part: int) -> Callable[[_Made], _Made]:
 
 
 def numbered(enum: str) -> dict[str, int]:
-    """The values of an enumeration of C by their names as options have them: carom_world has carom
-    and pooltool.
+    """The values of an enumeration of C by their names in lower case: "pool_9ft" of
+    carom_table_kind.
     """
     values: dict[str, int] = ffi.typeof(enum).relements
     common = os.path.commonprefix(list(values)).rindex("_") + 1
@@ -416,21 +415,77 @@ def numbered(enum: str) -> dict[str, int]:
 
 
 def worded(kind: str) -> dict[str, int]:
-    """The values of an enumeration of C by their words, from 0 on: WORLD has carom and pooltool."""
+    """The values of an enumeration of C by their names in its table of words: WORLD has carom and
+    pooltool.
+    """
     found: dict[str, int] = {}
     while (word := lib.carom_word(getattr(lib, f"CAROM_WORDS_{kind}"), len(found))) != ffi.NULL:
         found[text_of(word)] = len(found)
     return found
 
 
-def choice(names: dict[str, int], value: str, option: str) -> int:
-    """The number of a named option."""
-    try:
+_Name = TypeVar("_Name")
+
+
+def named(names: Collection[str], value: object, option: str) -> str:
+    """The name that a value of an option stands for; raises ValueError for an unknown one.
+
+    C's table of synonyms decides what a name means: "9-ball" is "nineball".
+    """
+    if isinstance(value, str):
+        if value in names:
+            return value
+        text = value.encode(errors="replace")
+        for name in names:
+            if lib.carom_word_means(text, name.encode()):
+                return name
+    raise ValueError(unknown_value(option, value, names))
+
+
+def choice(names: Mapping[str, _Name], value: object, option: str) -> _Name:
+    """What the value of an option stands for, by its name or a synonym."""
+    if isinstance(value, str) and value in names:
         return names[value]
-    except (KeyError, TypeError):  # the second of what has no hash
-        raise ValueError(
-            f"{option}: must be one of {', '.join(map(repr, names))}, not {value!r}"
-        ) from None
+    return names[named(names, value, option)]
+
+
+def suggestion(value: object, names: Iterable[str]) -> str:
+    """ "; did you mean 'nineball'?" for a value that is nearly one of the names, otherwise ""."""
+    if not isinstance(value, str):
+        return ""
+    in_small_letters = {name.lower(): name for name in names}
+    text = value.lower()
+    beginning = [name for name in in_small_letters if text and name.startswith(text)]
+    close = difflib.get_close_matches(text, in_small_letters, 1, 0.6)
+    found = (close or beginning)[:1]
+    return f"; did you mean {in_small_letters[found[0]]!r}?" if found else ""
+
+
+def unknown_value(option: str, value: object, names: Collection[str]) -> str:
+    """The error for a value that is none of the names of an option."""
+    listed = either(map(repr, names))
+    hint = suggestion(value, names)
+    return f"{option}: unknown value {reprlib.repr(value)}{hint or ';'} {'Use' if hint else 'use'} {listed}"
+
+
+def unknown_name(
+    where: str, kind: str, name: object, names: Collection[str], listed_by: str = ""
+) -> str:
+    """The error for a name that does not exist, such as an unknown keyword.
+
+    `listed_by` is the call that lists the names, if they are too many for an error.
+    """
+    hint = suggestion(name, names)
+    listed = f"{'Use' if hint else 'use'} {either(names)}"
+    if listed_by:
+        listed = f"{listed_by} lists all"
+    return f"{where}: unknown {kind} {reprlib.repr(name)}{hint or ';'} {listed}"
+
+
+def either(names: Iterable[str]) -> str:
+    """Names as a list: a, b or c."""
+    *front, last = names
+    return f"{', '.join(front)} or {last}" if front else last
 
 
 def broadcast(shapes: dict[str, tuple[int, ...]]) -> tuple[int, ...]:
@@ -443,7 +498,7 @@ def broadcast(shapes: dict[str, tuple[int, ...]]) -> tuple[int, ...]:
     except ValueError:
         described = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
         raise ValueError(
-            f"leading dimensions must be equal or 1, to be broadcast against each other, but are {described}"
+            f"the leading dimensions cannot be broadcast: {described}; they must be equal or 1"
         ) from None
 
 
@@ -453,10 +508,10 @@ def fill(
     fields: Mapping[str, npt.ArrayLike | None],
     usual: bytes | None = None,
 ) -> Array:
-    """An array of the record from fields that are broadcast against each other; others are those of
-    a usual record, or 0.
+    """An array of the record from fields that are broadcast against each other.
 
-    A field "a.v" is v of the part a; one that is None is not given.
+    Fields that are missing or None have the values of the record `usual`, or 0. A field "a.v" is v
+    of the part a.
     """
     arrays: dict[str, Any] = {}
     shapes: dict[str, tuple[int, ...]] = {}
@@ -468,7 +523,7 @@ def fill(
             continue
         part, _, last = name.rpartition(".")
         length = vectors.get(last)
-        # as the caller calls it
+        # the name that the caller uses
         shown = (
             f"{last}_{part}"
             if part in ("a", "b") and (length is not None or (part == "b" and last != "radius"))
@@ -477,7 +532,9 @@ def fill(
         array = as_array(value, shown, np.float64)
         if length is not None and array.ndim > 0:
             if array.shape[-1] != length:
-                raise ValueError(f"{shown}: the shape must be (..., {length}), not {array.shape}")
+                raise ValueError(
+                    f"{shown}: the shape is {array.shape}, but must be (..., {length})"
+                )
             shapes[shown] = array.shape[:-1]
         else:
             shapes[shown] = array.shape

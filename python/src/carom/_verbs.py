@@ -144,7 +144,7 @@ class ShotsVerbs:
 
 def sampled_times(duration: float, dt: float, rows_per_time: int) -> Doubles:
     """Times from 0 on, `dt` apart, and the end."""
-    step = number(dt, "dt", "a time in s is needed")
+    step = number(dt, "dt", "a time in s")
     if not 0.0 < step < np.inf:
         raise ValueError(f"dt: it must be positive and finite, in s, not {step:g}")
     if duration / step * rows_per_time > _ROWS_MOST:

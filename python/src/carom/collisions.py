@@ -1,4 +1,4 @@
-"""The collision of two balls: one and many, the friction between them, and a collision on its way."""
+"""Collisions of two balls, the friction between them, and a collision followed in steps."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ ALL_THREADS = -1
 
 @cached
 def _options(solver: str, slip: str, steps: int, threads: int, plain: bool) -> Any:
-    """The options of C; they are never written to."""
+    """The options of C, which are read-only."""
     numbers = {
         "solver": choice(_SOLVERS, solver, "solver"),
         "slip": choice(_SLIPS, slip, "slip"),
@@ -65,32 +65,32 @@ def impacts(
 ) -> dtypes.Records:
     """Build impacts for `collide`.
 
-    The fields are broadcast against each other.
+    The arguments are broadcast against each other.
 
     Parameters
     ----------
     r_a, r_b : array_like, shape (..., 3)
-        Centres of the two balls, m, at the same height. Only the direction from a to b counts.
+        Centres of the two balls, m, at the same height. Only the direction from a to b matters.
     v_a, v_b : array_like, shape (..., 3)
-        Velocities, m/s; the vertical ones must be 0.
+        Velocities, m/s; the vertical components must be 0.
     w_a, w_b : array_like, shape (..., 3)
         Angular velocities, rad/s.
     radius : array_like, shape (...)
-        Radius of both balls, m. The defaults of this and all later arguments are those of pool
-        balls.
+        Radius of both balls, m. From here on, the defaults describe pool balls.
     mass, mass_b : array_like, shape (...)
-        Masses, kg; `mass_b` is `mass` if it is not given.
+        Masses, kg. `mass_b` defaults to `mass`.
     mu_slide, mu_slide_b : array_like, shape (...)
-        Friction of each ball and the cloth, 0 to 1.
+        Coefficient of friction between each ball and the cloth, 0 to 1.
     mu_ball : array_like, shape (...)
-        Friction between the balls, 0 to 1. `mu_ball()` computes it from the speed of slip.
+        Coefficient of friction between the balls, 0 to 1. `mu_ball()` computes it from the slip
+        speed.
     restitution : array_like, shape (...)
-        0 to 1.
+        Coefficient of restitution of the two balls, 0 to 1.
 
     Returns
     -------
     ndarray of `carom.dtypes.impact`, shape (...)
-        `carom.dtypes.plain()` gives the numbers, of shape (..., 26).
+        `carom.dtypes.plain()` converts it to float64, shape (..., 26).
     """
     partner = {
         "b.mass": mass if mass_b is None else mass_b,
@@ -133,37 +133,39 @@ def collide(
     ----------
     impacts : array_like, shape (..., 26), or structured of shape (...)
         Rows of float64 or float32 (others are converted to float64), or of `carom.dtypes.impact`;
-        see `carom.impacts`. Not copied where they are in C order.
+        see `carom.impacts`. Arrays in C order are not copied.
     solver : {"exact", "euler", "fast"}
-        The limit of infinitely many steps of impulse, or Mathavan's N steps. "fast" is the limit in
-        less time, but not smooth: differences of results then need steps of 1e-4 or more.
+        "exact": the limit of infinitely many steps of impulse. "euler": Mathavan's N steps. "fast":
+        the limit in less time, partly in single precision; its results are not smooth, so finite
+        differences need a step of 1e-3 (docs/understanding/accuracy.md, "Smoothness").
     slip : {"paper", "pooltool"}
-        Which velocity slips over the cloth.
+        The definition of the slip on the cloth: the paper's, or pooltool's
+        (docs/reference/conventions.md).
     steps : int
-        Euler's N; 0 is 1000.
+        Number of steps of "euler"; 0 stands for 1000.
     plain : bool
-        Whether this call computes with the instruction set plain, as with CAROM_ISA=plain: it has
-        the bits that all machines share.
+        Whether to use the instruction set plain, as with CAROM_ISA=plain: its results have the same
+        bits on all machines.
     threads : int
-        Most threads to use; 0 is the calling one alone, -1 all processors. Results do not depend on
-        it.
+        Largest number of threads: 0 uses only the calling thread, -1 all processors. Results do not
+        depend on it.
     out : tuple of two arrays, optional
-        Where motion and status go: an earlier result, for example. They may not overlap each other
-        or the impacts.
+        Arrays that receive motion and status, such as an earlier result. They must not overlap each
+        other or the impacts.
 
     Returns
     -------
     motion : ndarray, shape (..., 12), or structured of shape (...)
         v (m/s) and w (rad/s) of a, then of b, in the precision of the impacts, or as
-        `carom.dtypes.result`. NaN in error.
+        `carom.dtypes.result`. NaN for an invalid impact.
     status : ndarray of int8, shape (...)
-        0: resolved; 1: the balls do not approach each other, and motion is that before; negative:
-        an error, see `Status`.
+        0: resolved. 1: the balls do not approach each other; motion is unchanged. Negative: an
+        error, see `Status`.
 
     Raises
     ------
     CaromError
-        One impact, of shape (26,) or (), that is in error.
+        A single impact, of shape (26,) or (), is invalid.
     """
     options = _options(solver, slip, steps, threads, plain)
     return resolve(
@@ -172,20 +174,31 @@ def collide(
 
 
 def alciatore() -> tuple[float, float, float]:
-    """The usual law of friction between pool balls: a, b (dimensionless) and c (s/m) of mu = a + b
-    exp(-c |u|).
+    """Return Alciatore's law of friction between pool balls.
+
+    Returns
+    -------
+    tuple of three floats
+        a, b (dimensionless) and c (s/m) of mu = a + b exp(-c |u|), with the slip speed |u| in m/s.
     """
     law = lib.carom_alciatore()
     return (law.a, law.b, law.c)
 
 
 def mu_ball(impacts: ArrayLike, law: tuple[float, float, float] | None = None) -> dtypes.Doubles:
-    """Friction between two balls from the speed of slip just before they collide: float64, shape
-    (...).
+    """Compute the friction between two balls from their slip speed just before they collide.
 
-    Impacts are as for `collide`, and their own mu_ball is not read. The law of a, b, c is mu = a +
-    b exp(-c |u|), |u| in m/s; without one it is `alciatore()`. A law that leaves [0, 1] or motion
-    that is not finite gives a number that `collide` refuses.
+    Parameters
+    ----------
+    impacts : array_like, shape (..., 26), or structured of shape (...)
+        As for `collide`. Their field mu_ball is ignored.
+    law : (a, b, c), optional
+        mu = a + b exp(-c |u|), |u| in m/s. Default: `alciatore()`.
+
+    Returns
+    -------
+    ndarray of float64, shape (...)
+        mu. `collide` rejects a value outside [0, 1] or one from motion that is not finite.
     """
     array = rows(impacts, dtypes.impact, "impacts")
     mu = np.empty(array.shape if array.dtype.names is not None else array.shape[:-1])
@@ -195,7 +208,7 @@ def mu_ball(impacts: ArrayLike, law: tuple[float, float, float] | None = None) -
         or len(a_b_c) != 3
         or not all(isinstance(value, float) for value in a_b_c)
     ):
-        raise ValueError(f"law: three numbers a, b and c are needed, not {law!r}")
+        raise ValueError(f"law: {law!r} does not consist of three numbers; pass (a, b, c)")
     source, target = pointer("carom_impact[]", array), pointer("double[]", mu)
 
     def fill_in(begin: int, count: int) -> int:
@@ -215,10 +228,10 @@ def trace(
     steps: int = 0,
     plain: bool = False,
 ) -> dtypes.Records:
-    """Follow one collision, of shape (26,) or (), at `points` equal steps of normal impulse from 0
-    to its end.
+    """Follow one collision, of shape (26,) or (), at `points` equally spaced normal impulses.
 
-    Options are as for `collide`; Euler's method gives the nearest whole steps.
+    They range from 0 to the end of the collision. Options are as for `collide`; "euler" returns the
+    nearest steps.
 
     Returns
     -------
@@ -229,6 +242,6 @@ def trace(
     Raises
     ------
     CaromError
-        The impact is in error.
+        The impact is invalid.
     """
     return follow(BALLS, impact, points, _options(solver, slip, steps, 0, plain))

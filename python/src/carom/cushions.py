@@ -1,4 +1,4 @@
-"""The impact of a ball on a cushion: one and many, and an impact on its way."""
+"""Impacts of a ball on a cushion, and an impact followed in steps."""
 
 from __future__ import annotations
 
@@ -18,10 +18,13 @@ from carom._rows import (
     as_array,
     cached,
     choice,
+    either,
     fill,
+    named,
     number,
     pointer,
     text_of,
+    unknown_name,
     whole,
     worded,
 )
@@ -42,12 +45,10 @@ NUMBERS = [text_of(row.name) for row in _ROWS if row.cushion_offset >= 0]
 
 
 def _own(numbers: Any) -> tuple[tuple[str, float], ...]:
-    """Numbers of the models by their names."""
+    """Parameters of the models by their names."""
     for name in numbers:
         if name not in NUMBERS:
-            raise TypeError(
-                f"cushion() has no argument {name!r}; numbers of its models are {', '.join(NUMBERS)}"
-            )
+            raise TypeError(unknown_name("cushion()", "argument", name, NUMBERS))
     return tuple((name, number(value, name)) for name, value in numbers.items())
 
 
@@ -62,13 +63,9 @@ def _options(
     plain: bool,
     own_numbers: tuple[tuple[str, float], ...],
 ) -> Any:
-    """The options of C; they are never written to."""
-    if (
-        not 0.0
-        <= (least_step := number(least_step, "least_step", "a step in N s is needed"))
-        < np.inf
-    ):
-        raise ValueError(f"least_step: it must be 0 or more and finite, in N s, not {least_step!r}")
+    """The options of C, which are read-only."""
+    if not 0.0 <= (least_step := number(least_step, "least_step", "a step in N s")) < np.inf:
+        raise ValueError(f"least_step: {least_step!r} N s is negative or not finite; use 0 or more")
     kind, must = (
         ffi.new("carom_ball_kind *", lib.carom_ball_kind_of(lib.CAROM_GAME_POOLTOOL_POOL)),
         ffi.new("char[]", 100),
@@ -77,8 +74,10 @@ def _options(
         setattr(kind, name, value)
     if (wrong := lib.carom_ball_fault(kind, must, 100)) != ffi.NULL:
         name = text_of(wrong.name)
-        raise ValueError(f"{name}: it must be {text_of(must)}, not {getattr(kind, name)!r}")
-    named = {
+        raise ValueError(
+            f"{name}: {getattr(kind, name)!r} is out of range; it must be {text_of(must)}"
+        )
+    names = {
         "model": choice(_MODELS, model, "model"),
         "convention": choice(_CONVENTIONS, convention, "convention"),
         "law": choice(_LAWS, law, "law"),
@@ -90,31 +89,42 @@ def _options(
     }
     return ffi.new(
         "carom_cushion_options *",
-        {**named, **numbers, "least_step": least_step, **dict(own_numbers)},
+        {**names, **numbers, "least_step": least_step, **dict(own_numbers)},
     )
 
 
-_TABLES = {
-    "pool": lib.CAROM_TABLE_POOL_9FT,
-    "snooker": lib.CAROM_TABLE_SNOOKER,
-    "billiard": lib.CAROM_TABLE_THREECUSHION,
-    "blackball": lib.CAROM_TABLE_BLACKBALL,
-    "pyramid": lib.CAROM_TABLE_PYRAMID,
-    "fourball": lib.CAROM_TABLE_FOURBALL,
-}
+_GAMES = worded("GAME")
+
+
+def _first_tables() -> dict[str, int]:
+    """A built-in table of each game that has one; all tables of a game have the same noses."""
+    names = {number: name for name, number in _GAMES.items()}
+    found: dict[str, int] = {}
+    for kind in worded("TABLE").values():
+        found.setdefault(names[lib.carom_game_of_table(kind)], kind)
+    return found
+
+
+_TABLES = _first_tables()
+
+
+def _has_constants(game: str, model: int, kind: Any) -> bool:
+    """Whether a game has constants for a model of cushions, which are written to a kind of ball."""
+    return bool(lib.carom_ball_kind_for(_GAMES[game], model + 1, kind))
 
 
 @functools.cache
 def _ball(game: str, model: str) -> Any:
-    """The ball and the cushion of a game for a model; its nose is that of the game's table where
-    the ball has none.
+    """The ball and the cushion of a game for a model.
+
+    If the ball specifies no nose height, the game's table does.
     """
-    if game not in _TABLES:
-        raise ValueError(f"game: must be one of {', '.join(_TABLES)}, not {game!r}")
     kind, measures = ffi.new("carom_ball_kind *"), ffi.new("carom_measures *")
-    shot_cushion = choice(_MODELS, model, "model") + 1
-    if not lib.carom_ball_kind_for(choice(worded("GAME"), game, "game"), shot_cushion, kind):
-        raise ValueError(f"model: {game} has no constants for {model!r}")
+    if not _has_constants(game, _MODELS[model], kind):
+        known = [name for name, number in _MODELS.items() if _has_constants(game, number, kind)]
+        raise ValueError(
+            f"model: there are no constants for {model!r} in the game {game!r}; use {either(map(repr, known))}"
+        )
     lib.carom_table_measures(_TABLES[game], measures)
     kind.nose_height = kind.nose_height or measures.nose_height
     return kind
@@ -135,27 +145,29 @@ def cushion_impacts(
     game: str = "pool",
     model: CushionModel = "mathavan",
 ) -> dtypes.Records:
-    """Impacts for `cushion`, from fields that are broadcast against each other. Fields that are
-    not given are those of a game for a model.
+    """Build impacts for `cushion`.
+
+    The arguments are broadcast against each other. Omitted fields take the values of `game` for
+    `model`.
 
     Parameters
     ----------
     v, w : array_like, shape (..., 3)
         Velocity, m/s (vertical 0), and angular velocity, rad/s.
     normal : array_like, shape (..., 2)
-        Direction from the ball into the cushion, of any length but 0.
+        Direction from the ball into the cushion, of any nonzero length.
     height : array_like, shape (...)
-        Of the nose above the cloth, m, between 0 and 2 radius.
+        Height of the nose above the cloth, m, between 0 and 2 radii.
     radius, mass : array_like, shape (...)
-        Of the ball, m and kg.
+        Radius, m, and mass, kg, of the ball.
     mu_slide, mu_cushion, restitution : array_like, shape (...)
-        0 to 1.
+        Friction on the cloth, friction and restitution at the cushion, 0 to 1.
     jaw_radius : array_like, shape (...)
-        m; 0 for a straight rail.
+        Radius of a rounded jaw, m; 0 for a straight rail.
     game : {"pool", "snooker", "billiard", "blackball", "pyramid", "fourball"}
-        Whose ball, cloth and cushion.
+        The game whose ball, cloth and cushion supply the defaults.
     model : str
-        The model of the cushion for which the game's numbers are; give the same to `cushion`.
+        The model of the cushion for which the defaults were fitted; pass the same one to `cushion`.
 
     Returns
     -------
@@ -170,8 +182,9 @@ def cushion_impacts(
         "restitution": (restitution, "restitution_cushion"),
     }
     fields: dict[str, ArrayLike] = {"v": v, "w": w, "normal": normal, "jaw_radius": jaw_radius}
+    defaults = _ball(named(_TABLES, game, "game"), named(_MODELS, model, "model"))
     for name, (value, number_of_kind) in of_game.items():
-        fields[name] = value if value is not None else getattr(_ball(game, model), number_of_kind)
+        fields[name] = value if value is not None else getattr(defaults, number_of_kind)
     return fill(dtypes.cushion_impact, {"v": 3, "w": 3, "normal": 2}, fields)
 
 
@@ -197,39 +210,40 @@ def cushion(
         Rows of float64 (others are converted), or of `carom.dtypes.cushion_impact`; see
         `carom.cushion_impacts`.
     model : {"mathavan", "stronge", "han", "mirror", "euler", "smooth"}
-        Mathavan's model of 2010 in its exact limit, closed forms, or the steps of that model.
+        "mathavan": the exact limit of Mathavan's model of 2010. "euler": its steps. The others are
+        closed forms (docs/understanding/cushion.md).
     convention : {"paper", "pooltool"}
-        Whose geometry holds where pooltool departs from the papers.
+        Whose geometry to use where pooltool departs from the papers.
     law : {"constant", "han"}
-        Restitution and friction from the impact, or Han's fits.
+        "constant": restitution and friction of the impact. "han": Han's fits.
     steps : int
         Euler's N; 0 is 1000.
     least_step : float
-        Least impulse of a step of Euler's, N s; pooltool has 0.001.
+        Smallest impulse of a step of "euler", N s; pooltool uses 0.001.
     plain, threads, out
         As for `carom.collide`.
     game : {"pool", "snooker", "billiard", "blackball", "pyramid", "fourball"}, optional
-        Whose numbers of the model hold, such as the loss of roll, where none is given. None: the
-        options of C, which are 0.
+        The game that supplies omitted parameters of the model, such as roll_loss. None: they are 0,
+        as in C.
     **numbers : float
-        Numbers of the models, such as omega_ratio of stronge; `carom models` of the command lists
+        Parameters of the models, such as omega_ratio of stronge; the command `carom models` lists
         them.
 
     Returns
     -------
     motion : ndarray of float64, shape (..., 6), or structured of shape (...)
-        v (m/s) and w (rad/s) after the impact, or `carom.dtypes.motion`. NaN in error.
+        v (m/s) and w (rad/s) after the impact, or `carom.dtypes.motion`. NaN for an invalid impact.
     status : ndarray of int8, shape (...)
-        0: resolved; 1: the ball does not move into the cushion; negative: an error, see `Status`.
+        0: resolved. 1: the ball does not move into the cushion. Negative: an error, see `Status`.
 
     Raises
     ------
     CaromError
-        One impact, of shape (15,) or (), that is in error.
+        A single impact, of shape (15,) or (), is invalid.
     """
     own_numbers = dict(_own(numbers))
     if game is not None:
-        kind = _ball(game, model)
+        kind = _ball(named(_TABLES, game, "game"), named(_MODELS, model, "model"))
         own_numbers = {name: getattr(kind, name) for name in NUMBERS} | own_numbers
     options = _options(
         model, convention, law, steps, threads, least_step, plain, tuple(own_numbers.items())
@@ -239,15 +253,16 @@ def cushion(
 
 
 class Calibrated(TypedDict):
-    """The fields of a ball's kind that three banks tell."""
+    """The fields of a ball's kind that three banks determine."""
 
     restitution_cushion: float
     mu_cushion: float
 
 
 class Calibration(NamedTuple):
-    """What three banks tell of a table's cushion; `constants` are fields of a ball's kind, which
-    `carom.balls(r, **constants)` takes.
+    """The properties of a table's cushion from three banks; see `calibrate`.
+
+    `constants` are fields of a ball's kind, for `carom.balls(r, **constants)`.
     """
 
     constants: Calibrated
@@ -259,44 +274,48 @@ class Calibration(NamedTuple):
 def calibrate(
     readings: ArrayLike | None, table: Table | None = None, *, game: str = "pool"
 ) -> Calibration:
-    """Find restitution and friction of a table's cushions from three banks that were played.
+    """Find the restitution and the friction of a table's cushions from three played banks.
 
     Parameters
     ----------
     readings : array_like, shape (3,), or None
-        Where the three banks of `carom calibrate` came back, in sights from their corner. None:
-        nothing is found, and `comes_back` tells where they come back on the usual table.
+        Where the three banks of the command `carom calibrate` returned, in diamonds from their
+        corner, each above 0 and below 8. None: nothing is fitted, and `comes_back` contains the
+        readings that the game's constants predict.
     table : Table, optional
-        Where they were played; by default `carom.tables.pool_9ft()`.
+        The table on which they were played. Default: `carom.tables.pool_9ft()`.
     game : {"pool", "snooker", "billiard"}
-        Whose ball and cushion are the most probable before.
+        The game whose ball and cushion are the prior.
 
     Returns
     -------
     Calibration
-        The constants and their standard deviations, where the banks come back by them, and the
-        misfit of the readings over 25 mm, which is above 2 where one is misread.
+        The constants, their standard deviations, the readings that these constants predict, and the
+        rms misfit of the readings in units of 25 mm. A misfit above 2 means that a reading is
+        wrong.
 
     Raises
     ------
     ValueError
-        There are not three readings, or one is not above 0 and below 8.
+        The readings are not three numbers above 0 and below 8.
     CaromError
-        A bank does not come back.
+        A bank does not return to its rail.
     """
-    from carom import tables  # a table is made of layouts, which do not know of cushions
+    from carom import (
+        tables,
+    )  # not at the top: carom.tables imports layouts, which must not depend on this module
 
     record = (tables.pool_9ft() if table is None else table).record
-    kind = ffi.new(
-        "carom_ball_kind *", lib.carom_ball_kind_of(choice(worded("GAME"), game, "game"))
-    )
+    kind = ffi.new("carom_ball_kind *", lib.carom_ball_kind_of(choice(_GAMES, game, "game")))
     measured, found = ffi.NULL, ffi.new("carom_calibration *")
     if readings is not None:
         read = as_array(readings, "readings", np.float64)
         if read.shape != (3,):
-            raise ValueError(f"readings: three are needed, of shape (3,), not {read.shape}")
+            raise ValueError(f"readings: the shape is {read.shape}, but must be (3,): three banks")
         if not ((read > 0) & (read < 8)).all():
-            raise ValueError(f"readings: each must be above 0 and below 8, not {read.tolist()}")
+            raise ValueError(
+                f"readings: {read.tolist()} is out of range; each reading must be above 0 and below 8 diamonds"
+            )
         measured = ffi.new("double[3]", read.tolist())
     code = lib.carom_calibrate(pointer("carom_table[]", record), kind, measured, found)
     if code < 0:
@@ -320,10 +339,10 @@ def cushion_trace(
     least_step: float = 0.0,
     plain: bool = False,
 ) -> dtypes.Records:
-    """Follow one impact, of shape (15,) or (), by the model mathavan or euler, at `points` equal
-    steps of normal impulse from 0 to its end.
+    """Follow one impact, of shape (15,) or (), at `points` equally spaced normal impulses.
 
-    Options are as for `cushion`.
+    They range from 0 to the end of the impact. The model is "mathavan" or "euler"; options are as
+    for `cushion`.
 
     Returns
     -------
@@ -332,12 +351,12 @@ def cushion_trace(
     Raises
     ------
     CaromError
-        The impact is in error.
+        The impact is invalid.
     """
-    if not isinstance(model, str) or model not in ("mathavan", "euler"):
-        raise ValueError(
-            f"model: must be 'mathavan' or 'euler', which can be followed, not {model!r}"
-        )
+    followed = named(("mathavan", "euler"), model, "model")
     return follow(
-        CUSHION, impact, points, _options(model, convention, law, steps, 0, least_step, plain, ())
+        CUSHION,
+        impact,
+        points,
+        _options(followed, convention, law, steps, 0, least_step, plain, ()),
     )

@@ -1,8 +1,7 @@
-"""Derivatives of shots: how final states, events and states at times change with the cue, the balls
-and their constants.
+"""Derivatives of shots by the cue, the balls and their constants.
 
-A derivative is exact for small changes and says nothing about larger ones: see `Tangents.reach` and
-`Tangents.flags`.
+They exist for final states, for times of events and for states at given times. A derivative is
+exact for small changes; `Tangents.reach` and `Tangents.flags` report how far it holds.
 """
 
 from __future__ import annotations
@@ -26,9 +25,11 @@ from carom._rows import (
     as_array,
     broadcast,
     in_chunks,
+    named,
     pointer,
     raw,
     several,
+    suggestion,
     whole,
     workers,
 )
@@ -47,16 +48,15 @@ if TYPE_CHECKING:
 __all__ = ["Flag", "Hessian", "Tangents", "aim_slope", "hessian", "jacobian", "tangents"]
 
 MOST: int = lib.CAROM_DIRECTIONS_MOST
-"""Directions of one call of C; more are given in parts."""
+"""Largest number of directions of one call of C; more are divided among calls."""
 STATE: int = lib.CAROM_STATE_NUMBERS
-# shots of a thread whose events are kept at a time: more take longer for the memory than for the
-# shots
+# shots per thread whose events are kept at a time; with more, memory access dominates
 AT_ONCE = 128
-_FEW = 64  # events of a shot for which there is memory at first: more of it is slower to touch
+_FEW = 64  # events for which a shot has memory at first; more memory would be slower
 CUE = ("speed", "phi", "theta", "a", "b", "mass", "end_mass", "tip_restitution")
 KIND = tuple(dtypes.ball_kind.names or ())
-# A state is x, y, v_x, v_y, w_x, w_y, w_z, z, v_z: where its parts are, and the elements of r, v
-# and w of a ball.
+# A state is x, y, v_x, v_y, w_x, w_y, w_z, z, v_z. PARTS selects its parts; ELEMENTS has the indices
+# of the components of r, v and w of a ball.
 PARTS: dict[str, slice | int] = {
     "r": slice(0, 2),
     "v": slice(2, 4),
@@ -65,10 +65,11 @@ PARTS: dict[str, slice | int] = {
     "v_z": 8,
 }
 ELEMENTS = {"r": (0, 1, 7), "v": (2, 3, 8), "w": (4, 5, 6)}
-# Steps of second derivatives: this share of the reach, and of a number as it is or of its unit. Of
-# 100 shots of three balls a median of 5e-7 was found with them, 1e-7 and 7e-6 (most of the noise of
-# the exact collision) with a third, 1e-6 with three times as much.
+# Steps of second derivatives: this fraction of the reach, at most this fraction of the parameter's
+# value or unit. The median error over 100 shots of three balls was 5e-7. With a third of these steps it
+# was 1e-7 and 7e-6 (mostly noise of the exact collision), with three times these steps 1e-6.
 _STEP, _STEP_MOST = 3e-3, 1e-3
+_OF = (*(f"{group}.{part}" for group in ("final", "at") for part in PARTS), "time", "reach")
 _TABLE = ("nose_height", "mu_cushion", "restitution")
 _SLOPE = ("slope_x", "slope_y")
 _UNITS = {
@@ -86,7 +87,7 @@ _UNITS |= {"drag": "1/m", "law_c": "s/m", "nose_height": "m", "r": "m", "v": "m/
 
 
 class Flag(enum.IntFlag):
-    """What a derivative at an event has to be read with; `carom_tangent.h` explains each."""
+    """Reservations about a derivative at an event; `carom_tangent.h` explains each."""
 
     GRAZING = 1
     SLOW = 2
@@ -100,12 +101,12 @@ class Flag(enum.IntFlag):
 
 @dataclass(eq=False, repr=False)
 class Tangents:
-    """Derivatives of a shot, or of many: the last dimension is that of the directions, m.
+    """Derivatives of one or many shots by m directions, which are the last dimension.
 
-    `final` has "r" of shape (..., balls, 2, m), m; "v" likewise, m/s; "w" (..., balls, 3, m),
-    rad/s: of the final states. Of balls that fly it has "z", m, and "v_z", m/s, of shape (...,
-    balls, m), too. `at` has the same of the states at `times`, of shape (..., times, balls, 2 or 3,
-    m).
+    `final` maps "r" (m), "v" (m/s), both of shape (..., balls, 2, m), and "w" (rad/s), shape (...,
+    balls, 3, m), to the derivatives of the final states; for balls in flight also "z" (m) and "v_z"
+    (m/s), shape (..., balls, m). `at` contains the same for the states at `times`, with shape (...,
+    times, balls, 2 or 3, m).
     """
 
     names: tuple[str, ...]  # what changes in each direction,
@@ -124,12 +125,12 @@ class Tangents:
 
     @property
     def final(self) -> dict[str, Doubles]:
-        """Of the final states."""
+        """Derivatives of the final states."""
         return _by_name(self.states)
 
     @property
     def at(self) -> dict[str, Doubles]:
-        """Of the states at the times that were asked for."""
+        """Derivatives of the states at `times`."""
         return _by_name(self.states_at)
 
     def __repr__(self) -> str:
@@ -157,7 +158,7 @@ def _by_name(states: Doubles) -> dict[str, Doubles]:
 
 
 class Direction(NamedTuple):
-    """One direction: its name and unit, and which elements of which array of seeds change by 1."""
+    """A direction: its name and unit, and the elements of an array of seeds that change by 1."""
 
     name: str
     unit: str
@@ -168,12 +169,30 @@ class Direction(NamedTuple):
 def _names(wrt: Sequence[str], argument: str = "wrt") -> tuple[str, ...]:
     if isinstance(wrt, str):
         return (wrt,)
-    return tuple(map(str, several(wrt, argument, "names of numbers are needed, such as 'cue.phi'")))
+    return tuple(map(str, several(wrt, argument, "a list of names, such as ['cue.phi']")))
+
+
+def _unknown(name: str, balls: int, argument: str) -> str:
+    """The error for a name that is no parameter of a shot."""
+    fields = [
+        *(f"cue.{field}" for field in CUE),
+        *(f"table.{field}" for field in _TABLE + _SLOPE),
+        *(f"kind.{field}" for field in KIND),
+        *(f"balls[{k}].kind.{field}" for k in range(balls) for field in KIND if field != "radius"),
+        *(f"balls[{k}].{part}" for k in range(balls) for part in ELEMENTS),
+    ]
+    hint = suggestion(name, fields)
+    return (
+        f"{argument}: unknown parameter {name!r}{hint or ';'} {'Use' if hint else 'use'} cue.phi, kind.mu_slide (all balls), "
+        f"balls[1].kind.mass, balls[0].r[1], table.nose_height, ...; balls are 0 to {balls - 1}. help(carom.tangents) lists all"
+    )
 
 
 def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[list[Direction]]:
-    """Of each name: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both
-    places, or balls[0].r[1].
+    """The directions of each name.
+
+    Names are, for example, cue.phi; kind.mu_slide (all balls); balls[1].kind.mass; balls[0].r (x
+    and y) or balls[0].r[1].
     """
     fields = {"cue": CUE, "table": _TABLE + _SLOPE, "kind": KIND}
     found: list[list[Direction]] = []
@@ -193,7 +212,7 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
         elif number < balls and inner and field in KIND and field != "radius" and index is None:
             found.append([Direction(name, unit, "kind", ((number, KIND.index(field)),))])
         elif number < balls and not inner and field in ELEMENTS and int(index or 0) < 3:
-            # of a place and a velocity those along the cloth, unless the one upward is asked for
+            # the components of r and v along the cloth, unless an index selects the vertical one
             ks = range(3 if field == "w" else 2) if index is None else [int(index)]
             found.append(
                 [
@@ -207,12 +226,11 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
                 ]
             )
         else:
-            raise ValueError(
-                f"{argument}: {name!r} is no number of a shot; such are cue.phi, kind.mu_slide (of all balls), balls[1].kind.mass, "
-                f"balls[0].r[1] and table.nose_height, with 0 to {balls - 1} for balls"
-            )
+            raise ValueError(_unknown(name, balls, argument))
     if not found:
-        raise ValueError(f"{argument}: name at least one number, such as 'cue.phi'")
+        raise ValueError(
+            f"{argument}: the list is empty; name at least one parameter, such as 'cue.phi'"
+        )
     return found
 
 
@@ -234,7 +252,7 @@ def seeds_of(directions: Sequence[Direction], balls: int) -> dict[str, Doubles]:
 
 @functools.lru_cache(maxsize=256)
 def _seeds(wrt: tuple[str, ...], balls: int) -> tuple[tuple[Direction, ...], dict[str, Doubles]]:
-    """All directions of some names, and their seeds, which are only read."""
+    """All directions of some names, and their seeds, which are read-only."""
     wanted_directions = tuple(
         direction for several in directions(wrt, balls) for direction in several
     )
@@ -251,10 +269,11 @@ def _differentiate(
     outputs: Collection[str],
     threads: int,
 ) -> tuple[dict[str, Array], Array]:
-    """What is wanted of the tangents of n played shots, each of shape (n, ...), and their statuses.
+    """The requested `outputs` of the tangents of n played shots, each of shape (n, ...), and
+    statuses.
 
-    `job` gives the carom_shot_job of some of the shots. Directions beyond what C takes are given in
-    parts.
+    `job` returns the carom_shot_job of some of the shots. More directions than C accepts are
+    divided among calls.
     """
     m = next(iter(seeds.values())).shape[-1]
     parts: list[dict[str, Array]] = []
@@ -267,7 +286,7 @@ def _differentiate(
             "carom_tangent_seeds *",
             {"directions": width, **{name: pointer("double[]", row) for name, row in rows.items()}},
         )
-        # C writes into arrays of all shots: what it does not write is nan, and -1 for flags
+        # C writes into arrays for all shots; other elements stay nan, and -1 for flags
         shapes = {
             "final": (balls, STATE, width),
             "at": (len(times), balls, STATE, width),
@@ -317,18 +336,18 @@ def _sorted_times(times: ArrayLike | None) -> Array:
         or (np.diff(sorted_times) < 0).any()
     ):
         raise ValueError(
-            "times: finite numbers of seconds from the beginning of the shot, in ascending order, are needed, of shape (times,)"
+            f"times: {times!r} is not an ascending list of finite times, in s from the beginning of the shot, of shape (times,)"
         )
     return sorted_times
 
 
 def tangent_options(models: Options, threads: int) -> Any:
-    """The options of C of a shot that was played by these, less when it was to be stopped."""
+    """The options of C for the tangents of a shot with these options, without t_final and stop_at."""
     return shot_options(models._replace(t_final=None, stop_at=()), threads)
 
 
 def _job_of_one(shot: Shot, options: Any) -> Callable[[int, int], Any]:
-    """What `Shots.jobs` gives, of a single shot."""
+    """As `Shots._jobs`, for a single shot."""
     balls, events = np.ascontiguousarray(shot.balls), np.ascontiguousarray(shot.events)
     struck = ffi.NULL if shot.cue is None else pointer("carom_cue[]", shot.cue)
     of_c = {
@@ -352,42 +371,40 @@ def _job_of_one(shot: Shot, options: Any) -> Callable[[int, int], Any]:
 def tangents(
     shot: Shot | Shots, wrt: Sequence[str], *, times: ArrayLike | None = None, threads: int = 0
 ) -> Tangents:
-    """Differentiate a shot that `carom.simulate` has played, or many of `carom.simulate_batch`.
-
-    A shot knows its cue and its models.
+    """Differentiate a shot from `carom.simulate`, or many from `carom.simulate_batch`.
 
     Parameters
     ----------
     shot : Shot or Shots
-        With all of its events: many need a `room` that is large enough.
+        With all of its events; a batch needs a sufficient `room`.
     wrt : sequence of str
-        By what: "cue.phi" and other numbers of the cue; "kind.mu_slide" of all balls,
-        "balls[1].kind.mass" of one; "balls[0].r" (two directions), "balls[0].r[1]", v, w, and
-        "balls[0].v[2]" of a ball that flies; "table.nose_height", "table.mu_cushion",
-        "table.restitution", "table.slope_x", "table.slope_y".
+        Parameters to differentiate by: "cue.phi" and other fields of the cue; "kind.mu_slide" for
+        all balls, "balls[1].kind.mass" for one; "balls[0].r" (two directions), "balls[0].r[1]",
+        likewise v and w, and "balls[0].v[2]" of a ball in flight; "table.nose_height",
+        "table.mu_cushion", "table.restitution", "table.slope_x", "table.slope_y".
     times : array_like, shape (times,), optional
-        s, ascending: for `Tangents.at`.
+        Times for `Tangents.at`, s, ascending.
     threads : int
-        Most threads to use for many shots; 0 is the calling one alone, -1 all processors. No bit
-        depends on it.
+        Largest number of threads for a batch: 0 uses only the calling thread, -1 all processors.
+        Results do not depend on it.
 
     Returns
     -------
     Tangents
-        Of many shots with the bits of each alone. One in error, or whose derivatives are not known,
-        costs itself: see `status`.
+        Each shot of a batch has the bits of a single call. Failed shots, and shots without
+        derivatives, do not affect the others; see `status`.
 
     Raises
     ------
     CaromError
-        Derivatives are not known for this shot: in the world pooltool, or by Euler's model of
+        This shot has no derivatives: it was played in the world pooltool, or with Euler's model of
         balls.
     ValueError
         Shots of a batch have more events than were kept.
     """
     if not isinstance(shot, (Shot, Shots)):
         raise TypeError(
-            f"shot: what carom.simulate() or carom.simulate_batch() gives is needed, not {type(shot).__name__}"
+            f"shot: {type(shot).__name__} is not a result of carom.simulate() or carom.simulate_batch()"
         )
     balls = shot.final.shape[-1]
     directions, seeds = _seeds(_names(wrt), balls)
@@ -395,12 +412,14 @@ def tangents(
     whole(threads, "threads", least=-1)
     outputs = ("final", "at", "time", "flags", "reach")
     if shot.events.dtype != dtypes.event:
-        raise ValueError('shot: its events were kept in brief; play it with records="full"')
+        raise ValueError(
+            'shot: its events were kept with records="brief"; play it with records="full"'
+        )
     count, status, room = np.asarray(shot.count), np.asarray(shot.status), shot.events.shape[-1]
     lost = count[(status >= 0) & (count > room)]
     if lost.size:
         raise ValueError(
-            f"shot: room={room} does not keep all events of {lost.size} of {count.size} shots; room={lost.max()} does"
+            f"shot: {lost.size} of {count.size} shots have more events than room={room} keeps; use room={lost.max()}"
         )
     events = int(np.minimum(count, room).max(initial=0))
     if isinstance(shot, Shots):
@@ -417,9 +436,7 @@ def tangents(
 
 
 def _final_states(shots: Shots, directions: Sequence[Direction], threads: int) -> Doubles:
-    """Derivatives of the final states alone of shots with all of their events: (shots, balls,
-    STATE, m).
-    """
+    """Derivatives of the final states of shots with all of their events: (shots, balls, STATE, m)."""
     balls = shots.final.shape[-1]
     job = shots._jobs(tangent_options(shots.options, threads))
     return _differentiate(
@@ -429,10 +446,11 @@ def _final_states(shots: Shots, directions: Sequence[Direction], threads: int) -
 
 @dataclass(eq=False, repr=False)
 class Hessian:
-    """Second derivatives of the final states of a shot, or of many, by each two of m directions.
+    """Second derivatives of the final states of one or many shots by pairs of m directions.
 
-    `final` has "r" of shape (..., balls, 2, m, m), m; "v", m/s; "w" (..., balls, 3, m, m), rad/s;
-    "z" and "v_z" (..., balls, m, m). Along a vector the last dimension is left out.
+    `final` maps "r" (m) and "v" (m/s), shape (..., balls, 2, m, m), "w" (rad/s), shape (..., balls,
+    3, m, m), and "z" and "v_z", shape (..., balls, m, m). Along a vector the last dimension is
+    omitted.
     """
 
     # first derivatives, with the names and units of the directions, their reach, and the flags of
@@ -445,7 +463,7 @@ class Hessian:
 
     @property
     def final(self) -> dict[str, Doubles]:
-        """Of the final states."""
+        """Derivatives of the final states."""
         batch = (slice(None),) * (self.first.states.ndim - 2)
         return {name: self.states[(*batch, part)] for name, part in PARTS.items()}
 
@@ -456,8 +474,8 @@ class Hessian:
 def numbers_of_direction(
     direction: Direction, layouts: Records, cues: Records | None
 ) -> list[Array]:
-    """The numbers that a direction changes, as views into layouts (..., balls) and cues (...); none
-    of a table.
+    """The elements that a direction changes, as views into layouts (..., balls) and cues (...);
+    none for the table.
     """
     found: list[Array] = []
     for place in direction.places:
@@ -474,22 +492,20 @@ def numbers_of_direction(
 def hessian(
     shot: Shot | Shots, wrt: Sequence[str], *, along: ArrayLike | None = None, threads: int = 0
 ) -> Hessian:
-    """Second derivatives of the final states of shots that were played: central differences of
-    their first ones.
+    """Compute second derivatives of the final states of played shots.
 
-    It takes the time of two shots and their tangents for each direction, or for the vector. All
-    shots of the differences have the events of the shot, else the derivatives by that direction are
-    nan: the steps are small beside its reach. `flags` and `reach` of the first derivatives hold
-    here, too.
+    They are central differences of exact first derivatives, and take two shots with their tangents
+    for each direction, or for the vector. Steps are small compared with the reach. Derivatives by a
+    direction are nan if a shot of the difference has other events. `flags` and `reach` of the first
+    derivatives apply here too.
 
     Parameters
     ----------
     shot, wrt, threads
-        As for `tangents`, without numbers of the table: "kind.nose_height" is that of all noses for
-        one ball.
+        As for `tangents`, but without parameters of the table; use "kind.nose_height".
     along : array_like, shape (..., m), optional
-        A vector for each shot, or one for all: only the Hessian's product with it is found, of
-        shape (..., balls, 9, m).
+        A vector for each shot, or one for all. Then only the product of the Hessian and this vector
+        is computed, of shape (..., balls, 9, m).
 
     Returns
     -------
@@ -498,7 +514,7 @@ def hessian(
     Raises
     ------
     CaromError
-        Derivatives are not known for this shot.
+        This shot has no derivatives.
     """
     first = tangents(shot, wrt, threads=threads)
     directions = _seeds(_names(wrt), shot.final.shape[-1])[0]
@@ -512,7 +528,7 @@ def hessian(
             direction.array == "cue" and shot.cues is None
         ):
             raise ValueError(
-                f"wrt: {direction.name} has no second derivatives here: numbers of a cue that strikes, and of balls, have"
+                f"wrt: {direction.name!r} has no second derivatives; use fields of the balls, or of a cue that strikes"
             )
     steps = steps_of(directions, shot, first.reach)
     if along is None:
@@ -532,7 +548,7 @@ def hessian(
         or broadcast({"along": vectors.shape[:-1], "shots": shape}) != shape
     ):
         raise ValueError(
-            f"along: the shape must be ({m},) or {(*shape, m)}, a number for each direction, not {vectors.shape}"
+            f"along: the shape is {vectors.shape}, but must be ({m},) or {(*shape, m)}, one component per direction"
         )
     return Hessian(
         first,
@@ -542,7 +558,7 @@ def hessian(
 
 
 def _whole(shots: Shots) -> tuple[Records, Records | None]:
-    """The layouts (n, balls) and cues (n,) of shots, a row each."""
+    """The layouts (n, balls) and cues (n,) of shots, one row per shot."""
     layouts = np.broadcast_to(shots.layouts, shots.final.shape).reshape(-1, shots.final.shape[-1])
     if shots.kinds is not None:
         states, layouts = layouts, np.zeros(layouts.shape, dtypes.shot_ball)
@@ -582,8 +598,8 @@ def by_steps(
     vectors: Array,
     threads: int,
 ) -> Doubles:
-    """Differences of the tangents of shots along vectors (..., p, m), for each unit of them: (...,
-    balls, STATE, m, p).
+    """Differences of the tangents of shots along vectors (..., p, m), per unit length: (..., balls,
+    STATE, m, p).
     """
     n, balls, m, p = shots.status.size, shots.final.shape[-1], len(directions), vectors.shape[-2]
     ways = np.broadcast_to(vectors, (*shots.shape, p, m)).reshape(n, p, m)
@@ -595,15 +611,14 @@ def by_steps(
     )
     found = np.full((n, balls, STATE, m, p), np.nan)
 
-    # The longest step whose parts are no longer than those along each direction alone would be,
-    # together.
+    # The longest step whose components together do not exceed the steps along single directions.
     with np.errstate(divide="ignore", invalid="ignore"):
         slower = (np.abs(ways) / steps.reshape(n, 1, m)).sum(axis=-1)
         h = 1.0 / np.where(ways.any(axis=-1), slower, 1.0)
 
     at_once = max(AT_ONCE * workers(threads) // (2 * p), 1)
     for begin in range(0, n, at_once):
-        # Of each shot one with more and one with less along each vector, (shots, 2, p).
+        # For each shot, one shifted forward and one shifted backward along each vector: (shots, 2, p).
         part = slice(begin, begin + at_once)
         changes = h[part, np.newaxis, :, np.newaxis] * np.stack([ways[part], -ways[part]], axis=1)
         moved, struck = (
@@ -612,7 +627,7 @@ def by_steps(
         )
         for j, direction in enumerate(directions):
             if direction.name == "kind.radius":
-                # a ball stays as high above the cloth as it is
+                # keep the ball's height above the cloth
                 moved["state"]["r"][..., 2] += changes[..., j, np.newaxis]
             for number in numbers_of_direction(direction, moved, struck):
                 number += changes[..., j]
@@ -621,7 +636,7 @@ def by_steps(
             shots.table, moved, struck, room=room, threads=threads, options=shots.options
         )
 
-        # Those with the events of their shot count.
+        # Use the shots with the same events as the original.
         same = (others.count == count[part, np.newaxis, np.newaxis]) & (
             others.status == status[part, np.newaxis, np.newaxis]
         )
@@ -643,44 +658,46 @@ def by_steps(
 
 
 def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi") -> Doubles:
-    """How the direction of the cue must follow other numbers of a shot, so that a ball falls at the
-    same place across its path.
+    """Compute how the cue's direction must follow other parameters so that a ball still falls.
+
+    The ball then crosses the end of its path at the same position.
 
     Parameters
     ----------
     shot : Shot
-        One that pots the ball, as by `carom.aim`.
+        A shot that pots the ball, for example with a cue from `carom.aim`.
     ball : int
         Index of the ball.
     wrt : sequence of str
-        The numbers that change, such as "cue.speed", "cue.b" or "balls[1].r", as for `tangents`.
+        The parameters that change, such as "cue.speed", "cue.b" or "balls[1].r", as for `tangents`.
     by : str
-        The one number that follows.
+        The parameter that follows.
 
     Returns
     -------
     ndarray of float64, shape (m,)
-        d by / d wrt, degrees per m/s, per R, per m and so on, to first order.
+        d by / d wrt to first order: degrees per m/s, per radius, per m, ...
 
     Raises
     ------
     ValueError
-        The ball does not fall, or `by` does not turn its path.
+        The ball does not fall, or `by` does not change the direction of its path.
     """
     if not isinstance(shot, Shot):
-        raise TypeError(f"shot: what carom.simulate() gives is needed, not {type(shot).__name__}")
+        raise TypeError(f"shot: {type(shot).__name__} is not a result of carom.simulate()")
     events = shot.events[: shot.count]
     fell = events[(events["type"] == EventType.POCKET) & (events["a"] == whole(ball, "ball"))]
     if len(fell) == 0:
-        raise ValueError(f"ball: ball {ball} does not fall in this shot")
-    # Across the path, a place at a time just before the fall is that of the fall, whenever it
-    # happens.
+        raise ValueError(f"ball: ball {ball} does not fall in this shot; choose one that falls")
+    # Just before the fall, the position across the path equals that at the fall, whenever it happens.
     before_end = fell["time"][-1] * (1.0 - 1e-9)
     v_x, v_y, _ = shot.states(before_end)["v"][ball]
     d = tangents(shot, [by, *wrt], times=[before_end]).at["r"][0, ball]
     across = v_x * d[1] - v_y * d[0]
     if across[0] == 0.0 or len(directions([by], shot.final.shape[-1], "by")[0]) != 1:
-        raise ValueError(f"by: {by} does not turn the path of ball {ball}")
+        raise ValueError(
+            f"by: {by!r} does not change the direction of ball {ball}; use a parameter such as 'cue.phi'"
+        )
     slopes: Doubles = -across[1:] / across[0]
     return slopes
 
@@ -696,8 +713,8 @@ def play(
     threads: int,
     options: Options,
 ) -> tuple[dict[str, Array], Array, Records]:
-    """Plays shots, some at a time, and differentiates them: what is wanted, statuses and final
-    states, of the shape of the batch.
+    """Play and differentiate shots in parts: the requested outputs, statuses and final states over
+    the batch.
     """
     whole(threads, "threads", least=-1)
     room = whole(room, "room")
@@ -726,7 +743,7 @@ def play(
     at_once = AT_ONCE * workers(threads)
     at_once = max(
         -(-n // max(-(-n // at_once), 1)), 1
-    )  # as many in each part, which then all use the memory of the first
+    )  # equal parts, which all reuse the memory of the first
     room_used = min(room, _FEW)
     for begin in range(0, max(n, 1), at_once):
         part = slice(begin, min(begin + at_once, n))
@@ -758,7 +775,7 @@ def play(
         found, codes[part] = _differentiate(
             job, many, balls, events, seeds, times, outputs, threads
         )
-        if "flags" in found:  # those of all events of a shot together
+        if "flags" in found:  # combined over the events of a shot
             found["flags"] = np.bitwise_or.reduce(np.maximum(found["flags"], 0), axis=1)
         raw(final)[part] = raw(shots.final)
         parts.append(found)
@@ -766,7 +783,7 @@ def play(
     for name in parts[0]:
         blocks = [found[name] for found in parts]
         if name == "time":
-            # as many events as the longest shot has
+            # as many events as the longest shot
             most = max(block.shape[1] for block in blocks)
             longer = [np.full((len(block), most, *block.shape[2:]), np.nan) for block in blocks]
             for target, block in zip(longer, blocks):
@@ -790,35 +807,31 @@ def jacobian(
     options: Options = Options(),
     **changes: Unpack[Changes],
 ) -> Doubles:
-    """Play shots and give one derivative of each, with leading batch dimensions.
+    """Play shots and return one derivative of each, with leading batch dimensions.
 
     Parameters
     ----------
     table, layouts, cues, wrt
         As for `carom.simulate_batch` and `tangents`.
     of : str
-        "final.r", "final.v", "final.w", "final.z", "final.v_z"; "at.r" and so on at `times`; "time"
-        of the events; or "reach".
+        "final.r", "final.v", "final.w", "final.z", "final.v_z"; likewise "at.r", ... at `times`;
+        "time" for the times of events; or "reach".
     room : int
-        Events of a shot at most; a shot with more has nan.
+        Largest number of events of a shot; a shot with more returns nan.
     threads, options, **changes
         As for `carom.simulate_batch`.
 
     Returns
     -------
     ndarray of float64
-        (..., balls, 2, m) for "final.r"; nan for shots in error. Each shot has the bits of
+        For "final.r" of shape (..., balls, 2, m); nan for failed shots. Each shot has the bits of
         `tangents`.
     """
-    group, _, field = str(of).partition(".")
-    if (group not in ("final", "at") or field not in PARTS) and str(of) not in ("time", "reach"):
-        raise ValueError(
-            f"of: must be final.r, v, w, z or v_z, at.r and so on, time or reach, not {of!r}"
-        )
+    group, _, field = named(_OF, of, "of").partition(".")
     layouts = of_record(layouts, dtypes.shot_ball, "layouts", "balls()")
     cues = None if cues is None else of_record(cues, dtypes.cue, "cues", "cue()")
     if layouts.ndim == 0:
-        raise ValueError("layouts: the shape must be (..., balls), not ()")
+        raise ValueError("layouts: the shape is (), but must be (..., balls)")
     seeds = _seeds(_names(wrt), layouts.shape[-1])[1]
     found = play(
         table,

@@ -65,7 +65,7 @@ def _dtype(ctype: Any) -> np.dtype[Any]:
         ]:
             fields += (
                 [(f"unused{end}", np.dtype((np.void, begin - end)))] if begin > end else []
-            )  # what the compiler leaves out
+            )  # the compiler's padding
             fields += [(name, _dtype(kind))] if kind else []
             end = begin + (ffi.sizeof(kind) if kind else 0)
         return np.dtype(fields)
@@ -83,7 +83,7 @@ def _record(name: str) -> Record:
     return _dtype(ffi.typeof(name))
 
 
-# The headers in core/include/ have the fields of each, with their units.
+# The headers in core/include/ document the fields, with their units.
 # Two balls at the instant of contact: a, b (r, v, w, radius, mass, mu_slide), mu_ball, restitution.
 # 26 doubles.
 impact: Record = _record("carom_impact")
@@ -94,7 +94,7 @@ motion: Record = _record("carom_motion")  # A ball's v (m/s) and w (rad/s). 6 do
 cushion_impact: Record = _record("carom_cushion_impact")
 trace_point: Record = _record("carom_trace_point")  # A point of `carom.trace`.
 cushion_point: Record = _record("carom_cushion_point")  # A point of `carom.cushion_trace`.
-ball_kind: Record = _record("carom_ball_kind")  # What a ball is made of and runs on.
+ball_kind: Record = _record("carom_ball_kind")  # Properties of a ball, its cloth and its cushions.
 # Where a ball is and how it moves: r (m), v (m/s), w (rad/s), label (`carom.Label`).
 ball_state: Record = _record("carom_ball_state")
 shot_ball: Record = _record("carom_shot_ball")  # A ball of a layout: kind, state.
@@ -108,7 +108,7 @@ table: Record = _record("carom_table")  # A table: any geometry.
 event: Record = _record("carom_event")
 # An event without states, 24 bytes: time (s), type (`carom.EventType`), a, b.
 brief_event: Record = _record("carom_brief_event")
-# How the strokes of a player differ from those that he means: standard deviations, and bounds.
+# The errors of a player's strokes: standard deviations, and bounds.
 player: Record = _record("carom_player")
 plan_stroke: Record = _record("carom_plan_stroke")  # A shot that `carom.plan` proposes.
 # A stroke of a run-out by `carom.sequence`.
@@ -116,20 +116,22 @@ sequence_stroke: Record = _record("carom_sequence_stroke")
 # A break that `carom.best_breaks` proposes, with the results of breaks.
 break_choice: Record = _record("carom_break_choice")
 shot_way: Record = _record("carom_shot_way")  # A way that `carom.ways` finds.
-facts: Record = _record("carom_facts")  # What happened in a shot, which `carom.Features` shows.
-# How a game stands for the player at the table: opening, group, fouls, score, lost, pocket, may,
-# on, free_ball, target, innings; user is of one's own rules.
+facts: Record = _record(
+    "carom_facts"
+)  # The events of a shot in brief, as `carom.Features` shows them.
+# The state of a game for the player at the table: opening, group, fouls, score, lost, pocket, may,
+# on, free_ball, target, innings; `user` is for custom rules.
 rules_state: Record = _record("carom_rules_state")
-turn: Record = _record("carom_turn")  # What a shot amounts to by rules.
+turn: Record = _record("carom_turn")  # A ruling on a shot.
 shot: Record = _record(
     "carom_shot"
-)  # What a shot gives, with the addresses of its arrays: for the calls of C.
-# What derivatives of a shot give, with the addresses of their arrays: for the calls of C.
+)  # The result of a shot with the addresses of its arrays, for calls of C.
+# The derivatives of a shot with the addresses of their arrays, for calls of C.
 tangent: Record = _record("carom_tangent")
 
 
 def described(dtype: np.dtype[Any]) -> str:
-    """A dtype in a few words, for errors."""
+    """A short name of a dtype, for error messages."""
     if dtype.names is None:
         return str(dtype)
     fields = ", ".join(dtype.names[:3]) + (", ..." if len(dtype.names) > 3 else "")
@@ -142,7 +144,7 @@ def described(dtype: np.dtype[Any]) -> str:
 
 @functools.lru_cache(maxsize=64)
 def _integers(dtype: np.dtype[Any], name: str = "") -> tuple[str, ...]:
-    """The names of the fields that are no float64, with those of the parts that they are in."""
+    """The full names of the fields that are not float64."""
     part = dtype.base
     if part.names is None:
         return () if part == np.float64 else (name,)
@@ -154,18 +156,17 @@ def _integers(dtype: np.dtype[Any], name: str = "") -> tuple[str, ...]:
 
 
 def plain(records: Records) -> Doubles:
-    """The numbers of records that are all doubles, of shape (..., width): a view, where they are in
-    C order.
+    """Return records of doubles as float64 of shape (..., width): a view if they are in C order.
 
-    Records with integers, such as labels, event types or indices, are refused: their bytes would be
-    read as doubles.
+    Records that contain integers, such as labels, event types or indices, raise TypeError, because
+    their bytes would be read as doubles.
 
     >>> plain(carom.impacts(v_a=velocities, r_b=(0.05715, 0, 0))).shape
     (1000, 26)
     """
     if records.dtype.names is None:
         raise TypeError(
-            f"records: a structured array is needed, such as carom.impacts() gives, not one of {described(records.dtype)}"
+            f"records: an array of {described(records.dtype)} has no fields; pass a structured array, such as the result of carom.impacts()"
         )
     integers = _integers(records.dtype)
     if integers:
@@ -175,22 +176,21 @@ def plain(records: Records) -> Doubles:
             else f"{integers[0]} holds"
         )
         raise TypeError(
-            f"records: {kind} integers, but rows of float64 were asked for; take the fields by their names"
+            f"records: {kind} integers, which cannot be viewed as float64; select the fields by their names"
         )
     numbers = np.ascontiguousarray(records).reshape(-1).view(np.float64)
     return numbers.reshape((*records.shape, records.dtype.itemsize // 8))
 
 
 def columns(records: Records) -> dict[str, npt.NDArray[Any]]:
-    """The numbers of records of shape (n,) as columns of shape (n,), for pandas and other tables:
-    `DataFrame(columns(records))`.
+    """Return records of shape (n,) as columns of shape (n,), for example for `pandas.DataFrame`.
 
-    Fields that keep room for later are left out. The name of a column joins those of its parts:
-    state_r_x, before_a_v_y. Vectors have x, y, z, pairs of states a, b.
+    Reserved fields are omitted. The names of nested fields are joined: state_r_x, before_a_v_y. The
+    components of a vector are x, y, z, and two states are a, b.
     """
     if records.dtype.names is None or records.ndim != 1:
         raise TypeError(
-            f"records: a structured array of shape (n,) is needed, not of {described(records.dtype)} and shape {records.shape}"
+            f"records: dtype {described(records.dtype)} and shape {records.shape} do not fit; pass a structured array of shape (n,)"
         )
     found: dict[str, npt.NDArray[Any]] = {}
     for name in (

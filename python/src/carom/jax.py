@@ -1,24 +1,24 @@
-"""Whole shots as functions that JAX differentiates.
+"""Shots as functions that JAX differentiates.
 
     import jax
     jax.config.update("jax_enable_x64", True)
     import carom.jax
 
-    def miss(aim):                              # (speed, phi) of the cue, m/s and degrees
+    def miss(aim):                              # cue speed, m/s, and phi, degrees
         ends = carom.jax.final(table, balls, cue, {"cue.speed": aim[0], "cue.phi": aim[1]})
         return ((ends.r[1] - goal) ** 2).sum()                 # of ball 1, m^2
 
     jax.value_and_grad(miss)(aim)
     jax.jit(jax.vmap(jax.grad(miss)))(aims)                    # all shots in one batch
 
-Shots are played and differentiated by C, in callbacks: a batch, or a function under `jax.vmap`, is
-one batch of `carom.simulate_batch`, and its derivative one of `carom.tangents`. `grad`, `jacfwd`
-and `jacrev` all use the Jacobian of `carom.tangents`, and `hessian` what `carom.hessian` finds, nan
-where that is; third derivatives are not known. docs/using/derivatives.md says what a derivative
-cannot tell: with `final(..., reach=True)` the result has its reach and its flags.
+C plays and differentiates the shots in callbacks. A batch, or a function under `jax.vmap`, is one
+batch of `carom.simulate_batch`, and its derivative one batch of `carom.tangents`. `grad`, `jacfwd`
+and `jacrev` use the Jacobian of `carom.tangents`; `hessian` uses `carom.hessian`, including its
+nan. There are no third derivatives. With `final(..., reach=True)` the result includes reach and
+flags, which limit a derivative (docs/using/derivatives.md).
 
-Needs JAX with 64-bit numbers. Its objects have no types here, so that carom can be checked without
-it.
+Needs JAX with 64-bit numbers. Objects of JAX have no types here, so that carom can be type-checked
+without it.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ _jnp: Any = needed("jax.numpy", __name__)
 
 
 def _shapes(shots: Shots, x: Any, *, slopes: bool) -> tuple[Any, ...]:
-    """What `Shots.states` gives, or with slopes `Shots.both`."""
+    """The shapes of `Shots.states`, or with slopes of `Shots.both`."""
     lead, m = x.shape[:-1], x.shape[-1]
     shape: Any = _jax.ShapeDtypeStruct
     states = (*lead, shots.count, STATE)
@@ -56,13 +56,13 @@ def _shapes(shots: Shots, x: Any, *, slopes: bool) -> tuple[Any, ...]:
 
 
 def _constant(values: Any) -> Any:
-    """The change of what has no gradient."""
+    """The tangent of a value without a gradient."""
     whole = _jnp.issubdtype(values.dtype, _jnp.integer)
     return np.zeros(values.shape, _jax.dtypes.float0) if whole else _jnp.zeros_like(values)
 
 
-# Each is differentiated by the next. What a tangent is multiplied by does not depend on the
-# tangent, so that JAX can transpose the rules.
+# Each function is the derivative of the one before. The factor of a tangent does not depend on the
+# tangent, so JAX can transpose the rules.
 @functools.partial(_jax.custom_jvp, nondiff_argnums=(0,))
 def _states(shots: Shots, x: Any) -> Any:
     shapes = _shapes(shots, x, slopes=False)
@@ -98,7 +98,7 @@ def _of_both(shots: Shots, primals: Any, changes: Any) -> Any:
 
 def _of_second(shots: Shots, primals: Any, changes: Any) -> Any:
     raise NotImplementedError(
-        "carom.jax: third derivatives of shots are not known; jax.hessian gives second ones"
+        "carom.jax: shots have no third derivatives; jax.hessian computes second derivatives"
     )
 
 
@@ -120,30 +120,28 @@ def final(
     options: Options = Options(),
     **changes: Any,
 ) -> Final:
-    """The final states of shots, as a function of some of their numbers that JAX can differentiate,
-    compile and map.
+    """Compute the final states of shots as a function that JAX can differentiate, compile and map.
 
     Parameters
     ----------
     table, balls, cue
-        The shots, as for `carom.simulate_batch`, where `numbers` say nothing else. Leading
+        The shots, as for `carom.simulate_batch`; `numbers` overrides their fields. Leading
         dimensions of balls, cue and numbers are broadcast against each other.
     numbers : mapping of str to array_like
-        The numbers of the shots that take part in derivatives, by the names of `carom.tangents`:
-        "cue.phi", "kind.mu_slide" (of all balls), "balls[1].kind.mass" and "balls[0].r[1]" of shape
-        (...); "balls[0].r", "balls[0].v" (..., 2), "balls[0].w" (..., 3). Under `jax.vmap` all
-        shots are one batch, too. Those of the table are left out, as a batch has one table: the
-        balls' own "kind.nose_height", "kind.mu_cushion" and "kind.restitution_cushion" are used
-        instead.
+        The parameters to differentiate by, with the names of `carom.tangents`: "cue.phi",
+        "kind.mu_slide" (all balls), "balls[1].kind.mass" and "balls[0].r[1]" of shape (...);
+        "balls[0].r", "balls[0].v" (..., 2), "balls[0].w" (..., 3). Parameters of the table are not
+        available, because a batch has one table; use "kind.nose_height", "kind.mu_cushion" and
+        "kind.restitution_cushion" instead.
     room : int
-        Events of a shot at most, where it is differentiated.
+        Largest number of events of a differentiated shot.
     errors : {"raise", "nan"}
-        What a shot in error gives: an exception, or nan, so that the other shots of a batch are not
-        lost.
+        Whether a failed shot raises an exception or returns nan, so that the rest of the batch is
+        kept.
     reach : bool
-        Whether the result has `reach` and `flags`, for which shots are differentiated at any rate.
+        Whether to compute `reach` and `flags`, for which shots are always differentiated.
     threads, options, **changes
-        As for `carom.simulate_batch`. With t_final the states are those at that time.
+        As for `carom.simulate_batch`. With t_final the states are the ones at that time.
 
     Returns
     -------
@@ -152,16 +150,16 @@ def final(
     Raises
     ------
     ValueError
-        A name or a shape is wrong.
+        A name or a shape is invalid.
     TypeError
-        JAX has no 64-bit numbers: the error says what to set.
+        64-bit numbers are disabled in JAX; the message shows how to enable them.
     jax.errors.JaxRuntimeError or ValueError
-        A shot is refused, ends in an error or cannot be differentiated: the last line has its
-        numbers, and what is wrong with it. JAX makes this exception of what a callback raises.
+        A shot is invalid, fails, or cannot be differentiated; the last line contains its parameters
+        and the reason. JAX converts exceptions of a callback to this one.
     """
     if _jax.dtypes.canonicalize_dtype(np.float64) != np.float64:
         raise TypeError(
-            'carom.jax needs 64-bit numbers: set jax.config.update("jax_enable_x64", True) first, or JAX_ENABLE_X64=1'
+            'carom.jax: 64-bit numbers are disabled; call jax.config.update("jax_enable_x64", True) first, or set JAX_ENABLE_X64=1'
         )
     shots, parts, batch = shots_of(
         table,

@@ -1,7 +1,8 @@
-"""What a shot begins with: tables, balls, cues."""
+"""Tables, balls and cues: the arguments of a shot."""
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import warnings
 from collections.abc import Sequence
@@ -21,12 +22,15 @@ from carom._rows import (
     choice,
     fill,
     frozen,
+    named,
     number,
+    numbered,
     pointer,
     raw,
     sealed,
     several,
     text_of,
+    unknown_name,
     whole,
     with_numbers,
     worded,
@@ -41,32 +45,35 @@ __all__ = ["Table", "balls", "by_number", "cue", "place_ball", "struck"]
 
 GAMES, _CUSHIONS = worded("GAME"), worded("SHOT_CUSHION")
 _CONDITIONS = worded("CONDITION")
+# the names of the command, such as "9ft", and the names in carom.tables, such as "pool_9ft"
+TABLE_KINDS = {**worded("TABLE"), **numbered("carom_table_kind")}
 
 
 class Table:
-    """A table of any geometry: cushions, their rounded ends, pockets.
+    """A table of any geometry: cushions, their rounded ends (jaws), and pockets.
 
-    A table does not change: its arrays cannot be written to, and `changed` makes another table.
-    Tables with equal numbers are equal, and have one hash.
+    A table is immutable: its arrays are read-only, and `changed` makes another table. Tables with
+    equal parameters are equal and have the same hash.
 
     Parameters
     ----------
     width, length : float
-        m, for drawing and racks. The built-in tables have their surface at 0 <= x <= width, 0 <= y
-        <= length.
+        Extents, m, used for drawing and racks. The surface of the built-in tables is 0 <= x <=
+        width, 0 <= y <= length.
     rails : ndarray of `carom.dtypes.rail`, shape (up to 32,)
-        Straight pieces of cushion: p, q and height (m), side, and line, all 0 to have it derived;
-        mu_cushion and restitution of its own, 0 for those of the ball.
+        Straight cushions: ends p and q and height (m); side; line, which is derived if it is 0; and
+        mu_cushion and restitution, where 0 stands for the ball's.
     jaws : ndarray of `carom.dtypes.jaw`, shape (up to 32,)
-        Rounded ends: centre, radius, height (m); mu_cushion and restitution, as of rails.
+        Rounded ends of cushions: centre, radius and height (m); mu_cushion and restitution as for
+        rails.
     pockets : ndarray of `carom.dtypes.pocket`, shape (up to 8,)
-        centre, radius, depth (m).
+        Pockets: centre, radius and depth (m).
     ball_radius, rail_width, pocket_back : float
-        m; 0: as carom_shot.h says. The radius of the balls that the rails are meant for, the width
-        of the tops of the rails, and the height of the pockets' backs. They count for balls that
-        fly, and for balls of other radii.
+        Radius of the balls for which the rails are made, width of the tops of the rails, and height
+        of the pockets' backs, m; 0 selects the defaults in carom_shot.h. They matter for balls in
+        flight and for balls of other radii.
     slope_x, slope_y : float
-        By how much the cloth rises for each metre along x and y; 0: level.
+        Rise of the cloth per metre along x and y; 0 is level.
     """
 
     def __init__(
@@ -95,11 +102,9 @@ class Table:
         }
         for name, size in sizes.items():
             unit = "rise per metre" if name.startswith("slope") else "length in m"
-            record[name] = number(size, name, f"a {unit} is needed")
+            record[name] = number(size, name, f"a {unit}")
             if name in ("width", "length") and not 0.0 < record[name] < np.inf:
-                raise ValueError(
-                    f"{name}: it must be positive and finite, in m, not {record[name]:g}"
-                )
+                raise ValueError(f"{name}: {record[name]:g} m is not positive and finite")
         for name, part, values in (
             ("rails", "rail", rails),
             ("jaws", "jaw", jaws),
@@ -111,7 +116,8 @@ class Table:
             room = record[part].shape[0]
             if values.dtype != getattr(dtypes, part) or values.ndim != 1 or len(values) > room:
                 raise ValueError(
-                    f"{name}: an array of carom.dtypes.{part} of shape (up to {room},) is needed"
+                    f"{name}: the dtype is {dtypes.described(values.dtype)} and the shape {values.shape}, "
+                    f"but must be carom.dtypes.{part} and (n,) with n up to {room}"
                 )
             record[name] = len(values)
             raw(record[part])[: len(values)] = raw(np.ascontiguousarray(values))
@@ -119,13 +125,13 @@ class Table:
 
     @classmethod
     def from_record(cls, record: Records) -> Table:
-        """The table of a record of `carom.dtypes.table`, of shape (), which is copied."""
+        """Make a table from a record of `carom.dtypes.table`, shape (), which is copied."""
         table = cls.__new__(cls)
         table.record = frozen(np.asarray(record, dtypes.table)).reshape(())
         return table
 
     def changed(self, **parts: Any) -> Table:
-        """This table except some of its parameters, by their names.
+        """Return a copy of this table with some parameters changed, by name.
 
         >>> rails = table.rails.copy()
         >>> rails["mu_cushion"] = 0.3
@@ -135,7 +141,7 @@ class Table:
         fields: dict[str, Any] = {name: float(self.record[name]) for name in sizes}
         fields |= {"rails": self.rails, "jaws": self.jaws, "pockets": self.pockets}
         if unknown := parts.keys() - fields.keys():
-            raise TypeError(f"table: there is no {min(unknown)!r}; known are {', '.join(fields)}")
+            raise TypeError(unknown_name("table", "parameter", min(unknown), fields))
         return Table(**{**fields, **parts})
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -143,45 +149,46 @@ class Table:
 
     @property
     def width(self) -> float:
-        """m, along x."""
+        """Extent along x, m."""
         return float(self.record["width"])
 
     @property
     def length(self) -> float:
-        """m, along y."""
+        """Extent along y, m."""
         return float(self.record["length"])
 
     @property
     def slope(self) -> dict[str, float]:
-        """slope_x and slope_y."""
+        """slope_x and slope_y: the rise of the cloth per metre."""
         return {name: float(self.record[name]) for name in ("slope_x", "slope_y")}
 
     @property
     def rails(self) -> Records:
-        """The straight pieces of cushion: a view, which cannot be written to."""
+        """The straight cushions, a read-only view."""
         return self._parts("rail", "rails")
 
     @property
     def jaws(self) -> Records:
-        """The rounded ends of cushions: a view, which cannot be written to."""
+        """The rounded ends of cushions, a read-only view."""
         return self._parts("jaw", "jaws")
 
     @property
     def pockets(self) -> Records:
-        """The pockets: a view, which cannot be written to."""
+        """The pockets, a read-only view."""
         return self._parts("pocket", "pockets")
 
     @property
     def rail_names(self) -> list[str | None]:
-        """Where each rail is for a player at the head, y = 0: "head", "foot", "left", "right"; None
-        for a pocket's cut, and off rectangles.
+        """The name of each rail: "head", "foot", "left" or "right", seen from the head, y = 0.
+
+        None for the cut of a pocket, and on tables that are not rectangular.
         """
         return self._names(lib.carom_rail_name, "rails")
 
     @property
     def pocket_names(self) -> list[str | None]:
-        """The same of each pocket, such as "foot-left" or "side-right"; None on tables that are no
-        rectangles.
+        """The name of each pocket, such as "foot-left" or "side-right"; None on tables that are not
+        rectangular.
         """
         return self._names(lib.carom_pocket_name, "pockets")
 
@@ -196,16 +203,15 @@ class Table:
         return parts[: int(self.record[count])]
 
     def check(self, radius: float = 0.028575) -> None:
-        """Raise what is wrong with the table for balls of a radius, m: numbers, holes through which
-        a ball can leave, sides of rails.
+        """Raise an error if the table is invalid for balls of a radius, m.
 
-        The built-in tables are right. This takes some milliseconds; `simulate` checks the numbers
-        only.
+        Checks parameters, gaps through which a ball can leave, and the sides of rails, which takes
+        some milliseconds. The built-in tables are valid. `simulate` checks only the parameters.
 
         Raises
         ------
         CaromError
-            Its `field` is the part at fault, its sentence says where the fault is.
+            `field` is the invalid part; the message contains its position.
         """
         fault = ffi.new("carom_table_fault *")
         refuse_table(
@@ -213,11 +219,11 @@ class Table:
         )
 
     def __eq__(self, other: object) -> bool:
-        """Whether all numbers are the same."""
+        """Whether all parameters are equal."""
         return isinstance(other, Table) and bool(np.array_equal(self.record, other.record))
 
     def __hash__(self) -> int:
-        # of what equal tables share; numbers, as -0.0 and 0.0 are equal and have other bytes
+        # of values, not of bytes: -0.0 and 0.0 are equal but have different bytes
         numbers = (self.rails["p"], self.rails["restitution"], self.pockets["centre"])
         parts = (tuple(values.ravel().tolist()) for values in numbers)
         return hash((self.width, self.length, len(self.jaws), *parts))
@@ -230,15 +236,15 @@ class Table:
         return pictures.picture(self)
 
     def plot(self, ax: Any = None) -> Any:
-        """The table, drawn on axes of matplotlib, in metres; the axes are returned."""
+        """Draw the table on axes of matplotlib, in metres, and return the axes."""
         return pictures.plot(self, None, ax)
 
 
 def refuse_table(code: int, fault: Any) -> None:
-    """Raises an error of a table, with the place of its fault."""
+    """Raise the error of a table, with the position of the fault."""
     if code < 0:
         partner = (
-            "" if fault.other.kind == lib.CAROM_PART_NONE else f", beside {_part(fault.other)}"
+            "" if fault.other.kind == lib.CAROM_PART_NONE else f", next to {_part(fault.other)}"
         )
         gap = f", {fault.gap:.4g} m wide" if fault.gap > 0.0 else ""
         where = ""
@@ -252,9 +258,17 @@ def refuse_table(code: int, fault: Any) -> None:
 def check_table(table: object) -> None:
     """Refuses what is no table."""
     if not isinstance(table, Table):
-        raise TypeError(
-            f"table: a carom.Table is needed, such as carom.tables.pool_9ft() gives, not {type(table).__name__}"
-        )
+        shown = repr(table) if isinstance(table, str) else type(table).__name__
+        raise TypeError(f"table: {shown} is not a carom.Table; pass carom.tables.{_maker(table)}()")
+
+
+def _maker(table: object) -> str:
+    """The function of carom.tables that makes the table with a name, or a common one."""
+    kind = TABLE_KINDS["9ft"]
+    if isinstance(table, str):
+        with contextlib.suppress(ValueError):
+            kind = choice(TABLE_KINDS, table, "table")
+    return next(name for name, number in numbered("carom_table_kind").items() if number == kind)
 
 
 _RADII = {lib.carom_ball_kind_of(number).radius: name for name, number in reversed(GAMES.items())}
@@ -270,12 +284,12 @@ _CUSHION = [
 
 
 def radius_on(kind: int) -> float:
-    """The radius of the balls of a built-in table, a carom_table_kind, m."""
+    """The radius, m, of the balls of a built-in table, a carom_table_kind."""
     return float(lib.carom_ball_kind_of(lib.carom_game_of_table(kind)).radius)
 
 
 def _sizes() -> dict[tuple[float, float], list[float]]:
-    """The radii of the balls that are played on built-in tables of a size."""
+    """The radii of the balls played on built-in tables, by the size of the table."""
     found: dict[tuple[float, float], list[float]] = {}
     measures = ffi.new("carom_measures *")
     for kind in worded("TABLE").values():
@@ -289,7 +303,7 @@ _SIZES = _sizes()
 
 @functools.lru_cache(maxsize=256)
 def _other_constants(kind: bytes, cushion_model: str) -> str:
-    """What is to be said of a ball that has a game's constants of another model of the cushion."""
+    """A warning for a ball with a game's constants for another model of the cushion."""
     constants, of_c = (
         np.frombuffer(kind, dtypes.ball_kind)[_CUSHION].tobytes(),
         ffi.new("carom_ball_kind *"),
@@ -306,28 +320,26 @@ def _other_constants(kind: bytes, cushion_model: str) -> str:
             and constants_of_model.get(cushion_model) != constants
         ):
             return (
-                f"balls(game={game!r}, cushion_model={cushion_model!r}) have its own"
+                f"carom.balls(game={game!r}, cushion_model={cushion_model!r}) has its constants"
                 if cushion_model in constants_of_model
-                else f"{game} has no constants for it"
+                else f"there are none for it in the game {game!r}"
             )
     return ""
 
 
 def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
-    """Warns of balls of another game than that whose balls the table is made for, and of those with
-    a game's constants of another model of the cushion than that which is asked for by name.
-    """
+    """Warn of balls that the table is not made for, and of constants for another cushion model."""
     table_radius = table.record["ball_radius"].item()
     radii = [table_radius] if table_radius else _SIZES.get((table.width, table.length), [])
     first: Any = (
         kinds[(0,) * kinds.ndim] if kinds.size else None
-    )  # of one record: kinds.flat[:1] copies it field by field
+    )  # by index: kinds.flat[:1] copies field by field
     radius = None if first is None else first["radius"]
     if radius in _RADII and radii and radius not in radii and radii[0] in _RADII:
         meant = radii[0]
         warnings.warn(
-            f"balls: they are of {_RADII[radius]}, radius {radius:g} m, but the table is made for those of {_RADII[meant]}, radius {meant:g} m: "
-            f"game={_RADII[meant]!r} makes these",
+            f"balls: these are {_RADII[radius]} balls, radius {radius:g} m, but the table is made for {_RADII[meant]} balls, radius {meant:g} m; "
+            f"pass game={_RADII[meant]!r} to carom.balls()",
             stacklevel=3,
         )
     named = isinstance(cushion_model, str) and cushion_model != "default" and first is not None
@@ -337,26 +349,28 @@ def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
         and (doubt := _other_constants(first.tobytes(), str(cushion_model)))
     ):
         warnings.warn(
-            f"cushion_model: {cushion_model!r} plays constants of another model: {doubt}",
+            f"cushion_model: the balls have constants of another model than {cushion_model!r}; {doubt}",
             stacklevel=3,
         )
 
 
 def of_record(values: Records, record: Record, name: str, builder: str) -> Array:
-    """The values in C order, refused where they are not of the record, which carom.<builder> gives."""
+    """The values in C order; raises TypeError for another dtype than that of carom.<builder>."""
     array = as_array(values, name)
     if array.dtype != record:
         raise TypeError(
-            f"{name}: an array of the dtype of carom.{builder} is needed, not of {dtypes.described(array.dtype)}"
+            f"{name}: the dtype is {dtypes.described(array.dtype)}; pass the result of carom.{builder}"
         )
     return np.asarray(array, order="C")
 
 
 def one_cue(cue: Records, name: str = "cue") -> Array:
-    """A cue of shape (); many are refused."""
+    """A cue of shape (); raises ValueError for several cues."""
     cues = of_record(cue, dtypes.cue, name, "cue()")
     if cues.size != 1:
-        raise ValueError(f"{name}: one is needed, not {cues.size}; simulate_batch plays many")
+        raise ValueError(
+            f"{name}: there are {cues.size} cues, but only one is allowed; simulate_batch() accepts several"
+        )
     return cues.reshape(())
 
 
@@ -373,28 +387,40 @@ def _part(part: Any) -> str:
 
 
 def place_ball(table: Table, balls: Records, ball: int, x: float, y: float) -> Records:
-    """Ball in hand: a copy of a layout, in which the ball of this index lies at rest at (x, y), m,
-    also one that was pocketed.
+    """Place a ball: return a copy of a layout in which this ball is at rest at (x, y).
+
+    Parameters
+    ----------
+    table : Table
+    balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
+    ball : int
+        Index of the ball, which may be pocketed.
+    x, y : float
+        Its new position, m.
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.shot_ball`, shape (balls,)
 
     Raises
     ------
     CaromError
-        The place is not free: `field` is the ball or the part of the table that is in the way.
+        The position is not free; `field` is the ball or the part of the table in the way.
     """
     placed = of_record(balls, dtypes.shot_ball, "balls", "balls()").copy()
     if placed.ndim != 1:
-        raise TypeError(f"balls: an array of shape (balls,) is needed, not of {placed.shape}")
+        raise TypeError(f"balls: the shape is {placed.shape}, but must be (balls,)")
     check_table(table)
     way = ffi.new("carom_part *")
     of_table, layout = pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", placed)
     index = whole(ball, "ball", most=len(placed) - 1)
-    x, y = number(x, "x", "a place in m is needed"), number(y, "y", "a place in m is needed")
+    x, y = number(x, "x", "a position in m"), number(y, "y", "a position in m")
     code = lib.carom_place_ball(of_table, layout, len(placed), index, x, y, way)
     if code in (lib.CAROM_ERROR_OVERLAP, lib.CAROM_ERROR_OFF_TABLE):
         raise CaromError(
             code,
             _part(way),
-            text=f"is in the way of ball {index} at x = {x} m, y = {y} m; a free place on the table is needed",
+            text=f"is in the way of ball {index} at x = {x} m, y = {y} m; choose a free position on the table",
         )
     if code == lib.CAROM_ERROR_POSITION:
         raise CaromError(code, "x, y", f"{x}, {y}")
@@ -418,19 +444,20 @@ _COLOURS = {"yellow": "16", "green": "17", "brown": "18", "blue": "19", "pink": 
 def by_number(
     balls: Records, ids: Sequence[int | str], rules: str, *, cue: int | str = "cue"
 ) -> Records:
-    """A layout as `plan` and `referee` want it, in which ball k is number k, from balls in any
-    order; those that are missing are down.
+    """Sort balls by their numbers, as `plan` and `referee` require: ball k has number k.
+
+    Balls that are missing are pocketed.
 
     Parameters
     ----------
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
     ids : sequence of int or str
-        The number of each, as a line of `carom shoot` names its balls; in snooker also "red1" to
-        "red15", and the names of the colours.
+        The number of each ball; in snooker also "red1" to "red15" and the names of the colours.
     rules : str
-        The game, as of `plan`: numbers are 1 to 15, 1 to 9, or 1 to 21, from 16 on the colours.
+        The game, as for `plan`. The numbers are 1 to 15, 1 to 9, or 1 to 21 in snooker, where 16 to
+        21 are the colours.
     cue : int or str
-        Which of the ids is the cue ball's.
+        The id of the cue ball.
 
     Returns
     -------
@@ -439,26 +466,29 @@ def by_number(
     Raises
     ------
     ValueError
-        A ball is none of the game, or there twice, or there is no cue ball.
+        A ball does not belong to the game or occurs twice, or there is no cue ball.
     """
     layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     names = list(
-        map(str, several(ids, "ids", "the number of each ball is needed, and the cue ball's name"))
+        map(
+            str, several(ids, "ids", "a list of the number of each ball and the id of the cue ball")
+        )
     )
-    last = choice(LAST, rules, "rules")
+    rules = named(LAST, rules, "rules")
+    last = LAST[rules]
     if layout.shape != (len(names),):
         raise ValueError(
-            f"ids: one for each ball of an array of shape (balls,) is needed, not {len(names)} for {layout.shape}"
+            f"ids: there are {len(names)} ids for balls of shape {layout.shape}; pass one id per ball and balls of shape (balls,)"
         )
     if names.count(str(cue)) != 1:
-        raise ValueError(f"cue: it must be one of the ids, once, not {cue!r}")
+        raise ValueError(f"cue: {cue!r} is not exactly one of the ids: {', '.join(names)}")
     index_of: dict[int, int] = {}
     for k, name in enumerate(names):
         number = _COLOURS.get(name, name.removeprefix("red")) if rules == "snooker" else name
         of_ball = 0 if name == str(cue) else int(number) if number.isdecimal() else -1
         if not 0 <= of_ball <= last or of_ball in index_of or (of_ball == 0 and name != str(cue)):
             raise ValueError(
-                f"ids: ball {name!r}: the balls of {rules} are the cue ball and 1 to {last}, each once"
+                f"ids: ball {name!r} is unknown or occurs twice; the balls of {rules} are the cue ball and 1 to {last}, each once"
             )
         index_of[of_ball] = k
     ordered = layout[[index_of.get(ball, index_of[0]) for ball in range(last + 1)]]
@@ -469,12 +499,12 @@ def by_number(
 
 
 def _finite(**named: ArrayLike) -> None:
-    """Refuses one layout whose numbers are not finite; of many, a wrong one costs its own shots."""
+    """Raise an error if a value is not finite."""
     for name, values in named.items():
         numbers = as_array(values, name, np.float64)
         if not np.isfinite(numbers).all():
             wrong = numbers[~np.isfinite(numbers)].flat[0]
-            raise ValueError(f"{name}: finite numbers are needed, not {wrong}")
+            raise ValueError(f"{name}: {wrong} is not finite")
 
 
 @with_numbers(lib.CAROM_PART_BALL)
@@ -488,26 +518,28 @@ def balls(
     conditions: Sequence[Condition] = (),
     **kind: Unpack[BallNumbers],
 ) -> Records:
-    """Balls on a table, from fields that are broadcast against each other.
+    """Make balls from their positions and properties.
+
+    The arguments are broadcast against each other. A single layout is checked for values that are
+    not finite; in a batch they affect only their own shots.
 
     Parameters
     ----------
     r : array_like, shape (..., balls, 2) or (..., balls, 3)
-        Centres, m; without a z they lie on the cloth.
+        Centres, m. Without z the balls are on the cloth.
     v, w : array_like, shape (..., 3)
         Velocities, m/s, and angular velocities, rad/s.
     game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
-        Whose balls they are: the defaults of the fields of `carom.dtypes.ball_kind`, which follow.
-        docs/reference/constants.md has the source of each number: those of billiard are
-        measured, with drag and loss of roll; pooltool_... are pooltool's figures.
-    cushion_model
-        The model of the cushion whose constants they have, as of `simulate`. A warning tells where
-        the game has none for it.
+        The game that supplies the defaults of the properties below; also "blackball", "pyramid" and
+        "fourball". docs/reference/constants.md lists the source of each value.
+    cushion_model : str
+        The model of the cushion for which the constants are chosen, as for `simulate`. A warning is
+        issued if the game has no constants for it.
     conditions : sequence of str
-        Conditions of a pool table, such as ("fast_cloth", "old_cushion"); docs/using/fit.md
-        lists them. Numbers that are given besides replace theirs.
+        Conditions of a pool table, such as ("fast_cloth", "old_cushion"); docs/using/fit.md lists
+        them. Properties passed explicitly take precedence.
     **kind : array_like, shape (...)
-        Numbers of `carom.dtypes.ball_kind`, by their names.
+        Fields of `carom.dtypes.ball_kind` by name.
 
     Returns
     -------
@@ -516,7 +548,9 @@ def balls(
     unknown = [name for name in kind if name not in (dtypes.ball_kind.names or ())]
     if unknown:
         raise TypeError(
-            f"balls: there is no field {unknown[0]!r}; known are {', '.join(dtypes.ball_kind.names or ())}"
+            unknown_name(
+                "balls", "field", unknown[0], dtypes.ball_kind.names or (), "help(carom.balls)"
+            )
         )
     fields = {
         f"kind.{name}": value for name, value in cast("dict[str, ArrayLike | None]", kind).items()
@@ -524,7 +558,7 @@ def balls(
     centres = as_array(r, "r", np.float64)
     if centres.ndim < 2 or centres.shape[-1] not in (2, 3):
         raise ValueError(
-            f"r: the shape must be (..., balls, 2) or (..., balls, 3), not {centres.shape}"
+            f"r: the shape is {centres.shape}, but must be (..., balls, 2) or (..., balls, 3)"
         )
     if centres.ndim == 2:
         _finite(r=centres, v=v, w=w)
@@ -535,7 +569,7 @@ def balls(
         number, choice(_CUSHIONS, cushion_model, "cushion_model"), ffi.addressof(ball, "kind")
     ):
         warnings.warn(
-            f"cushion_model: {game} has no constants for {cushion_model!r}; the balls have those for its default model",
+            f"cushion_model: there are no constants for {cushion_model!r} in the game {game!r}; the balls have those of the default model",
             stacklevel=2,
         )
     pool = lib.carom_ball_kind_of(GAMES["pool"])
@@ -543,7 +577,9 @@ def balls(
         conditions
         and lib.carom_ball_kind_of(number).restitution_cushion != pool.restitution_cushion
     ):
-        raise ValueError(f"conditions: they are of tables of pool, not of {game}")
+        raise ValueError(
+            f"conditions: there are none for the game {game!r}, only for pool; pass restitution_cushion, mu_roll, ... instead"
+        )
     for word in conditions:
         condition = choice(_CONDITIONS, word, "conditions")
         lib.carom_condition_give(condition, ffi.addressof(ball, "kind"))
@@ -578,46 +614,46 @@ def cue(
     tip: ArrayLike | None = None,
     follow: ArrayLike | None = None,
 ) -> Records:
-    """Build a cue with its strike, or many.
+    """Make a cue with its strike, or several cues.
 
-    The fields are broadcast against each other. One cue with a number outside its range is refused.
-    Of many, a wrong one costs its own shot.
+    The arguments are broadcast against each other. A single cue with a value outside its range
+    raises CaromError; in a batch an invalid cue affects only its own shot.
 
     Parameters
     ----------
     speed : array_like, shape (...)
-        Speed of the cue before the strike, m/s; 0: no strike. Default 2.
+        Speed of the cue before the strike, m/s; 0: no strike. Default: 2.
     phi, theta : array_like, shape (...)
-        Direction in the plane from +x towards +y, and elevation of the butt, degrees. With a theta
-        of nan `carom.aim` finds the least elevation; shots refuse it.
+        Direction in the plane, counterclockwise from +x, and elevation of the butt, degrees.
+        `carom.aim` replaces a theta of nan by the smallest possible elevation; shots reject nan.
     a, b : array_like, shape (...)
-        Where the tip touches the ball, in units of its radius, with pooltool's sign: a > 0 left, b
-        > 0 above the centre; a^2 + b^2 < miscue^2. Default 0 and 0.25.
+        Where the tip hits the ball, in radii, with pooltool's sign: a > 0 is left of the centre, b
+        > 0 above it; a^2 + b^2 < miscue^2. Default: 0 and 0.25. See also `tip`.
     ball : array_like of int, shape (...)
         Index of the ball that is struck.
     game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
-        The game whose cue gives the defaults of the later arguments.
+        The game whose cue supplies the defaults of the arguments below.
     mass, end_mass, tip_radius : array_like, shape (...)
-        kg, kg, m.
+        Mass of the cue, effective mass of its end, kg, and radius of the tip, m.
     miscue : array_like, shape (...)
-        0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. Chalked tips
-        reach 0.5.
+        The offset, in radii, at which the tip slips off the ball, 0 to 1; 0 stands for 1, the edge.
+        Chalked tips reach 0.5.
     tip_time : array_like, shape (...)
-        s, to 0.01: how long the tip of a raised cue presses the ball on the slate; 0: 0.001, a
-        leather tip. Hard resin, with which balls jump, has 0.0008. -1: no time, so that the blow
-        and the landing are two events, as before revision 8.
+        Time for which the tip of an elevated cue presses the ball on the slate, s, up to 0.01; 0
+        stands for 0.001, a leather tip. The hard resin of jump cues has 0.0008. -1: the blow and
+        the landing are separate events.
     tip_restitution : array_like, shape (...)
-        Restitution of the tip and the ball, 0 to 1; 0: 1, without loss. The speed of the ball is in
-            proportion to 1 + tip_restitution. Default
-        0.73, leather, and 1 for pooltool's games; phenolic resin has 0.85.
+        Restitution of tip and ball, 0 to 1; 0 stands for 1, without loss. The ball's speed is
+        proportional to 1 + tip_restitution. Default: 0.73, leather, and 1 for pooltool's games;
+        phenolic resin has 0.85.
     ball_speed : array_like, shape (...)
-        Instead of `speed`: that of a ball of `game` just after the strike of a level cue, m/s.
+        Instead of `speed`: the speed of a ball of `game` just after the strike by a level cue, m/s.
     tip : array_like, shape (..., 2)
-        Instead of `a` and `b`: where the tip touches, right of and above the centre, as `carom
-        shoot --tip` has it.
+        Instead of `a` and `b`: (right, above), where the tip hits the ball relative to its centre,
+        in radii, as in `carom shoot --tip`.
     follow : array_like, shape (...)
-        m, to 1: how far the cue goes on after it has touched the ball; 0: it stops. Default 0.03, a
-        convention; 0 for pooltool's games.
+        How far the cue follows through after the contact, m, up to 1; 0: it stops. Default: 0.03, a
+        convention, and 0 for pooltool's games.
 
     Returns
     -------
@@ -625,15 +661,17 @@ def cue(
     """
     if speed is not None and ball_speed is not None:
         raise ValueError(
-            "cue: speed is that of the cue, ball_speed that of the ball: one of both is needed"
+            "cue: speed and ball_speed cannot be combined; pass the cue's speed or the ball's"
         )
     if tip is not None:
         if a is not None or b is not None:
-            raise ValueError("cue: tip says what a and b say: one of both is needed")
+            raise ValueError(
+                "cue: tip cannot be combined with a or b; pass tip=(right, above), or a=-right and b=above"
+            )
         places = as_array(tip, "tip", np.float64)
         if places.ndim < 1 or places.shape[-1] != 2:
             raise ValueError(
-                f"tip: the shape must be (..., 2), right of and above the centre, not {places.shape}"
+                f"tip: the shape is {places.shape}, but must be (..., 2): right of and above the centre"
             )
         a, b = 0.0 - places[..., 0], places[..., 1]
     for name, angle in (("phi", phi), ("theta", theta)):
@@ -643,7 +681,7 @@ def cue(
         whole_ones = (np.abs(numbers) < 2**31) & (np.trunc(numbers) == numbers)
         if not whole_ones.all():
             raise ValueError(
-                f"ball: it must be the index of one of the balls, a whole number, not {numbers[~whole_ones].flat[0]}"
+                f"ball: {numbers[~whole_ones].flat[0]} is not the index of a ball; pass an integer"
             )
     usual = bytes(ffi.buffer(ffi.new("carom_cue *", lib.carom_cue_of(choice(GAMES, game, "game")))))
     if ball_speed is not None:
@@ -664,19 +702,19 @@ def cue(
     if record.shape == ():
         checked = record.copy()
         if np.isnan(record["theta"]):
-            checked["theta"] = 0.0  # nan is right: carom.aim() then finds the elevation
+            checked["theta"] = 0.0  # nan is allowed: carom.aim() then finds the elevation
         refuse_numbers(lib.CAROM_PART_CUE, "cue", checked)
     return record
 
 
 def _strike_to(cues: Records, game: Game) -> None:
-    """Gives cues, whose speeds are those of balls, the speeds that they need.
+    """Convert the speeds of cues from balls' speeds to cues' speeds.
 
-    The ball's speed is in proportion to the level cue's.
+    A ball's speed is proportional to the speed of a level cue.
     """
     if (cues["theta"] != 0.0).any():
         raise ValueError(
-            "ball_speed: it is that which a level cue gives the ball; with theta give speed, the speed of the cue"
+            "ball_speed: defined for a level cue only; with theta, pass speed, the cue's speed"
         )
     kind = balls([[0.0, 0.0]], game=game)[0]["kind"]
     flat = cues.reshape(-1)
@@ -684,7 +722,7 @@ def _strike_to(cues: Records, game: Game) -> None:
     flat["speed"], flat["phi"] = (
         1.0,
         0.0,
-    )  # along x, and by a root, it has the same bits in other languages
+    )  # along x, and by a square root, for the same bits in other languages
     for k in range(flat.size):
         x, y, _ = struck(flat[k : k + 1].reshape(()), kind)["v"]
         flat["speed"][k] = speed[k] / np.sqrt(x * x + y * y)
@@ -692,9 +730,7 @@ def _strike_to(cues: Records, game: Game) -> None:
 
 
 def _doubt_radians(name: str, angle: ArrayLike) -> None:
-    """Warns of angles that are within a turn in radians, one of them a twelfth of pi or a multiple
-    of it, as few degrees are.
-    """
+    """Warn of angles that look like radians: within a turn, and one a multiple of pi / 12."""
     angles = as_array(angle, name, np.float64)
     if not (np.abs(angles) < 24.5 * np.pi / 12.0).all():
         return
@@ -704,14 +740,23 @@ def _doubt_radians(name: str, angle: ArrayLike) -> None:
     if like.size:
         first = like.flat[0]
         warnings.warn(
-            f"{name}: degrees are taken, but {first} looks like radians, for {np.degrees(first):.6g} degrees: np.degrees() converts",
+            f"{name}: {first} looks like radians, but the unit is degrees; if you mean {np.degrees(first):.6g} degrees, use np.degrees()",
             stacklevel=3,
         )
 
 
 def struck(cue: Records, kind: Records) -> Records:
-    """The motion of a ball at rest after a strike: `carom.dtypes.motion` of a `carom.dtypes.cue`
-    and a `carom.dtypes.ball_kind`, shapes ().
+    """Compute the motion of a ball at rest after a strike.
+
+    Parameters
+    ----------
+    cue : ndarray of `carom.dtypes.cue`, shape ()
+    kind : ndarray of `carom.dtypes.ball_kind`, shape ()
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.motion`, shape ()
+        v (m/s) and w (rad/s).
     """
     motion: Array = np.zeros((), dtypes.motion)
     strike = one_cue(cue)

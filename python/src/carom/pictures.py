@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from carom import _palette
 from carom._rows import listing, needed, number
 from carom.dtypes import Doubles
 
@@ -21,38 +22,13 @@ __all__ = ["Animation", "Picture"]
 __dir__ = listing(__name__)
 
 _SCALE = 300.0  # pixels a metre
-_MARGIN = 0.12  # m around the cushions, for pockets and the frame
-_CLOTH, _CUSHION, _WOOD, _POCKET, _MARK = "#2e7d5b", "#1b5e42", "#6d4c33", "#111111", "#ffd166"
-# The balls in the order of the layout: the cue ball, then 1 to 15 in the colours of pool, and
-# again.
-_COLOURS = [
-    "#ffffff",
-    "#f2c200",
-    "#1f4fd8",
-    "#d32f2f",
-    "#6a1b9a",
-    "#ef6c00",
-    "#2e9b3a",
-    "#7b1c1c",
-    "#222222",
-    "#f7dc6f",
-    "#7fa3f5",
-    "#ef8a8a",
-    "#b58ad4",
-    "#f7b27a",
-    "#8fd19a",
-    "#c58a8a",
-]
-_DARK = {
-    "#1f4fd8",
-    "#d32f2f",
-    "#6a1b9a",
-    "#2e9b3a",
-    "#7b1c1c",
-    "#222222",
-}  # balls with a white number
+_RIM = 1.2  # pixels: the line around a ball
+_HALF_BAND = 0.66  # half the width of the band around a striped ball, in radii
+_LONGEST_POOL = 3.0  # m: longer tables with pockets are those of snooker and pyramid
+_PYRAMID = 0.0335  # m: balls of this radius and larger are those of pyramid
+_SOLIDS = 8
 _PATH_POINTS = 400
-_DOT = 0.005  # m: radius of a place seen
+_DOT = 0.008  # m: radius of a place seen
 _FRAMES_A_SECOND = 25
 _FRAMES_MOST = 1500
 
@@ -90,8 +66,11 @@ class _Canvas:
         )
         corners = np.array([[0.0, 0.0], [table.width, table.length]])
         everything = np.concatenate([ends, corners])
-        self.low = everything.min(axis=0) - _MARGIN
-        self.high = everything.max(axis=0) + _MARGIN
+        self.low, self.high = everything.min(axis=0), everything.max(axis=0)
+        self.margin = _palette.SIZE["margin"] * float((self.high - self.low).max())
+        self.low, self.high = self.low - self.margin, self.high + self.margin
+        self.letters = _palette.SIZE["letters"] * float((self.high - self.low).max()) * _SCALE
+        self.discipline = _discipline(table)
         size = (self.high - self.low) * _SCALE
         self.turned = bool(
             size[1] > size[0]
@@ -115,25 +94,29 @@ class _Canvas:
         x, y = map(_number, self.place(centre))
         return f'<circle cx="{x}" cy="{y}" r="{_number(radius * _SCALE)}" {rest}/>'
 
-    def ball(
-        self,
-        shot: Any,
-        number: int,
-        places: Doubles,
-        opacity: float = 1.0,
-        duration: str = "",
-    ) -> str:
+    def start(self, shot: Any, number: int) -> str:
+        """Where a ball of a shot begins: a dashed circle in the colour of its path."""
+        (place,) = (self.point(r) for r in shot.balls["state"]["r"][number][np.newaxis])
+        radius = _number(float(shot.balls["kind"]["radius"][number]) * _SCALE)
+        style = f'fill="none" stroke="{looks_of(shot)[number].path}" stroke-dasharray="3 2"'
+        return f'<g transform="translate({place})"><circle r="{radius}" {style}/></g>'
+
+    def ball(self, shot: Any, number: int, places: Doubles, duration: str = "") -> str:
         """A ball of a shot, with its number unless it is the first: at a place, or moving over
         several, shape (n, 3).
         """
         points = [self.point(r) for r in places]
         radius = float(shot.balls["kind"]["radius"][number]) * _SCALE
-        style = f'fill="{colour(number)}" fill-opacity="{opacity}" stroke="#000" stroke-width="0.5"'
+        look = looks_of(shot)[number]
+        fill = _palette.PART["text"] if look.striped else look.colour
+        style = f'fill="{fill}" stroke="{look.path}" stroke-width="{_RIM}"'
         parts = [f'<g transform="translate({points[0]})"><circle r="{_number(radius)}" {style}/>']
+        if look.striped:
+            parts.append(_stripe(radius - 0.5 * _RIM, look.colour))
         if number > 0:
-            ink = "#fff" if colour(number) in _DARK else "#111"
-            text = f'font-size="{_number(1.2 * radius)}" text-anchor="middle" dominant-baseline="central" font-family="sans-serif"'
-            parts.append(f'<text {text} fill="{ink}" fill-opacity="{opacity}">{number}</text>')
+            size = min(self.letters, (1.9 if number < 10 else 1.5) * radius)
+            text = f'y="{_number(0.36 * size)}" font-size="{_number(size)}" text-anchor="middle" font-family="sans-serif"'
+            parts.append(f'<text {text} fill="{look.ink}">{number}</text>')
         if len(set(points)) > 1:
             values = ";".join(points)
             parts.append(
@@ -147,7 +130,7 @@ class _Canvas:
         return "\n".join(
             [
                 head,
-                f'<rect width="{width}" height="{height}" rx="12" fill="{_WOOD}"/>',
+                f'<rect width="{width}" height="{height}" rx="{_pixels("corner")}" fill="{_palette.WOOD[self.discipline]}"/>',
                 *parts,
                 "</svg>",
                 "",
@@ -155,28 +138,121 @@ class _Canvas:
         )
 
 
+def _diamonds(canvas: _Canvas, table: Any) -> list[NDArray[np.float64]]:
+    """Places of the diamonds: the long cushions in eight parts, the short ones in four. None is
+    where a pocket is.
+    """
+    lengths = np.hypot(*(table.rails["q"] - table.rails["p"]).T)
+    cushions = table.rails[lengths > 0.2 * lengths.max()] if len(lengths) else table.rails
+    if len(cushions) == 0:
+        return []
+    ends = np.concatenate([cushions["p"], cushions["q"]])
+    low, high = ends.min(axis=0), ends.max(axis=0)
+    along = int(high[1] - low[1] > high[0] - low[0])
+    edges = canvas.low + 0.25 * canvas.margin, canvas.high - 0.25 * canvas.margin
+    places = []
+    for axis, parts in ((along, 8), (1 - along, 4)):
+        for k in range(1, parts):
+            if axis == along and k == 4 and len(table.pockets) > 0:
+                continue
+            for edge in edges:
+                place = edge.copy()
+                place[axis] = low[axis] + (high[axis] - low[axis]) * k / parts
+                places.append(place)
+    return places
+
+
 def _table(canvas: _Canvas, table: Any) -> list[str]:
-    corners = ((0.0, 0.0), (table.width, 0.0), (table.width, table.length), (0.0, table.length))
-    parts = [f'<polygon points="{" ".join(map(canvas.point, corners))}" fill="{_CLOTH}"/>']
+    inset, (width, height) = 0.5 * canvas.margin * _SCALE, canvas.size
+    size = f'width="{_number(width - 2.0 * inset)}" height="{_number(height - 2.0 * inset)}"'
+    corner = f'x="{_number(inset)}" y="{_number(inset)}" rx="{_pixels("bed_corner")}"'
+    parts = [f'<rect {corner} {size} fill="{_palette.CLOTH[canvas.discipline]}"/>']
     parts += [
-        canvas.circle(pocket["centre"], float(pocket["radius"]), f'fill="{_POCKET}"')
+        canvas.circle(
+            pocket["centre"], float(pocket["radius"]), f'fill="{_palette.PART["pocket"]}"'
+        )
         for pocket in table.pockets
     ]
     parts += [
-        f'<polyline points="{canvas.point(rail["p"])} {canvas.point(rail["q"])}" stroke="{_CUSHION}" stroke-width="4" fill="none"/>'
-        for rail in table.rails
-    ]
-    parts += [
-        canvas.circle(jaw["centre"], float(jaw["radius"]), f'fill="{_CUSHION}"')
+        canvas.circle(
+            jaw["centre"], float(jaw["radius"]), f'fill="{_palette.CUSHION[canvas.discipline]}"'
+        )
         for jaw in table.jaws
     ]
+    line = f'stroke="{_palette.PART["nose"]}" stroke-width="{_pixels("nose")}" stroke-linecap="round" fill="none"'
+    parts += [
+        f'<polyline points="{canvas.point(rail["p"])} {canvas.point(rail["q"])}" {line}/>'
+        for rail in table.rails
+    ]
+    tall, wide = (_palette.SIZE[name] * _SCALE for name in ("diamond", "diamond_width"))
+    for x, y in map(canvas.place, _diamonds(canvas, table)):
+        corners = ((x, y - tall), (x + wide, y), (x, y + tall), (x - wide, y))
+        points = " ".join(f"{_number(right)},{_number(down)}" for right, down in corners)
+        parts.append(f'<polygon points="{points}" fill="{_palette.PART["mark"]}"/>')
     return parts
 
 
-def colour(ball: int) -> str:
-    return (
-        _COLOURS[ball] if ball < len(_COLOURS) else _COLOURS[1 + (ball - 1) % (len(_COLOURS) - 1)]
-    )
+@dataclass(frozen=True)
+class _Look:
+    """The colours of a ball, of its path and of its number, and whether it is striped."""
+
+    colour: str
+    path: str
+    ink: str
+    striped: bool = False
+
+
+_NAMED = {name: _Look(*colours) for name, colours in _palette.BALLS.items()}
+_OF_POOL = list(_NAMED.values())[: _SOLIDS + 1]
+_OF_CAROM = [_NAMED[name] for name in ("white", "yellow", "red", "red")]
+_OF_SNOOKER = [
+    _NAMED[name]
+    for name in ["white", *15 * ["red"], "yellow", "green", "brown", "blue", "pink", "black"]
+]
+
+
+def _discipline(table: Any) -> str:
+    """What is played on a table, by which it is coloured."""
+    if len(table.pockets) == 0:
+        return "carom"
+    return "snooker" if table.length > _LONGEST_POOL else "pool"
+
+
+def _of_pool(ball: int) -> _Look:
+    if ball <= _SOLIDS:
+        return _OF_POOL[ball]
+    solid = _OF_POOL[1 + (ball - 1) % _SOLIDS]
+    return _Look(solid.colour, solid.path, solid.ink, striped=(ball - 1) // _SOLIDS % 2 == 1)
+
+
+def _looks(table: Any, count: int, radius: float) -> list[_Look]:
+    """How the balls look, by their order on the table: the racks of carom and of snooker, and else
+    the balls of pool by number.
+    """
+    if radius >= _PYRAMID:
+        return [_NAMED["yellow"], *(count - 1) * [_NAMED["white"]]]
+    for discipline, looks in (("carom", _OF_CAROM), ("snooker", _OF_SNOOKER)):
+        if _discipline(table) == discipline and count in (3, len(looks)):
+            return looks[:count]
+    return [_of_pool(ball) for ball in range(count)]
+
+
+def looks_of(shot: Any) -> list[_Look]:
+    """How the balls of a shot look."""
+    radii = shot.balls["kind"]["radius"]
+    return _looks(shot.table, len(radii), float(radii[0]) if len(radii) else 0.0)
+
+
+def _pixels(size: str) -> str:
+    return _number(_palette.SIZE[size] * _SCALE)
+
+
+def _stripe(radius: float, ink: str) -> str:
+    """The band around a striped ball, as it is seen from the side of its number."""
+    high = _HALF_BAND * radius
+    wide = float(np.sqrt(radius * radius - high * high))
+    r, x, y = map(_number, (radius, wide, high))
+    return f'<path d="M-{x} -{y}H{x}A{r} {r} 0 0 1 {x} {y}H-{x}A{r} {r} 0 0 1 -{x} -{y}Z" fill="{ink}"/>'
 
 
 def _paths(shot: Any) -> Doubles:
@@ -199,8 +275,8 @@ def picture(
     seen: Sequence[Doubles] = (),
     marks: Sequence[tuple[ArrayLike, float, str, str]] = (),
 ) -> str:
-    """A table, and a shot's paths with the balls where they begin (faint) and end, as the text of
-    an SVG.
+    """A table, and a shot's paths with the balls where they begin (dashed circles) and end, as the
+    text of an SVG. Paths of striped balls are dashed.
 
     `seen` are places of each ball, shapes (..., 2), that are drawn as dots. `marks` are circles:
     place, radius (m), a text for a pointer that rests on it, and a text beside it.
@@ -209,37 +285,38 @@ def picture(
     parts = _table(canvas, table)
     if shot is not None:
         paths = _paths(shot)
-        for ball in range(len(shot.balls)):
+        parts += [canvas.start(shot, ball) for ball in range(len(shot.balls))]
+        for ball, look in enumerate(looks_of(shot)):
             points = list(dict.fromkeys(canvas.point(r) for r in paths[:, ball]))
             if len(points) > 1:
-                line = f'points="{" ".join(points)}" stroke="{colour(ball)}" stroke-width="1.5" stroke-opacity="0.8" fill="none"'
+                dashes = ' stroke-dasharray="12 2.5"' if look.striped else ""
+                line = f'points="{" ".join(points)}" stroke="{look.path}" stroke-width="{_pixels("path")}" fill="none"{dashes}'
                 parts.append(f"<polyline {line}/>")
-        for states, opacity in ((shot.balls["state"], 0.35), (shot.final, 1.0)):
-            parts += [
-                canvas.ball(shot, ball, state["r"][np.newaxis], opacity)
-                for ball, state in enumerate(states)
-            ]
-    for ball, places in enumerate(seen):
         parts += [
-            canvas.circle(r, _DOT, f'fill="{colour(ball)}" stroke="#000" stroke-width="0.3"')
-            for r in places
+            canvas.ball(shot, ball, state["r"][np.newaxis]) for ball, state in enumerate(shot.final)
         ]
+    for look, places in zip(_looks(table, len(seen), 0.0), seen):
+        style = f'fill="{look.path}" stroke="{_palette.PART["nose"]}" stroke-width="0.5"'
+        parts += [canvas.circle(r, _DOT, style) for r in places]
     texts: list[tuple[float, float]] = []
     for place, size, label, side in marks:
         x, y = canvas.place(place)
         circle = canvas.circle(
-            place, size, f'fill="none" stroke="{_MARK}" stroke-width="1.5" pointer-events="all"'
+            place,
+            size,
+            f'fill="none" stroke="{_palette.PART["aim"]}" stroke-width="1.5" pointer-events="all"',
         )
         # the text lies towards the middle of the picture, below others
         anchor, x = (
             ("start", x + size * _SCALE) if x < 0.5 * canvas.size[0] else ("end", x - size * _SCALE)
         )
         while side and any(
-            abs(x - x_of_text) < 140.0 and abs(y - below) < 13.0 for x_of_text, below in texts
+            abs(x - x_of_text) < 9.0 * canvas.letters and abs(y - below) < canvas.letters
+            for x_of_text, below in texts
         ):
-            y += 13.0
+            y += canvas.letters
         texts += [(x, y)] if side else []
-        text = f'<text x="{_number(x)}" y="{_number(y)}" text-anchor="{anchor}" font-size="12" font-family="sans-serif" fill="#fff">'
+        text = f'<text x="{_number(x)}" y="{_number(y)}" text-anchor="{anchor}" font-size="{_number(canvas.letters)}" font-family="sans-serif" fill="{_palette.PART["text"]}">'
         parts.append(
             f"<g><title>{html.escape(label)}</title>{circle}{text}{html.escape(side)}</text></g>"
         )
@@ -267,26 +344,34 @@ def plot(table: Any, shot: Any, ax: Any) -> Any:
     matplotlib = needed("matplotlib.pyplot", "plot()")
     patches = needed("matplotlib.patches", "plot()")
     ax = matplotlib.gca() if ax is None else ax
-    ax.add_patch(patches.Rectangle((0.0, 0.0), table.width, table.length, color=_CLOTH, zorder=0))
-    for part, ink in ((table.pockets, _POCKET), (table.jaws, _CUSHION)):
+    cloth, cushion = (kind[_discipline(table)] for kind in (_palette.CLOTH, _palette.CUSHION))
+    ax.add_patch(patches.Rectangle((0.0, 0.0), table.width, table.length, color=cloth, zorder=0))
+    for part, ink in ((table.pockets, _palette.PART["pocket"]), (table.jaws, cushion)):
         for piece in part:
             ax.add_patch(patches.Circle(piece["centre"], piece["radius"], color=ink, zorder=1))
     for rail in table.rails:
-        ax.plot(*zip(rail["p"], rail["q"]), color=_CUSHION, linewidth=3, zorder=1)
+        ax.plot(*zip(rail["p"], rail["q"]), color=_palette.PART["nose"], linewidth=3, zorder=1)
     if shot is not None:
         paths = _paths(shot)
         radii = shot.balls["kind"]["radius"]
-        for ball in range(len(shot.balls)):
-            ink = colour(ball)
-            ax.plot(paths[:, ball, 0], paths[:, ball, 1], color=ink, linewidth=1.0, zorder=2)
+        for ball, look in enumerate(looks_of(shot)):
+            dashes = (0, (8, 2)) if look.striped else "-"
+            ax.plot(
+                paths[:, ball, 0],
+                paths[:, ball, 1],
+                color=look.path,
+                linestyle=dashes,
+                linewidth=1.0,
+                zorder=2,
+            )
             for states, opacity in ((shot.balls["state"], 0.35), (shot.final, 1.0)):
                 place = states["r"][ball, :2]
                 ax.add_patch(
                     patches.Circle(
                         place,
                         radii[ball],
-                        facecolor=ink,
-                        edgecolor="black",
+                        facecolor=look.colour,
+                        edgecolor=look.path,
                         alpha=opacity,
                         zorder=3,
                     )
@@ -326,7 +411,7 @@ class _Pixels:
         # even numbers, as films have them
         width, height = (2 * int(np.ceil(size / 2.0)) for size in canvas.size)
         self.image: NDArray[np.float64] = np.empty((height, width, 3))
-        self.image[:] = _colour(_WOOD)
+        self.image[:] = _colour(_palette.WOOD[canvas.discipline])
 
     def _cover(self, low: Doubles, high: Doubles, distance: Any, ink: str, opacity: float) -> None:
         """Paints the pixels of a box, pixels, by how far they are outside a shape: distance(x, y)."""
@@ -370,8 +455,9 @@ class _Pixels:
     def ball(self, shot: Any, number: int, centre: Doubles, opacity: float) -> None:
         """A ball, with its number unless it is the first."""
         radius = float(shot.balls["kind"]["radius"][number]) * _SCALE
-        self.disc(centre, radius, "#000000", opacity)
-        self.disc(centre, radius - 0.7, colour(number), opacity)
+        look = looks_of(shot)[number]
+        self.disc(centre, radius, look.path, opacity)
+        self.disc(centre, radius - _RIM, look.colour, opacity)
         if number == 0 or opacity < 1.0:
             return
         digits = [_DIGITS[int(digit)] for digit in str(number)]
@@ -384,9 +470,7 @@ class _Pixels:
                 for column in (column for column in range(3) if bits >> (2 - column) & 1):
                     x, y = x_0 + 4 * k + column, y_0 + row
                     if 0 <= y < self.image.shape[0] and 0 <= x < self.image.shape[1]:
-                        self.image[y, x] = _colour(
-                            "#ffffff" if colour(number) in _DARK else "#111111"
-                        )
+                        self.image[y, x] = _colour(look.ink)
 
 
 def _colour(ink: str) -> Doubles:
@@ -414,31 +498,37 @@ def pixels(table: Any, shot: Any = None) -> NDArray[np.uint8]:
     """
     canvas = _Canvas(table)
     drawn = _Pixels(canvas)
-    corners = np.array([canvas.place((0.0, 0.0)), canvas.place((table.width, table.length))])
-    low, high = corners.min(axis=0), corners.max(axis=0)
+    inset = 0.5 * canvas.margin * _SCALE
+    low, high = np.full(2, inset), np.asarray(canvas.size) - inset
     drawn._cover(
         low,
         high,
         lambda x, y: np.maximum(
             np.maximum(low[0] - x, x - high[0]), np.maximum(low[1] - y, y - high[1])
         ),
-        _CLOTH,
+        _palette.CLOTH[canvas.discipline],
         1.0,
     )
     for pocket in table.pockets:
-        drawn.disc(pocket["centre"], float(pocket["radius"]) * _SCALE, _POCKET)
-    for rail in table.rails:
-        drawn.line(rail["p"], rail["q"], 4.0, _CUSHION)
+        drawn.disc(pocket["centre"], float(pocket["radius"]) * _SCALE, _palette.PART["pocket"])
     for jaw in table.jaws:
-        drawn.disc(jaw["centre"], float(jaw["radius"]) * _SCALE, _CUSHION)
+        drawn.disc(
+            jaw["centre"], float(jaw["radius"]) * _SCALE, _palette.CUSHION[canvas.discipline]
+        )
+    nose = _palette.SIZE["nose"] * _SCALE
+    for rail in table.rails:
+        drawn.line(rail["p"], rail["q"], nose, _palette.PART["nose"])
+    tall = _palette.SIZE["diamond"] * _SCALE
+    for place in _diamonds(canvas, table):
+        drawn.disc(place, 0.8 * tall, _palette.PART["mark"])
     if shot is not None:
         paths = _paths(shot)
-        for ball in range(len(shot.balls)):
+        for ball, look in enumerate(looks_of(shot)):
             last = paths[:1, ball].reshape(-1)
             for k, place in enumerate(paths[:, ball]):
                 gap = np.abs(place[:2] - last[:2]).max() * _SCALE
                 if gap > 3.0 or (k == len(paths) - 1 and gap > 0.0):  # pixels
-                    drawn.line(last, place, 1.5, colour(ball), 0.8)
+                    drawn.line(last, place, _palette.SIZE["path"] * _SCALE, look.path)
                     last = place
         for states, opacity in ((shot.balls["state"], 0.35), (shot.final, 1.0)):
             for ball, state in enumerate(states):

@@ -1,4 +1,4 @@
-"""The racks, with the cue ball first: `carom.racks.nineball(table)`.
+"""Racks, with the cue ball first: `carom.racks.nineball(table)`.
 
 Parameters of each:
 
@@ -33,7 +33,18 @@ from carom.layouts import Table, check_table
 from carom.status import CaromError
 
 
-_GAMES: dict[str, Game] = {"snooker": "snooker", "threecushion": "billiard"}
+def _games() -> dict[int, Game]:
+    """The game whose balls each rack has, for racks of games other than pool."""
+    names = list(worded("GAME"))
+    found: dict[int, Game] = {}
+    k = 0
+    while about := lib.carom_rules_about_of(k):
+        found[about.rack] = cast(Game, names[about.balls])
+        k += 1
+    return found
+
+
+_GAMES = _games()
 
 
 class _Rack(Protocol):
@@ -62,7 +73,7 @@ def _maker(name: str) -> _Rack:
     kind = worded("RACK")[name]
     text = f"{lib.carom_rack_size(kind)} balls: {ffi.string(lib.carom_word_text(lib.CAROM_WORDS_RACK, kind)).decode()}."
 
-    game: Game = _GAMES.get(name, "pool")
+    game: Game = _GAMES.get(kind, "pool")
     size = int(lib.carom_rack_size(kind))
 
     def write_rack(table: Table, gap: float, seed: int, balls: Array) -> None:
@@ -80,7 +91,7 @@ def _maker(name: str) -> _Rack:
     ) -> dtypes.Records:
         check_table(table)
         if not isinstance(gap, (list, tuple, np.ndarray)):
-            gap = number(gap, "gap", "a distance in m is needed")
+            gap = number(gap, "gap", "a distance in m")
         gaps, seeds = as_array(gap, "gap", np.float64), _seeds(seed)
         shapes = {"gap": gaps.shape, "seed": seeds.shape}
         places = None if cue_ball is None else as_array(cue_ball, "cue_ball", np.float64)

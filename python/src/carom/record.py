@@ -1,8 +1,8 @@
 """Recordings of games that verify themselves: `replay` plays one again and compares every bit.
 
-A recording is text, a line of JSON after the other; docs/reference/files.md has the format.
+A recording is text, one line of JSON per record; docs/reference/files.md describes the format.
 `carom.Match` and the command write recordings. Shots are played with the instruction set plain,
-whose bits all machines share.
+whose results have the same bits on all machines.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Replayed:
 
     @property
     def same(self) -> bool:
-        """Whether every bit of its end agrees."""
+        """Whether every bit of the final states agrees."""
         return self.recorded == self.played
 
 
@@ -59,31 +59,36 @@ def _final(game: Any) -> dtypes.Records:
 
 
 def _refuse(game: Any, code: int) -> None:
-    """Raises an error of a recording, with its line."""
+    """Raise the error of a recording, with its line."""
     if code == lib.CAROM_ERROR_REVISION:
         revisions = f"{game.revision}, not {lib.carom_physics_revision()}"
         raise CaromError(
             code,
             f"line {game.line}",
-            text=f"the recording is of revision {revisions}: its shots have other bits here",
+            text=f"the recording was made with physics revision {revisions}; its shots have other bits here",
         )
     if code == lib.CAROM_ERROR_RECORD:
         raise CaromError(code, f"line {game.line}", text=ffi.string(game.fault).decode())
 
 
 def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replayed]:
-    """Play a recording again: each of its shots, with how it ended and how that was recorded.
+    """Play a recording again, and compare the end of each shot with the recorded one.
 
     Parameters
     ----------
-    recording : path, text, or lines
-        A file; a text of several lines; or the lines, as they come.
+    recording : path, str, or iterable of str
+        A file, a text of several lines, or an iterator of lines.
+
+    Yields
+    ------
+    Replayed
+        Each shot, as recorded and as played.
 
     Raises
     ------
     CaromError
-        A line is wrong, by a key or a value; the recording is of another revision of the physics;
-        it is cut off.
+        A line is invalid, the recording is truncated, or it was made with another revision of the
+        physics.
     """
     game = ffi.new("carom_record *")
     for text in lines_of(recording):
@@ -99,12 +104,12 @@ def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replay
         raise CaromError(
             lib.CAROM_ERROR_RECORD,
             f"line {game.line}",
-            text='cut off: there is no line {"end": ...}',
+            text='the recording is truncated: there is no line {"end": ...}',
         )
 
 
 def lines_of(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[str]:
-    """The lines of a recording; a text without any character is no path."""
+    """The lines of a recording; an empty string is not a path."""
     if isinstance(recording, str) and (recording == "" or "\n" in recording):
         yield from recording.splitlines()
     elif isinstance(recording, (str, os.PathLike)):

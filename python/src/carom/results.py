@@ -1,4 +1,4 @@
-"""What shots give: one, and many."""
+"""Results of shots: `Shot` for one, `Shots` for a batch."""
 
 from __future__ import annotations
 
@@ -47,17 +47,17 @@ def _moments(times: ArrayLike) -> Doubles:
     wrong = moments[~((moments >= 0.0) & (moments < np.inf))]
     if wrong.size:
         raise ValueError(
-            f"times: each must be a finite number of seconds from the beginning of the shot, not {wrong.flat[0]}"
+            f"times: {wrong.flat[0]} is negative or not finite; times are in s from the beginning of the shot"
         )
     return moments
 
 
 def _picker(index: Any, shape: tuple[int, ...]) -> Callable[[Array], Array]:
-    """Takes the shots that an index chooses out of any array of a batch.
+    """A function that selects the shots of an index from any array of a batch.
 
-    The index is resolved against the shape of the batch alone, as NumPy resolves it on an array of
-    that shape; what an array has in further dimensions stays whole. Integers, slices, None and
-    Ellipsis give views, as in NumPy; other indices give copies.
+    The index applies to the shape of the batch, as in NumPy; further dimensions of an array are
+    kept. Integers, slices, None and Ellipsis return views, as in NumPy; other indices return
+    copies.
     """
     entries: tuple[Any, ...] = index if isinstance(index, tuple) else (index,)
     if all(map(_is_basic, entries)):
@@ -68,7 +68,7 @@ def _picker(index: Any, shape: tuple[int, ...]) -> Callable[[Array], Array]:
         whole_ones = (slice(None),) * missing
         view = (*entries[:place], *whole_ones, *entries[place + 1 :], ...)
         return lambda array: array[view]
-    # which shots are chosen, as coordinates: an array that is broadcast is not copied for them
+    # the coordinates of the selected shots, so that a broadcast array is not copied
     places: Array = np.arange(math.prod(shape)).reshape(shape)[index]
     where: tuple[Any, ...] = (*np.unravel_index(places, shape or (1,)), ...)
     return lambda array: (array if shape else array[np.newaxis])[where]
@@ -87,10 +87,10 @@ UNKNOWN = fill(dtypes.ball_state, {}, {**dict.fromkeys("rvw", np.nan), "label": 
 
 @dataclass(eq=False, repr=False)
 class Shot(ShotVerbs):
-    """One shot.
+    """The result of one shot.
 
-    The table, the balls, the cue and the events cannot be written to, because later calls, such as
-    `positions`, `carom.resume` and `carom.tangents`, read them. Copies can.
+    The table, the balls, the cue and the events are read-only, because later calls, such as
+    `positions`, `carom.resume` and `carom.tangents`, read them. Copies are writeable.
 
     Attributes
     ----------
@@ -103,14 +103,13 @@ class Shot(ShotVerbs):
     count : int
         Number of events, including those that were not kept.
     events : ndarray of `carom.dtypes.event`, shape (kept,)
-        In the order in which they happened. Of a batch with records="brief":
-        `carom.dtypes.brief_event`.
+        Events in order of time. With records="brief" of a batch: `carom.dtypes.brief_event`.
     final : ndarray of `carom.dtypes.ball_state`, shape (balls,)
     cue : ndarray of `carom.dtypes.cue`, shape (), or None
     options : Options
-        By what the shot was played.
+        Models and limits of the shot.
     state
-        What `carom.resume` needs; None where the shot was not to be stopped.
+        Internal state for `carom.resume`; None if the shot had no `t_final` or `stop_at`.
     """
 
     table: Table
@@ -125,20 +124,26 @@ class Shot(ShotVerbs):
     state: Array | None = None
 
     def states(self, times: ArrayLike, *, drawn: bool = False) -> Records:
-        """The states of all balls at any times, s: an ndarray of `carom.dtypes.ball_state`, shape
-        (shape of the times..., balls).
+        """Return the states of all balls at given times.
 
-        After the end they are as at the end, where nothing moves any more. With `drawn` a pocketed
-        ball falls in its pocket until it lies at the depth or on others, and stays there; a shot of
-        a batch then needs all its events: `simulate_batch(room=...)`.
+        Parameters
+        ----------
+        times : array_like, shape (...)
+            s from the beginning of the shot. After its end the states are the final ones.
+        drawn : bool
+            For drawing: a pocketed ball falls to the bottom of its pocket, or onto other balls, and
+            stays there. A shot of a batch then needs all of its events, `simulate_batch(room=...)`.
+
+        Returns
+        -------
+        ndarray of `carom.dtypes.ball_state`, shape (..., balls)
 
         Raises
         ------
         CaromError
-            A time is after the end of a shot that was stopped, or that ended in an error, while
-            balls moved.
+            A time is after the end of a shot that was stopped or failed while balls were moving.
         ValueError
-            A time is before 0, or not finite.
+            A time is negative or not finite.
         """
         moments = _moments(times)
         states: Array = np.zeros((*moments.shape, len(self.balls)), dtypes.ball_state)
@@ -158,7 +163,7 @@ class Shot(ShotVerbs):
         ctype: str,
         look: Callable[..., int],
     ) -> None:
-        """Calls look(balls, count, shot, times, n, out), in chunks of the times."""
+        """Call look(balls, count, shot, times, n, out) for chunks of the times."""
         if self.events.dtype != dtypes.event:
             raise CaromError(Status.ERROR_EVENTS_LOST)
         events = np.ascontiguousarray(self.events)
@@ -183,11 +188,15 @@ class Shot(ShotVerbs):
             raise CaromError(code)
 
     def orientations(self, times: ArrayLike) -> Doubles:
-        """How each ball has turned since the start of the shot, for drawing it: float64 of shape
-        (..., balls, 4).
+        """Return the rotation of each ball since the beginning of the shot, for drawing.
 
-        These are unit quaternions (w, x, y, z), which take what is painted on a ball at the start
-        to where it is then. Times and errors are those of `states`.
+        Times and errors are as for `states`.
+
+        Returns
+        -------
+        ndarray of float64, shape (..., balls, 4)
+            Unit quaternions (w, x, y, z) that rotate a ball's initial orientation to the one at the
+            time.
         """
         moments = _moments(times)
         turned: Doubles = np.zeros((*moments.shape, len(self.balls), 4))
@@ -196,8 +205,9 @@ class Shot(ShotVerbs):
 
     @property
     def slips(self) -> Doubles:
-        """How fast surfaces pass each other in each event, m/s: with `impulse` it says how a
-        contact sounds. 0 where nothing touches.
+        """The slip speed at the contact of each event, m/s; 0 without a contact.
+
+        With `impulse` it determines how a contact sounds.
         """
         table, balls = (
             pointer("carom_table[]", self.table.record),
@@ -212,21 +222,22 @@ class Shot(ShotVerbs):
         )
 
     def positions(self, times: ArrayLike) -> Doubles:
-        """The centres of all balls at any times: float64 of shape (..., balls, 3), m.
+        """Return the centres of all balls at given times: float64 of shape (..., balls, 3), m.
 
-        Times and errors are those of `states`.
+        Times and errors are as for `states`.
         """
         return np.asarray(self.states(times)["r"], dtype=np.float64)
 
     def to_dataframe(self, dt: float | None = None) -> Any:
-        """The events as a pandas DataFrame, or with `dt` the states, a row for each ball and time:
-        time, ball, r_x and so on, every `dt` seconds and at the end.
+        """Return the events as a pandas DataFrame, one row per event; or with `dt` the states, one row
+        per ball and time.
 
-        The events have a row an event: time, type (by name), a, b,
-        before_a_r_x and so on. Where there is no second ball, the numbers of one are nan, and its
-        labels -1.
+        With `dt`, the columns are time, ball, r_x, and so on, every `dt` seconds and at the end.
+        Without, they are as follows.
 
-        Needs pandas. `carom.dtypes.columns` makes columns of any records.
+        The columns are time, type (by name), a, b, before_a_r_x, and so on. Without a second ball,
+        its values are nan and its labels -1. Needs pandas. `carom.dtypes.columns` converts other
+        records.
         """
         if dt is not None:
             return states_frame(self, dt)
@@ -249,23 +260,24 @@ class Shot(ShotVerbs):
         return pictures.picture(self.table, self)
 
     def plot(self, ax: Any = None) -> Any:
-        """The table and the paths, drawn on axes of matplotlib, in metres; the axes are returned.
+        """Draw the table and the paths on axes of matplotlib, in metres, and return the axes.
 
-        Balls are faint where they began and full where they ended. Needs matplotlib; `ax` is by
-        default the current axes.
+        Balls are faint at their initial positions and opaque at the final ones. `ax` defaults to
+        the current axes. Needs matplotlib.
         """
         return pictures.plot(self.table, self, ax)
 
     def animate(self, speed: float = 1.0) -> Animation:
-        """A moving picture, for Jupyter or a file: `speed` 1 is that of the shot, and `svg` is the
-        text, which moves in any browser. `save("shot.gif", fps=30)` writes a file: .svg, .gif or
-        .mp4.
+        """Return an animation for Jupyter; its `svg` is the text of a file that any browser plays.
+
+        `speed` is relative to real time. `save("shot.gif", fps=30)` of the animation writes a file:
+        .svg, .gif or .mp4.
         """
         return animated(self, speed)
 
 
 class _OfBatch(Shot):
-    """A shot of a batch: its attributes are made when they are first used."""
+    """A shot of a batch, whose attributes are computed on first use."""
 
     def __init__(self, batch: Shots, index: Any) -> None:
         self._batch = batch
@@ -348,16 +360,23 @@ _ATTRIBUTES: dict[str, Callable[[Shots, Any], Any]] = {
 
 @dataclass(frozen=True, repr=False)
 class Features(Arrays):
-    """What planners want of shots, besides `Shots.final`: arrays of the shape of the batch.
+    """Contacts, cushions and pockets of shots, as planners need them: arrays over the batch.
 
-    contact, contact_time: (..., 2), the first and the second of the different balls that the cue
-    ball met; when, s cushions_before: (..., 2), impacts of the cue ball on cushions before each of
-    them; 0 without a contact cushions_after: (...), impacts on cushions, of all balls, after the
-    first contact pocket, pocket_time: (..., balls), the pocket that took each ball, by its index in
-    `table.pockets`; when, s cushions: (..., balls), impacts of each ball on cushions
+    Missing contacts and pockets have index -1 and time inf. The cue ball is the ball struck, or
+    ball 0 without a cue. A cushion is a rail or its rounded end.
 
-    Indices are -1 and times inf where there is none. The cue ball is the ball struck, or ball 0
-    without a cue. A cushion is a rail or its rounded end.
+    Attributes
+    ----------
+    contact, contact_time : shape (..., 2)
+        The first and the second different ball that the cue ball hit, and when, s.
+    cushions_before : shape (..., 2)
+        Impacts of the cue ball on cushions before each of these contacts; 0 without a contact.
+    cushions_after : shape (...)
+        Impacts of all balls on cushions after the first contact.
+    pocket, pocket_time : shape (..., balls)
+        Index in `table.pockets` of the pocket into which each ball fell, and when, s.
+    cushions : shape (..., balls)
+        Impacts of each ball on cushions.
     """
 
     contact: NDArray[np.int32]
@@ -369,7 +388,7 @@ class Features(Arrays):
     cushions: NDArray[np.int32]
 
     def __getitem__(self, index: Any) -> Features:
-        """Those of some shots: the index is that of `Shots`."""
+        """The features of some shots, indexed as in `Shots`."""
         pick = _picker(index, self.cushions_after.shape)
         return Features(*(pick(getattr(self, field.name)) for field in fields(self)))
 
@@ -386,7 +405,7 @@ _UNITS = {
 
 
 def _units(name: str) -> dict[str, str]:
-    """The unit of a column or variable, as attributes have it: of ball_0_r_x that of r."""
+    """The attributes of a column or variable: the unit of r for ball_0_r_x."""
     *front, last = re.sub(r"^ball_\d+_", "", name).split("_")
     base = (
         "_".join(front)
@@ -400,32 +419,32 @@ _OF_BALLS = {"pocket", "pocket_time", "cushions"}
 
 
 class Shots(ShotsVerbs):
-    """Many shots: arrays of the shape of the batch.
+    """The results of a batch of shots: arrays over the batch.
 
-    A batch is indexed, iterated and measured by `len` as its array `status` is. Where NumPy gives a
-    number, a batch gives a `Shot`, whose attributes are made when they are first used; where NumPy
-    gives an array, a batch gives `Shots`. Slices are views; masks and arrays of indices make copies.
-    `flat` gives every shot, in C order.
+    Indexing, iteration and `len` work as for the array `status`. Where NumPy would return a scalar,
+    a batch returns a `Shot`, whose attributes are computed on first use; where NumPy would return
+    an array, it returns `Shots`. Slices are views; masks and index arrays make copies. `flat`
+    iterates over all shots in C order.
 
     Attributes
     ----------
     table, options
-        As of a `Shot`.
-    layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls) or (1, balls); or of
-        `carom.dtypes.ball_state`, beside
+        As for `Shot`.
+    layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls) or (1, balls)
+        With `kinds`, an array of `carom.dtypes.ball_state`.
     kinds : ndarray of `carom.dtypes.ball_kind`, shape (balls,), or None
-    cues : ndarray of `carom.dtypes.cue`, shape (...) or one, or None
+    cues : ndarray of `carom.dtypes.cue`, shape (...) or (), or None
     status : ndarray of int8, shape (...)
-        As `Status`; a shot in error costs itself alone.
+        The `Status` of each shot. Failed shots do not affect the others.
     time, count : ndarrays of float64 and int64, shape (...)
-        Time of the last event, or when the shot was stopped, s; events that happened, also beyond
-        the room.
+        Time of the last event, or when the shot was stopped, s; number of events, including those
+        beyond the room.
     final : ndarray of `carom.dtypes.ball_state`, shape (..., balls)
-        Where an argument was in error, all numbers are nan and labels -1, as in `states`.
+        For an invalid argument all values are nan and the labels -1, as in `states`.
     events : ndarray of `carom.dtypes.event` or `carom.dtypes.brief_event`, shape (..., room)
-        The first count of each row are valid.
+        The first `count` entries of each row are valid.
     features : Features
-        With `simulate_batch(features=True)`; without there is no such attribute.
+        Only with `simulate_batch(features=True)`; otherwise the attribute does not exist.
     record : ndarray of `carom.dtypes.shot`, shape (...)
         The structs of C, with the addresses of final and events.
     """
@@ -455,25 +474,25 @@ class Shots(ShotsVerbs):
 
     @property
     def time(self) -> Doubles:
-        """When the last event happened, s: a view, which cannot be written to."""
+        """The time of the last event, s, a read-only view."""
         return sealed(self.record["time"])
 
     @property
     def count(self) -> NDArray[np.int64]:
-        """Events that happened: a view, which cannot be written to."""
+        """The number of events, a read-only view."""
         return sealed(self.record["count"])
 
     @property
     def refused(self) -> NDArray[np.bool_]:
-        """Which shots were not played, as an argument was in error."""
+        """Which shots were not played because an argument was invalid."""
         return np.asarray((self.status < 0) & (self.count == 0) & (self.time == 0.0))
 
     @property
     def features(self) -> Features:
-        """What planners want of the shots, where `simulate_batch(features=True)` was asked for it."""
+        """The `Features` of the shots, if `simulate_batch(features=True)` computed them."""
         if self._facts is None:
             raise AttributeError(
-                "features: simulate_batch(features=True) tells them; these shots were played without"
+                "features: these shots were played without them; pass features=True to simulate_batch()"
             )
         names = {"contact": "first", "contact_time": "first_time"}
         found = {
@@ -494,26 +513,30 @@ class Shots(ShotsVerbs):
 
     @property
     def ndim(self) -> int:
-        """How many dimensions the batch has."""
+        """The number of dimensions of the batch."""
         return self.status.ndim
 
     @property
     def size(self) -> int:
-        """How many shots the batch has."""
+        """The number of shots in the batch."""
         return self.status.size
 
     def __len__(self) -> int:
         return len(self.status)
 
     def __iter__(self) -> Iterator[Any]:
-        """The parts `shots[0]`, `shots[1]` and so on, each a `Shot` in a batch of one dimension."""
+        """Iterate over `shots[0]`, `shots[1]`, ...; each is a `Shot` if the batch has one
+        dimension.
+        """
         if not self.shape:
-            raise TypeError("iteration over a batch of shape (), which is one shot: shots[()]")
+            raise TypeError(
+                "cannot iterate over a batch of shape (), which is one shot; use shots[()]"
+            )
         return (self[k] for k in range(len(self)))
 
     @property
     def flat(self) -> Iterator[Shot]:
-        """Every shot, in C order."""
+        """All shots, in C order."""
         return (_OfBatch(self, index) for index in np.ndindex(self.shape))
 
     @overload
@@ -523,7 +546,7 @@ class Shots(ShotsVerbs):
     @overload
     def __getitem__(self, index: Any) -> Any: ...
     def __getitem__(self, index: Any) -> Any:
-        """One shot of the batch, or some, as NumPy indexes `status`."""
+        """One shot of the batch, or several, as NumPy indexes `status`."""
         chosen = self.status[index]
         if not isinstance(chosen, np.ndarray):
             return _OfBatch(self, index)
@@ -537,7 +560,7 @@ class Shots(ShotsVerbs):
             pick(self.record),
         )
         part._facts = None if self._facts is None else pick(self._facts)
-        # one layout or one cue for all stays one
+        # a single layout or cue for all shots stays single
         count = self.final.shape[-1]
         part.layouts = (
             self.layouts.reshape(count)
@@ -557,35 +580,49 @@ class Shots(ShotsVerbs):
     # ---------------------------------------------------------------------------------------------------
 
     def states(self, times: ArrayLike, *, threads: int = 0) -> Records:
-        """The states of all balls of all shots at any times, s: an ndarray of
-        `carom.dtypes.ball_state`, shape (batch..., times..., balls).
+        """Return the states of all balls of all shots at given times.
 
-        After the end they are as at the end, where nothing moves any more. Shots of which not all
-        events were kept are played again, which takes the time of playing them. Numbers are nan,
-        and the label -1, where no state is known: of shots whose arguments were in error, and after
-        shots were stopped, or ended in an error, while balls moved. No bit depends on `threads`.
+        Shots whose events were not all kept are played again, which takes as long as playing them
+        did.
+
+        Parameters
+        ----------
+        times : array_like, shape (times...)
+            s from the beginning of each shot. After its end the states are the final ones.
+        threads : int
+            As for `simulate_batch`.
+
+        Returns
+        -------
+        ndarray of `carom.dtypes.ball_state`, shape (batch..., times..., balls)
+            Unknown states have values of nan and the label -1: for invalid arguments, and after a
+            shot was stopped or failed while balls were moving.
 
         Raises
         ------
         ValueError
-            A time is before 0, or not finite; or a shot has to be played again, and its layout or
-            cue has been changed since.
+            A time is negative or not finite; or a shot must be played again, but its layout or cue
+            was changed in the meantime.
         """
         return self._look_at(times, dtypes.ball_state, (), threads)[0]
 
     def positions(self, times: ArrayLike, *, threads: int = 0) -> Doubles:
-        """The centres of all balls of all shots at any times: float64 of shape (batch..., times...,
-        balls, 3), m.
+        """Return the centres of all balls of all shots at given times.
 
-        Parameters and errors are those of `states`.
+        Parameters and errors are as for `states`.
+
+        Returns
+        -------
+        ndarray of float64, shape (batch..., times..., balls, 3)
+            m.
         """
         return self._look_at(times, np.dtype(np.float64), (3,), threads)[0]
 
     def _look_at(
         self, times: ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...], threads: int
     ) -> tuple[Array, NDArray[np.int8]]:
-        """For `states` and `positions`: the array, and of each shot, in C order, whether some of it
-        is unknown.
+        """For `states` and `positions`: the array, and a code for each shot, in C order, which is
+        negative if a state is unknown.
         """
         instants = _moments(times)
         order = np.argsort(instants.reshape(-1), kind="stable")
@@ -614,8 +651,9 @@ class Shots(ShotsVerbs):
     def _look(
         self, look: Callable[[Any, Any, int], int], seconds: float, threads: int
     ) -> NDArray[np.int8]:
-        """Calls look(job, codes, first row) for all rows, which take so many seconds each; the
-        codes.
+        """Call look(job, codes, first row) for all rows and return the codes.
+
+        `seconds` is the time that one row takes.
         """
         whole(threads, "threads", least=-1)
         codes: NDArray[np.int8] = np.zeros(self.status.size, INT8)
@@ -628,16 +666,16 @@ class Shots(ShotsVerbs):
             spread(threads, lambda begin, many: look(job(begin, many), flags + begin, begin)),
         )
         if code < 0:
-            raise MemoryError("no memory for the events of a shot")
+            raise MemoryError("not enough memory for the events of a shot")
         if (codes == Status.ERROR_STATE).any():
             raise ValueError(
-                "layouts, cues: they were changed after the shots were played, so they cannot be played again; "
-                "simulate_batch(room=...) keeps all events of shots of up to so many"
+                "layouts, cues: changed since the shots were played, so the shots cannot be played again; "
+                "simulate_batch(room=...) keeps their events instead"
             )
         return codes
 
     def _jobs(self, options: Any) -> Callable[[int, int], Any]:
-        """A function that gives the carom_shot_job of `many` rows from `begin` on."""
+        """A function that returns the carom_shot_job of `many` rows starting at `begin`."""
         lead, count = len(self.shape), self.final.shape[-1]
         layouts, one_layout = one_or_all(self.layouts, self.final.shape, lead)
         cues, one_cue = (
@@ -684,9 +722,7 @@ class Shots(ShotsVerbs):
         return job
 
     def _columns(self) -> tuple[Array, list[str], dict[str, Array]]:
-        """The shots as columns, a row a shot: statuses, what each is called, and the other columns
-        by their names.
-        """
+        """The shots as columns, one row per shot: status codes, their names, and the other columns."""
         count = self.final.shape[-1]
         found: dict[str, Array] = {"time": self.time.reshape(-1), "count": self.count.reshape(-1)}
         if self.cues is not None:
@@ -714,13 +750,20 @@ class Shots(ShotsVerbs):
         )
 
     def to_dataframe(self, dims: Sequence[str] | None = None, *, dt: float | None = None) -> Any:
-        """The shots as a pandas DataFrame, a row a shot: status (by name), time, count, cue_speed
-        and what else the cue has, ball_0_r_x and what else is known of each ball at the end, and
-        the features where they were asked for, such as pocket_3.
+        """Return the shots as a pandas DataFrame, one row per shot.
 
-        Needs pandas. The index is that of the batch; `dims` names its levels, which are else
-        "shot", or "shot_0", "shot_1" and so on. With `dt` there is a row for each shot, time and
-        ball instead, every `dt` seconds up to the end of the longest shot, with the states.
+        The columns are status (by name), time, count, the fields of the cue (cue_speed, ...), the
+        final state of each ball (ball_0_r_x, ...), and the features if they were computed
+        (pocket_3, ...). Needs pandas.
+
+        Parameters
+        ----------
+        dims : sequence of str, optional
+            Names of the levels of the index, one per dimension of the batch. Default: "shot", or
+            "shot_0", "shot_1", ...
+        dt : float, optional
+            With it there is one row per shot, time and ball instead, every `dt` seconds up to the
+            end of the longest shot, with the states.
         """
         if dt is not None:
             return states_frame(self, dt, self._dims(dims))
@@ -740,9 +783,10 @@ class Shots(ShotsVerbs):
         return pandas.DataFrame(columns, index=index)
 
     def to_arrow(self, first: int = 0) -> Any:
-        """The shots as a pyarrow Table with the columns of `to_dataframe`, after "shot", which
-        counts from `first` on. The metadata of a field has its unit under "units", where it has
-        one. Needs pyarrow.
+        """Return the shots as a pyarrow Table with the columns of `to_dataframe`.
+
+        The first column, "shot", counts from `first`. The metadata of a field contains its unit as
+        "units". Needs pyarrow.
         """
         arrow, (codes, names, found) = needed("pyarrow", "to_arrow()"), self._columns()
         status = arrow.DictionaryArray.from_arrays(codes.astype(np.int8), names)
@@ -753,17 +797,19 @@ class Shots(ShotsVerbs):
         return table.cast(arrow.schema(fields_with_units))
 
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
-        """What libraries read that know Arrow, such as Polars: the table of `to_arrow`."""
+        """The table of `to_arrow` for libraries that read Arrow, such as Polars."""
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def to_xarray(self, dims: Sequence[str] | None = None) -> Any:
-        """The shots as an xarray Dataset: status, time, count, cue_speed and what else the cue has;
-        r, v, w and label of each ball at the end; and the features where they were asked for.
-        Numbers that have a unit tell it by the attribute "units".
+        """Return the shots as an xarray Dataset.
 
-        Needs xarray. The dimensions are those of the batch, named as in `to_dataframe`, "ball",
-        "axis" (x, y, z) and, of first contacts, "met"; each has coordinates: those of `dims` that
-        are named as a field of the cue, which changes along it alone, have its values.
+        The variables are status, time, count, the fields of the cue (cue_speed, ...), the final r,
+        v, w and label of each ball, and the features if they were computed. The attribute "units"
+        contains the unit. Needs xarray.
+
+        The dimensions are the dimensions of the batch, named as in `to_dataframe`, then "ball",
+        "axis" (x, y, z) and, for first contacts, "met". A dimension named after a field of the cue
+        that varies only along it has the field's values as coordinates; others have indices.
         """
         xarray, count, dims = (
             needed("xarray", "to_xarray()"),
@@ -785,7 +831,7 @@ class Shots(ShotsVerbs):
                 () if values.shape == self.shape else ("ball",) if name in _OF_BALLS else ("met",)
             )
             found[name] = (*dims, *last), values
-        # what codes mean, as the conventions of climate and forecast say it
+        # the meanings of codes, as in the CF (climate and forecast) conventions
         codes: dict[str, type[enum.IntEnum]] = {"status": Status, "label": Label}
         attributes = {
             name: {
@@ -815,8 +861,8 @@ class Shots(ShotsVerbs):
         return xarray.Dataset(variables, {**coordinates, "axis": list("xyz")})
 
     def _along(self, dims: tuple[str, ...], name: str, size: int) -> Array:
-        """The coordinates of a dimension: the cue's field of its name, where that changes along it
-        alone, or else indices.
+        """The coordinates of a dimension: the cue's field of that name if it varies only along this
+        dimension, otherwise indices.
         """
         if (
             name in dims
@@ -839,26 +885,22 @@ class Shots(ShotsVerbs):
                 if len(self.shape) == 1
                 else tuple(f"shot_{k}" for k in range(len(self.shape)))
             )
-        names = tuple(
-            map(str, several(dims, "dims", "a name for each dimension of the batch is needed"))
-        )
+        names = tuple(map(str, several(dims, "dims", "a name for each dimension of the batch")))
         if len(names) != len(self.shape) or len({*names, "ball", "axis", "met"}) != len(names) + 3:
             raise ValueError(
-                f"dims: {len(self.shape)} different names are needed, other than ball, axis and met, not {names}"
+                f"dims: {names} are not {len(self.shape)} different names other than ball, axis and met"
             )
         return names
 
     def failures(self) -> list[tuple[tuple[int, ...], str]]:
-        """The index of each shot that ended in an error, and the error."""
+        """Return the index and the error of each failed shot."""
         return [
             (index, str(self.error(index)))
             for index in (tuple(int(k) for k in row) for row in np.argwhere(self.status < 0))
         ]
 
     def error(self, index: Any) -> CaromError:
-        """The exception for a shot that ended in an error, with the argument at fault if it was
-        refused.
-        """
+        """Return the exception for a failed shot, which names an invalid argument."""
         shot = self[index]
         error = argument_error(
             shot_arguments(self.table, shot.balls, shot.cue, shot_options(self.options)),

@@ -1,4 +1,4 @@
-"""Whole shots, from the strike of a cue until nothing moves: one, and many."""
+"""Shots, from the strike of the cue until nothing moves: single ones and batches."""
 
 from __future__ import annotations
 
@@ -42,20 +42,25 @@ if TYPE_CHECKING:
 
 _USUAL = Options()
 _FIRST_ROOM = 512
-# Memory for _FIRST_ROOM events, which a call of `simulate` leaves to the next: getting it from the
-# system takes a third of the time of a light shot. Calls at the same time each take their own.
+# Memory for _FIRST_ROOM events, which a call of `simulate` leaves to the next: allocating it takes a
+# third of the time of a soft shot. Concurrent calls allocate their own.
 _spare: list[Array] = []
 _NO_EVENTS: Array = np.zeros(0, dtypes.event)
 
 
 def cite(*, options: Options = _USUAL, **changes: Unpack[Changes]) -> str:
-    """What to cite for shots by these options, as BibTeX: carom, and the sources of the models that
-    they use.
+    """Return the works to cite for shots with these options, as BibTeX.
+
+    They are carom and the sources of the models in use.
 
     Parameters
     ----------
     options, **changes
         As for `simulate`: `carom.cite(cushion_model="mathavan")`.
+
+    Returns
+    -------
+    str
     """
     record = shot_options(chosen(options, changes))
     room = lib.carom_cite(record, ffi.NULL, 0) + 1
@@ -77,15 +82,16 @@ def simulate(
     Parameters
     ----------
     table : Table
-        `carom.tables` has the standard ones.
+        A table, such as `carom.tables.pool_9ft()`.
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
-        1 to 32 of them, from `carom.racks` or `carom.balls`. Not changed.
+        1 to 32 balls from `carom.racks` or `carom.balls`. The array is not modified.
     cue : ndarray of `carom.dtypes.cue`, shape (), optional
-        From `carom.cue`. Without it, with speed 0, or if a ball moves already, there is no strike.
+        A cue from `carom.cue`. There is no strike without a cue, with speed 0, or if a ball already
+        moves.
     options : Options
-        Models, bounds and when to stop: see `carom.Options`.
+        Models, limits, and when to stop; see `carom.Options`.
     **changes
-        Single options, by their names: cushion_model="mathavan", t_final=1.5, stop_at="contact",
+        Single options by name: cushion_model="mathavan", t_final=1.5, stop_at="contact",
         space="flat", ...
 
     Returns
@@ -95,15 +101,16 @@ def simulate(
     Raises
     ------
     CaromError
-        An argument is in error; or the shot ended in one (a bound, a ball that left the table, a
-        collision): then the error's `shot` has what had happened.
+        An argument is invalid, or the shot failed: it reached a limit, a ball left the table, or a
+        collision could not be resolved. After a failure the error's `shot` contains the shot up to
+        that point.
     """
+    check_table(table)
     layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     if layout.ndim != 1:
         raise ValueError(
-            f"balls: the shape must be (balls,), not {layout.shape}; simulate_batch plays many layouts"
+            f"balls: the shape is {layout.shape}, but must be (balls,); simulate_batch() accepts several layouts"
         )
-    check_table(table)
     layout = frozen(layout)
     cue = None if cue is None else frozen(one_cue(cue))
     models = chosen(options, changes)
@@ -123,7 +130,7 @@ def simulate(
 
 
 def replayed(table: Table, balls: Records, cue: Records, options: Options, match: Any) -> Shot:
-    """The last shot of a match of C, as far as it was played."""
+    """The last shot of a match in C, as far as it was played."""
     layout = frozen(balls)
     begun = Shot(table, layout, Status.OK, 0.0, 0, _NO_EVENTS, layout["state"], cue, options, None)
     shot = _run(begun, lambda shot: lib.carom_match_replay(match, shot))
@@ -134,17 +141,19 @@ def replayed(table: Table, balls: Records, cue: Records, options: Options, match
 
 
 def _check_first_of(options: Options, balls: int, cues: Records | None) -> None:
-    """Refuses indices of no ball, and of the cue ball, which does not meet itself."""
+    """Raise an error for an index without a ball, or of the cue ball, which cannot hit itself."""
     struck = {0} if cues is None else set(np.unique(cues["ball"]).tolist())
     for ball in (options.first_of,) if isinstance(options.first_of, int) else options.first_of:
         if ball in struck or whole(ball, "first_of") >= balls:
             raise ValueError(
-                f"first_of: ball {ball} is {'the cue ball' if ball in struck else f'none of {balls}'}: it must be one that the cue ball meets"
+                f"first_of: ball {ball} is the cue ball; pass balls that it can hit"
+                if ball in struck
+                else f"first_of: there is no ball {ball}; the layout has balls 0 to {balls - 1}"
             )
 
 
 def _room(events: int) -> Array:
-    """Memory for so many events."""
+    """Memory for this number of events."""
     if events == _FIRST_ROOM:
         with contextlib.suppress(IndexError):
             return _spare.pop()
@@ -152,10 +161,10 @@ def _room(events: int) -> Array:
 
 
 def _run(begun: Shot, play: Callable[[Any], int]) -> Shot:
-    """The shot that has begun, as C plays it from its beginning, or goes on with it.
+    """Play or continue a shot in C.
 
-    One that has more events than there is room for is played again with enough of it: it has the
-    same bits.
+    A shot with more events than the memory holds is played again with enough memory; its bits are
+    the same.
     """
     room = max(_FIRST_ROOM, 2 * begun.count)
     while True:
@@ -191,31 +200,37 @@ def _run(begun: Shot, play: Callable[[Any], int]) -> Shot:
 def resume(
     shot: Shot, *, t_final: float | None = None, stop_at: StopAt | Iterable[StopAt] = ()
 ) -> Shot:
-    """Go on with a shot that was stopped at a time or an event, as if it had not been.
+    """Continue a shot that was stopped at a time or an event.
 
-    The shot, of `simulate` or `resume` with `t_final` or `stop_at`, is not changed. These say when
-    to stop again; t_final counts from the beginning of the shot. The result has all events from the
-    beginning, and events and states have the bits of the unbroken shot.
+    Parameters
+    ----------
+    shot : Shot
+        A result of `simulate` or `resume` with `t_final` or `stop_at`. It is not modified.
+    t_final : float, optional
+        When to stop again, s from the beginning of the shot.
+    stop_at : str or iterable of str
+        Events at which to stop again, as for `simulate`.
+
+    Returns
+    -------
+    Shot
+        With all events from the beginning; events and states have the bits of the uninterrupted
+        shot.
 
     Raises
     ------
     CaromError
-        The shot ends in an error.
+        The shot fails.
     ValueError
-        The shot was played without `t_final` and `stop_at`, or as one of a batch; or t_final is
-        before the time at which it stopped.
+        The shot was played without `t_final` and `stop_at`, or in a batch; or t_final is before the
+        time at which it stopped.
     """
     if not isinstance(shot, Shot) or shot.state is None:
         raise ValueError(
-            "shot: only what simulate() or resume() stopped, with t_final= or stop_at=, can be gone on with"
+            "shot: this shot cannot be resumed; pass a result of simulate() or resume() with t_final= or stop_at="
         )
-    if (
-        t_final is not None
-        and number(t_final, "t_final", "a time in s is needed, or None") < shot.time
-    ):
-        raise ValueError(
-            f"t_final: it must not be before {shot.time} s, when the shot stopped, but is {t_final}"
-        )
+    if t_final is not None and number(t_final, "t_final", "a time in s or None") < shot.time:
+        raise ValueError(f"t_final: {t_final} s is before {shot.time} s, when the shot stopped")
     begun = copy.copy(shot)
     begun.options = shot.options.changed({"t_final": t_final, "stop_at": stop_at})
     table, balls, options = (
@@ -247,49 +262,52 @@ def simulate_batch(
     Parameters
     ----------
     table : Table
-        Of all shots.
+        The table of all shots.
     layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls)
-    kinds : ndarray of `carom.dtypes.ball_kind`, shape (balls,) or (), optional
-        What all layouts have in common: then `layouts` is of `carom.dtypes.ball_state`, 80 bytes a
-        ball instead of 288.
+        The balls before each shot.
     cues : ndarray of `carom.dtypes.cue`, shape (...), optional
-        None: no strikes. Broadcast against the leading dimensions of the layouts: one layout and
-        many cues, or the reverse.
+        The strikes, broadcast against the leading dimensions of the layouts: one layout and many
+        cues, or the reverse. None: no strikes.
     room : int
-        How many events of each shot are kept; 0: final states only.
+        Number of events kept per shot; 0 keeps only the final states.
+    kinds : ndarray of `carom.dtypes.ball_kind`, shape (balls,) or (), optional
+        The properties that all layouts share. Then `layouts` is an array of
+        `carom.dtypes.ball_state`, with 80 bytes per ball instead of 328.
     records : {"full", "brief"}
-        What is kept of an event: all (`carom.dtypes.event`, 352 bytes), or time, type and who
-        (`carom.dtypes.brief_event`, 24 bytes).
+        The form of the events: "full" (`carom.dtypes.event`, 352 bytes each), or "brief" with time,
+        type and participants (`carom.dtypes.brief_event`, 24 bytes).
     features : bool
-        Whether `shots.features` tells first contacts, cushions and pockets.
+        Whether to compute `Shots.features`: first contacts, cushions and pockets.
     threads : int
-        Most threads to use; 0 is the calling one alone, -1 all processors. No bit depends on it.
+        Largest number of threads: 0 uses only the calling thread, -1 all processors. Results do not
+        depend on it.
     out : Shots, optional
-        An earlier result of the same shape, balls and room, whose memory is used again.
+        An earlier result with the same shape, balls and room, whose memory is reused.
     options, **changes
         As for `simulate`.
 
     Returns
     -------
     Shots
-        Each with the bits of `simulate`. One in error costs itself: see `status` and `failures()`.
+        Each shot has the bits of `simulate`. Failed shots do not affect the others; see `status`
+        and `failures()`.
 
     Raises
     ------
     CaromError
-        The table or an option is in error.
+        The table or an option is invalid.
     """
     record, builder = (
-        (dtypes.shot_ball, "balls(), or kinds= beside states,")
+        (dtypes.shot_ball, "balls(), or pass kinds= with states")
         if kinds is None
-        else (dtypes.ball_state, 'balls()["state"], beside kinds,')
+        else (dtypes.ball_state, 'balls()["state"], as kinds= is given')
     )
     all_balls = of_record(layouts, record, "layouts", builder)
     all_cues = (
         np.zeros((), dtypes.cue) if cues is None else of_record(cues, dtypes.cue, "cues", "cue()")
     )
     if all_balls.ndim == 0:
-        raise ValueError("layouts: the shape must be (..., balls), not ()")
+        raise ValueError("layouts: the shape is (), but must be (..., balls)")
     check_table(table)
     room = whole(room, "room")
     count = all_balls.shape[-1]
@@ -297,11 +315,11 @@ def simulate_batch(
         kinds = of_record(kinds, dtypes.ball_kind, "kinds", 'balls()["kind"]')
         if kinds.shape not in ((), (1,), (count,)):
             raise ValueError(
-                f"kinds: the shape must be () or ({count},), a kind for each ball of the layouts, not {kinds.shape}"
+                f"kinds: the shape is {kinds.shape}, but must be () or ({count},), one kind for each ball of the layouts"
             )
         kinds = np.ascontiguousarray(np.broadcast_to(kinds, (count,)))
     shape = broadcast({"layouts": all_balls.shape[:-1], "cues": all_cues.shape})
-    # One layout or one cue for all is not copied; what else is broadcast is.
+    # A single layout or cue for all shots is not copied; other broadcast arrays are.
     if all_balls.size != count:
         all_balls = np.ascontiguousarray(np.broadcast_to(all_balls, (*shape, count)))
     if all_cues.size != 1:
@@ -313,9 +331,7 @@ def simulate_batch(
     if models.first_of != ():
         _check_first_of(models, count, cues)
     if out is not None and not isinstance(out, Shots):
-        raise TypeError(
-            f"out: an earlier result of simulate_batch is needed, not {type(out).__name__}"
-        )
+        raise TypeError(f"out: {type(out).__name__} is not an earlier result of simulate_batch()")
     shots = Shots(table, all_balls, shape, room, event) if out is None else out
     if out is not None:
         outputs = {"status": (shape, INT8), "final": ((*shape, count), dtypes.ball_state)}
@@ -358,24 +374,22 @@ def simulate_arrow(
     at_once: int = 10_000,
     **more: Any,
 ) -> Any:
-    """Play as many shots as one likes, a part of them at a time, as they are read, so that memory
-    does not grow with them.
+    """Play any number of shots in constant memory, in parts that are played as they are read.
 
     Parameters
     ----------
     table, layouts, **more
         As for `simulate_batch`. Events are not kept.
-    cues : ndarray of `carom.dtypes.cue`, or an iterator of them
-        Of an iterator, such as a generator that draws cues, no two arrays need be in memory
-        together.
+    cues : ndarray of `carom.dtypes.cue`, or an iterator of such arrays
+        Only one array of an iterator, such as a generator, is in memory at a time.
     at_once : int
-        Shots of a part.
+        Number of shots in a part.
 
     Returns
     -------
     pyarrow.RecordBatchReader
-        A row a shot, in C order, as of `Shots.to_arrow`. `pyarrow.dataset.write_dataset` writes it
-        as Parquet.
+        One row per shot, in C order, with the columns of `Shots.to_arrow`.
+        `pyarrow.dataset.write_dataset` can write it as Parquet.
     """
     arrow, at_once = needed("pyarrow", "simulate_arrow()"), whole(at_once, "at_once", least=1)
     all_balls = of_record(
@@ -410,6 +424,6 @@ def simulate_arrow(
     parts = played()
     begun = next(parts, None)
     if begun is None:
-        raise ValueError("cues: the iterator gave none")
+        raise ValueError("cues: the iterator is empty; it must yield at least one array of cues")
     batches = (batch for part in itertools.chain([begun], parts) for batch in part.to_batches())
     return arrow.RecordBatchReader.from_batches(begun.schema, batches)

@@ -1,4 +1,4 @@
-"""How a call ended: the values of C's carom_status, and the exception that carries one."""
+"""The status of a call, C's carom_status, and the exception that carries it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from carom._carom import ffi, lib
 
 
-# Of faults of matches, which name calls of C and constants.
+# Errors of matches name functions and constants of C.
 _NAMES = {
     "carom_match_continue()": "resume()",
     "carom_record_read()": "carom.record.replay()",
@@ -18,7 +18,7 @@ _NAMES = {
 
 
 def in_python(text: str) -> str:
-    """A text of C with the names of Python: place() for carom_match_place(), "potting" for
+    """Translate the names in a text of C to Python: place() for carom_match_place(), "potting" for
     CAROM_RULES_POTTING.
     """
 
@@ -34,17 +34,17 @@ def in_python(text: str) -> str:
 
 class _Status(enum.IntEnum):
     """The outcome of a call: 0 is success, positive a valid result with a remark, negative an
-    error. `text` explains it.
+    error.
 
-    The names are those of carom.h without CAROM_, such as OK, STOPPED_AT_TIME and ERROR_MASS:
-    `list(Status)` has them.
+    `text` explains it. `list(Status)` lists the names, which are the ones in carom.h without
+    CAROM_, such as OK, STOPPED_AT_TIME and ERROR_MASS.
     """
 
     @property
     def text(self) -> str:
-        """What the status means, in one sentence."""
+        """The meaning of the status, in one sentence."""
         text: str = ffi.string(lib.carom_status_string(self)).decode()
-        # What C has in a struct is an argument here.
+        # A field of a struct in C is an argument in Python.
         return text.replace("options.", "").replace("CAROM_ALL_THREADS", "carom.ALL_THREADS")
 
 
@@ -66,11 +66,17 @@ else:
 
 
 class CaromError(ValueError):
-    """A call that could not be served.
+    """A call failed.
 
-    `status` is a Status; `field` is the name of the field at fault ("a.mass", "balls[3].state.r"),
-    None where no single one is to blame; `value` is the value of that field, None where nothing is
-    to be shown; `shot` is the Shot until then, where one ended in an error, or None.
+    Attributes
+    ----------
+    status : Status
+    field : str or None
+        The invalid field, such as "a.mass" or "balls[3].state.r"; None if it is not a single one.
+    value : object
+        The value of that field, or None.
+    shot : Shot or None
+        The shot up to the error, if a shot failed.
     """
 
     def __init__(
@@ -90,9 +96,7 @@ class CaromError(ValueError):
         super().__init__(where + self._text)
 
     def __reduce__(self) -> tuple[object, ...]:
-        """What pickle and the pools of multiprocessing make it of again; by default they would call
-        it with its sentence alone.
-        """
+        """For pickle and multiprocessing, which by default would pass only the message."""
         return (
             type(self),
             (self.status, self.field, self.value, self.shot, self._text),

@@ -1,6 +1,4 @@
-"""The built-in tables, `carom.tables.pool_9ft()`, and tables of any closed shape,
-`carom.tables.polygon(corners)`.
-"""
+"""Built-in tables, such as `carom.tables.pool_9ft()`, and `carom.tables.polygon(corners)`."""
 
 from __future__ import annotations
 
@@ -21,8 +19,9 @@ from carom._rows import (
     pointer,
     several,
     text_of,
+    unknown_name,
 )
-from carom.layouts import Table, radius_on, refuse_table
+from carom.layouts import TABLE_KINDS, Table, radius_on, refuse_table
 from carom.status import CaromError
 
 
@@ -31,17 +30,17 @@ _KEYS = {text_of(row.key): text_of(row.name) for row in _ROWS}
 
 
 def measures(table: str) -> dict[str, float]:
-    """The measures of a built-in table by its name, such as "pool_9ft": m, cuts in degrees.
+    """Return the measures of a built-in table by its name, such as "pool_9ft" or "9ft".
 
-    Each is an argument of that table's function.
+    Lengths are in m, cuts in degrees. Each measure is an argument of the table's function.
     """
     record = ffi.new("carom_measures *")
-    lib.carom_table_measures(choice(numbered("carom_table_kind"), table, "table"), record)
+    lib.carom_table_measures(choice(TABLE_KINDS, table, "table"), record)
     return {key: getattr(record, name) for key, name in _KEYS.items()}
 
 
 def _measured(name: str, changes: dict[str, float], record: Array) -> None:
-    """Fills the record of a built-in table some of whose measures are changed."""
+    """Fill the record of a built-in table with changed measures."""
     values, fault, text, keys = (
         measures(name),
         ffi.new("carom_table_fault *"),
@@ -51,8 +50,8 @@ def _measured(name: str, changes: dict[str, float], record: Array) -> None:
     radius = radius_on(numbered("carom_table_kind")[name])
     for key, value in changes.items():
         if key not in _KEYS:
-            raise TypeError(f"{key}: it is no measure of a table; there are {', '.join(keys)}")
-        values[key] = number(value, key, "a length in m, or degrees of a cut, is needed")
+            raise TypeError(unknown_name(f"carom.tables.{name}()", "measure", key, keys))
+        values[key] = number(value, key, "a length in m, or a cut in degrees")
     c_measures = ffi.new("carom_measures *", {_KEYS[key]: value for key, value in values.items()})
     code = lib.carom_table_measured(c_measures, radius, pointer("carom_table[]", record), fault)
     if fault.part.kind == lib.CAROM_PART_MEASURES:
@@ -81,7 +80,9 @@ def _maker(name: str) -> Callable[..., Table]:
         return Table.from_record(record)
 
     table, text = make(), text_of(lib.carom_word_text(lib.CAROM_WORDS_TABLE, kind))
-    advice = "Measures change it: corner=0.108 (m); carom.tables.measures() lists them."
+    advice = (
+        "Arguments change its measures, as in corner=0.108 (m); carom.tables.measures() lists them."
+    )
     return called(
         make,
         name,
@@ -108,36 +109,34 @@ def polygon(
     jaw_radius: float = 0.01,
     ball_radius: float = 0.028575,
 ) -> Table:
-    """A table of any closed shape, from its corners in the order of a walk around it.
+    """Make a table of any closed shape from its corners, in order around it.
 
     Parameters
     ----------
     corners : sequence of (x, y) or (x, y, mouth)
-        Places, m, from any origin, and the width of a pocket's mouth there, m. Without a mouth there
-        is no pocket. A corner on a straight side makes a side pocket. The table is moved so that its
-        least x and y are 0.
+        Positions, m, from any origin, and the width of a pocket's mouth there, m; without it there
+        is no pocket. A corner on a straight side makes a side pocket. The table is moved so that
+        its smallest x and y are 0.
     nose_height, jaw_radius, ball_radius : float
-        Of all noses, of the rounded ends of rails at pockets, and of the balls, m.
+        Height of all noses, radius of the jaws at pockets, and radius of the balls, m.
 
     Raises
     ------
     CaromError
-        The table is not closed, its middle has no room for a ball, or a number is out of range; its
-        `field` is the corner or the part, and the sentence says where.
+        The table is not closed, has no room for a ball at its middle, or a value is out of range.
+        `field` is the corner or the part.
     """
     rows = []
-    for k, corner in enumerate(
-        several(corners, "corners", "a list of (x, y) or (x, y, mouth) is needed")
-    ):
+    for k, corner in enumerate(several(corners, "corners", "a list of (x, y) or (x, y, mouth)")):
         rows.append(tuple(as_array(corner, f"corners[{k}]", np.float64).ravel().tolist()))
         if len(rows[k]) not in (2, 3):
             raise ValueError(
-                f"corners[{k}]: x, y and perhaps the mouth are needed, not {len(rows[k])} numbers"
+                f"corners[{k}]: there are {len(rows[k])} values; pass (x, y) or (x, y, mouth)"
             )
     if len(rows) < 3:
-        raise ValueError(f"corners: at least 3 are needed, not {len(rows)}")
+        raise ValueError(f"corners: there are {len(rows)}, but a table needs at least 3")
     nose_height, jaw_radius, ball_radius = (
-        number(size, name, "a length in m is needed")
+        number(size, name, "a length in m")
         for name, size in (
             ("nose_height", nose_height),
             ("jaw_radius", jaw_radius),

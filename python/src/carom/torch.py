@@ -1,23 +1,23 @@
-"""Whole shots as functions that PyTorch differentiates.
+"""Shots as functions that PyTorch differentiates.
 
     import torch
     import carom.torch
 
-    # (speed, phi) of the cue, m/s and degrees
+    # cue speed, m/s, and phi, degrees
     aim = torch.tensor([1.5, 79.0], dtype=torch.float64, requires_grad=True)
     ends = carom.torch.final(table, balls, cue, {"cue.speed": aim[0], "cue.phi": aim[1]})
     miss = ((ends.r[1] - goal) ** 2).sum()                                       # of ball 1, m^2
     miss.backward()
     aim.grad
 
-Shots are played and differentiated by C on the CPU: a call, or a function under `torch.func.vmap`,
-is one batch of `carom.simulate_batch`, or, where a number needs a gradient, one of
-`carom.jacobian`. `backward`, forward mode and `torch.func` use the Jacobian of `carom.tangents`,
-and second derivatives what `carom.hessian` finds, nan where that is; third ones are not known.
-`torch.compile` leaves shots as they are. docs/using/derivatives.md says what a derivative cannot
-tell: with `final(..., reach=True)` the result has its reach and its flags.
+C plays and differentiates the shots on the CPU. A call, or a function under `torch.func.vmap`, is
+one batch of `carom.simulate_batch`, or of `carom.jacobian` if a parameter requires a gradient.
+`backward`, forward mode and `torch.func` use the Jacobian of `carom.tangents`; second derivatives
+use `carom.hessian`, including its nan. There are no third derivatives. `torch.compile` does not
+compile shots. With `final(..., reach=True)` the result includes reach and flags, which limit a
+derivative (docs/using/derivatives.md).
 
-Its objects have no types here, so that carom can be checked without PyTorch.
+Objects of PyTorch have no types here, so that carom can be type-checked without it.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def _front(x: Any, dim: int | None, size: int) -> Any:
 
 
 def _forward_modes() -> int:
-    """How many of torch.func are around."""
+    """The number of enclosing forward modes of torch.func."""
     around = _torch._C._functorch
     return sum(
         level.key() == around.TransformType.Jvp for level in around.get_interpreter_stack() or ()
@@ -55,14 +55,14 @@ def _forward_modes() -> int:
 
 def _refuse(*_: Any) -> Any:
     raise NotImplementedError(
-        "carom.torch: third derivatives of shots are not known; torch.func.hessian and create_graph=True give second ones"
+        "carom.torch: shots have no third derivatives; torch.func.hessian and create_graph=True compute second derivatives"
     )
 
 
 class _Known(_torch.autograd.Function):
-    """A function of shots and their numbers (..., m).
+    """A function of shots and their parameters (..., m).
 
-    What differentiates it is another one, so that it can be differentiated in turn.
+    Its derivative is another such function, so that it can be differentiated again.
     """
 
     plain: Any = None
@@ -85,8 +85,8 @@ class _Known(_torch.autograd.Function):
 
 
 class _States(_Known):
-    """The final states (..., balls, STATE) with, where they are wanted at once, their derivatives
-    (..., balls, STATE, m); and reach and flags, where they are wanted.
+    """The final states (..., balls, STATE), with their derivatives (..., balls, STATE, m) if
+    requested, and with reach and flags if requested.
     """
 
     @staticmethod
@@ -113,7 +113,7 @@ class _States(_Known):
     def jvp(ctx: Any, _: Any, change: Any, __: Any) -> Any:
         if hasattr(_torch, "func") and _forward_modes() > 1:
             raise NotImplementedError(
-                "carom.torch: PyTorch loses derivatives in forward mode of forward mode: use torch.func.hessian, or jacrev twice"
+                "carom.torch: PyTorch loses derivatives in nested forward modes; use torch.func.hessian, or jacrev twice"
             )
         slopes = _Slopes.evaluate(ctx.shots, *ctx.saved_tensors[:2])
         change_of_states = _torch.einsum("...bsm,...m->...bs", slopes, change)
@@ -126,7 +126,7 @@ class _States(_Known):
 
 
 class _Slopes(_Known):
-    """The derivatives of the final states, given or not."""
+    """The derivatives of the final states, computed unless they are given."""
 
     @staticmethod
     def forward(shots: Any, x: Any, slopes: Any) -> Any:
@@ -191,8 +191,9 @@ class _Along(_Known):
 
 
 def _plain(kind: Any) -> Any:
-    """The same without setup_context, which PyTorch 1.13 does not know; and newer ones bind
-    arguments by name at each call with it.
+    """The same class without setup_context.
+
+    PyTorch 1.13 lacks it, and newer versions with it bind arguments by name at each call.
     """
 
     def forward(ctx: Any, *inputs: Any) -> Any:
@@ -280,30 +281,29 @@ def final(
     options: Options = Options(),
     **changes: Any,
 ) -> Final:
-    """The final states of shots, as a function of some of their numbers that PyTorch can
-    differentiate.
+    """Compute the final states of shots as a function that PyTorch can differentiate.
 
     Parameters
     ----------
     table, balls, cue
-        The shots, as for `carom.simulate_batch`, where `numbers` say nothing else. Leading
+        The shots, as for `carom.simulate_batch`; `numbers` overrides their fields. Leading
         dimensions of balls, cue and numbers are broadcast against each other.
     numbers : mapping of str to tensor or array_like
-        The numbers of the shots that take part in derivatives, by the names of `carom.tangents`:
-        "cue.phi", "kind.mu_slide" (of all balls), "balls[1].kind.mass" and "balls[0].r[1]" of shape
-        (...); "balls[0].r", "balls[0].v" (..., 2), "balls[0].w" (..., 3). Tensors of other types
-        and devices are converted to float64 on the CPU. Numbers of the table are left out, as a
-        batch has one table: the balls' own "kind.nose_height", "kind.mu_cushion" and
-        "kind.restitution_cushion" are used instead.
+        The parameters to differentiate by, with the names of `carom.tangents`: "cue.phi",
+        "kind.mu_slide" (all balls), "balls[1].kind.mass" and "balls[0].r[1]" of shape (...);
+        "balls[0].r", "balls[0].v" (..., 2), "balls[0].w" (..., 3). Tensors of other types and
+        devices are converted to float64 on the CPU. Parameters of the table are not available,
+        because a batch has one table; use "kind.nose_height", "kind.mu_cushion" and
+        "kind.restitution_cushion" instead.
     room : int
-        Events of a shot at most, where it is differentiated.
+        Largest number of events of a differentiated shot.
     errors : {"raise", "nan"}
-        What a shot in error gives: an exception, or nan, so that the other shots of a batch are not
-        lost.
+        Whether a failed shot raises an exception or returns nan, so that the rest of the batch is
+        kept.
     reach : bool
-        Whether the result has `reach` and `flags`, for which shots are differentiated at any rate.
+        Whether to compute `reach` and `flags`, for which shots are always differentiated.
     threads, options, **changes
-        As for `carom.simulate_batch`. With t_final the states are those at that time.
+        As for `carom.simulate_batch`. With t_final the states are the ones at that time.
 
     Returns
     -------
@@ -313,10 +313,10 @@ def final(
     Raises
     ------
     ValueError
-        A name or a shape is wrong.
+        A name or a shape is invalid.
     CaromError
-        A shot is refused, ends in an error or cannot be differentiated: its numbers, and what is
-        wrong with it.
+        A shot is invalid, fails, or cannot be differentiated; the message contains its parameters
+        and the reason.
     """
     play = _left_out if _compiling() or "torch._dynamo" in sys.modules else _play
     return play(table, balls, cue, numbers, room, errors, threads, options, changes, bool(reach))

@@ -209,7 +209,7 @@ def test_racks_and_tables_are_those_of_the_library():
 def test_what_is_not_installed_is_asked_for(module, use):
     absent = f"import sys; sys.modules['{module}'] = None"
     done = run_python("-c", f"{absent}; {use}", status=1)
-    assert f" needs {module}, which is not installed here: pip install {module}" in done.stderr
+    assert f" needs {module}, which is not installed: pip install {module}" in done.stderr
 
 
 def test_objects_are_made_of_plain_classes_alone():

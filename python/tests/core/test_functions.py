@@ -111,13 +111,25 @@ def test_shots_in_error_raise_or_are_nan():
 @pytest.mark.parametrize(
     ("numbers", "cue", "message"),
     [
-        ({"table.nose_height": 0.036}, CUE, "numbers: table.nose_height: a batch has one table"),
-        ({"cue.phi": 79.0}, None, "numbers: cue.phi: there is no cue"),
-        ({"balls[1].r": [0.6, 1.5, 0.0]}, CUE, r"numbers: balls\[1\].r: the shape must be"),
+        (
+            {"table.nose_height": 0.036},
+            CUE,
+            r"numbers: 'table\.nose_height' cannot differ within a batch, which has one table; use kind\.nose_height, kind\.mu_cushion or",
+        ),
+        (
+            {"cue.phi": 79.0},
+            None,
+            r"numbers: 'cue\.phi' is given, but there is no cue; pass cue=carom\.cue\(\)",
+        ),
+        (
+            {"balls[1].r": [0.6, 1.5, 0.0]},
+            CUE,
+            r"numbers: 'balls\[1\]\.r': the shape is \(3,\), but must be \(\.\.\., 2\)",
+        ),
     ],
 )
 def test_arguments_that_are_wrong(numbers, cue, message):
     with pytest.raises(ValueError, match=message):
         shots_and_numbers(numbers, cue=cue)
-    with pytest.raises(ValueError, match="errors: must be 'raise' or 'nan', not 'no'"):
+    with pytest.raises(ValueError, match="errors: unknown value 'no'; use 'raise' or 'nan'"):
         shots_and_numbers({"cue.phi": 79.0}, errors="no")

@@ -304,7 +304,10 @@ def test_tables_and_options_hash_and_compare():
     table = TABLE.changed(rails=rails)
     assert table != TABLE and (table.rails["restitution"] == 0.7).all()
     assert len({table, TABLE, carom.tables.snooker()}) == 3
-    with pytest.raises(TypeError, match="there is no 'rail'; known are width"):
+    with pytest.raises(
+        TypeError,
+        match=r"table: unknown parameter 'rail'; did you mean 'rails'\? Use width, length, ball_radius, rail_width, pocket_back, slope_x, slope_y,",
+    ):
         TABLE.changed(rail=rails)
     # -0.0 equals 0.0
     minus = TABLE.changed(jaws=TABLE.jaws, pockets=TABLE.pockets, rail_width=-0.0)

@@ -150,7 +150,10 @@ def test_shots_that_were_changed_are_not_played_again():
     cues = carom.cue(speed=[8.0, 8.0], phi=[89.0, 90.0])
     shots = carom.simulate_batch(TABLE, RACK, cues)
     cues["speed"][0] = 7.0
-    with pytest.raises(ValueError, match="layouts, cues: they were changed"):
+    with pytest.raises(
+        ValueError,
+        match=r"layouts, cues: changed since the shots were played, so the shots cannot be played again; simulate_batch\(room=\.\.\.\) keeps their",
+    ):
         shots.positions(1.0)
     assert np.isfinite(shots[1:2].positions(1.0)).all()
 
@@ -336,7 +339,9 @@ def test_shots_that_are_stopped():
         and same_bits(end.final, whole.final)
     )
     assert np.array_equal(carom.resume(resumed).events, whole.events)
-    with pytest.raises(ValueError, match="t_final: it must not be before 1.5 s"):
+    with pytest.raises(
+        ValueError, match=r"t_final: 1\.0 s is before 1\.5 s, when the shot stopped"
+    ):
         carom.resume(shot, t_final=1.0)
     # A shot that ends before t_final is no other than without it.
     assert carom.simulate(TABLE, RACK, cue, t_final=900.0).status is carom.Status.OK
@@ -566,16 +571,16 @@ def test_pictures():
     name = "{http://www.w3.org/2000/svg}"
     still = ElementTree.fromstring(shot._repr_svg_())
     moved = int((np.abs(shot.final["r"] - shot.balls["state"]["r"]).max(axis=-1) > 1e-3).sum())
-    lines = [
-        line for line in still.iter(name + "polyline") if line.get("stroke") not in ("#1b5e42",)
-    ]
+    # Noses of cushions have round ends, and paths have none.
+    lines = [line for line in still.iter(name + "polyline") if not line.get("stroke-linecap")]
     assert len(lines) >= moved > 3
     assert len(list(still.iter(name + "circle"))) == len(TABLE.pockets) + len(TABLE.jaws) + 20
-    # A long table lies on its side, and every ball but the cue ball has its number.
+    # A long table lies on its side. Circles are where the balls begin; where they end, every ball
+    # but the cue ball has its number.
     assert float(still.get("width")) > float(still.get("height"))
     balls = [part for part in still.iter(name + "g")]
-    assert [[text.text for text in ball.iter(name + "text")] for ball in balls] == 2 * [
-        [],
+    assert [[text.text for text in ball.iter(name + "text")] for ball in balls] == [
+        *([] for _ in range(11)),
         *([str(k)] for k in range(1, 10)),
     ]
     # The balls of the moving picture go from where they lie in the still one to where they end
@@ -627,7 +632,7 @@ def test_tables_are_checked():
     holed = whole.changed(rails=rails)
     with pytest.raises(
         carom.CaromError,
-        match=r"table\.rails\[\d\]: .* \(at x = .* m wide, beside table\.rails\[\d\]\)",
+        match=r"table\.rails\[0\]: a ball can leave the table between two of its parts, or there is no room for a ball on it \(at x = 0\.71 m, y = 1\.42 m,",
     ) as caught:
         holed.check(0.0307)
     assert caught.value.status is carom.Status.ERROR_TABLE_OPEN
@@ -715,7 +720,10 @@ def test_a_batch_as_a_frame(breaks):
     assert (shots[0].to_dataframe().index.name, frame.index.name) == ("event", "shot")
     assert list(grid.to_dataframe().index.names) == ["shot_0", "shot_1"]
     assert list(grid.to_dataframe(["speed", "phi"]).index.names) == ["speed", "phi"]
-    with pytest.raises(ValueError, match="^dims: 2 different names are needed"):
+    with pytest.raises(
+        ValueError,
+        match=r"^dims: \('speed',\) are not 2 different names other than ball, axis and met",
+    ):
         grid.to_dataframe(["speed"])
 
 

@@ -191,9 +191,9 @@ def test_corners_by_hand(snooker):
     found = film.track(snooker.path, "snooker", corners=careless, end=0.8)
     eye = np.linalg.norm(found.camera.eye - snooker.scene.eye)
     assert eye < 0.06, eye
-    with pytest.raises(ValueError, match="corners: they must be those of .* counterclockwise"):
+    with pytest.raises(ValueError, match="corners: not counterclockwise in the frame"):
         film.track(snooker.path, "snooker", corners=pixels[::-1])
-    with pytest.raises(ValueError, match="corners: four pixels x,y"):
+    with pytest.raises(ValueError, match="corners: the shape is .*four finite pixels x,y"):
         film.track(snooker.path, "snooker", corners=pixels[:3])
     with pytest.raises(film.FilmError, match="given corners"):
         film.track(snooker.path, "snooker", corners=pixels * 0.25 + [900, 0], end=0.3)
@@ -234,9 +234,9 @@ def test_refusals(snooker, tmp_path):
     assert str(missing) in error(missing)
     text = tmp_path / "text.mp4"
     text.write_text("no film\n")
-    assert f"{text}: no picture can be read; a film is needed" in error(text)
-    assert "a pixel x,y is needed" in error(snooker.path, "--corners", "1,2", "3,4", "5,6", "7")
-    assert "no picture lies between 90" in error(snooker.path, "--start", "90")
+    assert f"{text}: no frame can be read; use a film" in error(text)
+    assert "is not a pixel; use x,y" in error(snooker.path, "--corners", "1,2", "3,4", "5,6", "7")
+    assert "no frame between 90" in error(snooker.path, "--start", "90")
     grey = tmp_path / "grey.avi"
     writer = cv2.VideoWriter(str(grey), cv2.VideoWriter_fourcc(*"MJPG"), 30, (320, 240))
     for _ in range(10):

@@ -46,7 +46,7 @@ def test_ways_to_score_and_to_a_place():
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"goal": "win"}, "goal: must be one of 'pot', 'score', 'place'"),
+        ({"goal": "win"}, "goal: unknown value 'win'.*'pot', 'score'"),
         ({"goal": "place"}, "place: the goal"),
         ({"ball": 3}, "ball: .* 0 to 2"),
         ({"pocket": "middle"}, "pocket: unknown pocket 'middle'; use one of .*foot-left"),
@@ -87,7 +87,7 @@ def test_breaks():
         "snooker", snooker, carom.racks.snooker(snooker), carom.cue(speed=3.0), racks=2
     )
     assert other.fell.shape == (22, 6)
-    with pytest.raises(ValueError, match="aim: must be one of 'full', 'direction', 'cut'"):
+    with pytest.raises(ValueError, match="aim: unknown value 'x'.*'full', 'direction'"):
         carom.breaks("nineball", TABLE, rack, aim="x")
     with pytest.raises(ValueError, match="racks: "):
         carom.breaks("nineball", TABLE, rack, racks=0)

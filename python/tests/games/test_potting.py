@@ -227,12 +227,12 @@ def test_random_parameters_ball_sets_and_rewards():
 @pytest.mark.parametrize(
     ("action", "message"),
     [
-        ("hit", "real numbers are needed, not 'hit'"),
-        (np.zeros((2, 4)), r"the shape must be \(4,\), not \(2, 4\)"),
-        ([0, 0, 0], r"the shape must be \(4,\), not \(3,\)"),
-        ([5, 0, 0, 0], r"each number must be from -1 to 1, not 5, which is at \[0\]"),
-        ([0, 0, 0, np.nan], r"each number must be from -1 to 1, not nan, which is at \[3\]"),
-        (None, "real numbers are needed, not None"),
+        ("hit", "'hit' does not consist of real numbers"),
+        (np.zeros((2, 4)), r"the shape is \(2, 4\), but must be \(4,\)"),
+        ([0, 0, 0], r"the shape is \(3,\), but must be \(4,\)"),
+        ([5, 0, 0, 0], r"5, at \[0\], is not from -1 to 1"),
+        ([0, 0, 0, np.nan], r"nan, at \[3\], is not from -1 to 1"),
+        (None, "None does not consist of real numbers"),
     ],
 )
 def test_an_action_outside_of_its_space_says_what_is_right(gymnasium, action, message):
@@ -297,7 +297,10 @@ def test_games_that_have_ended(gymnasium, mode):
         same_infos(found[4], expected[4])
         ends += int(found[2].sum())
         if mode == "Disabled" and found[2].any():
-            with pytest.raises(gymnasium.error.ResetNeeded, match="have ended: reset"):
+            with pytest.raises(
+                gymnasium.error.ResetNeeded,
+                match=r"games \[.*\] have ended; call reset\(options=\{'reset_mask': ended\}\) to restart them",
+            ):
                 many.step(actions)
             options = {"reset_mask": found[2]}
             begun = many.reset(options=dict(options))[0]
@@ -325,7 +328,7 @@ REFUSALS = [
     (
         lambda: carom.gymnasium.GameVectorEnv(2, autoreset_mode="later"),
         ValueError,
-        "autoreset_mode: must be one of 'NextStep', 'SameStep'",
+        "autoreset_mode: unknown value 'later'; use 'NextStep', 'SameStep' or 'Disabled'",
     ),
     (
         lambda: carom.gymnasium.GameEnv(render_mode="human"),
@@ -335,27 +338,31 @@ REFUSALS = [
     (
         lambda: carom.gymnasium.GameEnv("threecushion", table=carom.tables.pool_9ft()),
         ValueError,
-        ".*must have no pockets",
+        "table: it has pockets; this game needs a table without them",
     ),
     (
         lambda: carom.gymnasium.GameEnv("nineball", strokes=30).reset(
             options={"layout": np.zeros((10, 2))}
         ),
         ValueError,
-        "layout: a match begins|strokes: must be 1 to 30",
+        "layout: a match begins|strokes: 31 is not 1 to 30, the number of the environment",
     ),
     (
         lambda: carom.gymnasium.GameEnv("nineball", strokes=30).reset(options={"strokes": 31}),
         ValueError,
-        "layout: a match begins|strokes: must be 1 to 30",
+        "layout: a match begins|strokes: 31 is not 1 to 30, the number of the environment",
     ),
-    (lambda: carom.gymnasium.GameEnv("snooker"), ValueError, "game: must be one of 'potting'"),
+    (
+        lambda: carom.gymnasium.GameEnv("snooker"),
+        ValueError,
+        "game: unknown value 'snooker'; use 'potting', 'threecushion', 'break', 'nineball' or 'eightball'",
+    ),
     (lambda: Match(opponent_shots=0), ValueError, "opponent_shots"),
     *(
         (
             lambda game=game: carom.gymnasium.GameVectorEnv(2, game, threads=2),
             TypeError,
-            "threads: matches are played one after another",
+            r'threads: matches are played sequentially; omit threads, or use gymnasium\.make_vec\(id, games, vectorization_mode="async"\) for',
         )
         for game in ("nineball", "eightball")
     ),
@@ -363,7 +370,7 @@ REFUSALS = [
         (
             lambda mask=mask: carom.gymnasium.GameVectorEnv(2).reset(options={"reset_mask": mask}),
             ValueError,
-            r".*reset_mask: an array of bool of shape \(2,\)",
+            r".*reset_mask: .*, but must be bool of shape \(2,\)",
         )
         for mask in ([True], np.zeros(2, bool), np.ones(2), np.ones((2, 1), bool))
     ),
@@ -493,18 +500,18 @@ def test_reset_options(gymnasium):
     with pytest.raises(gymnasium.error.ResetNeeded):
         env.step(action)
     for options, words in (
-        ({"strokes": 7}, "strokes: must be 1 to 6"),
-        ({"ball": 3}, "'layout' and 'strokes' are known, not 'ball'"),
-        ({"layout": centres[:2]}, r"layout: the shape must be \(3, 2\)"),
+        ({"strokes": 7}, "strokes: 7 is not 1 to 6, the number of the environment"),
+        ({"ball": 3}, "unknown option 'ball'; use layout or strokes"),
+        ({"layout": centres[:2]}, r"layout: the shape is \(2, 2\), but must be \(3, 2\)"),
     ):
         with pytest.raises(ValueError, match=words):
             env.reset(options=options)
     envs = gymnasium.make_vec("carom/Potting-v1", num_envs=2, balls=2, strokes=6)
     seen, _ = envs.reset(seed=1, options={"layout": np.stack([centres, centres + 0.01])})
     assert_array_equal(seen[1, :2], centres[0] + 0.01)
-    with pytest.raises(ValueError, match="layout: one or 2 are needed, not 3"):
+    with pytest.raises(ValueError, match="layout: there are 3 layouts for 2 games"):
         envs.reset(options={"layout": np.stack([centres] * 3)})
-    with pytest.raises(ValueError, match=r"actions: the shape must be \(2, 4\)"):
+    with pytest.raises(ValueError, match=r"actions: the shape is .*, but must be \(2, 4\)"):
         envs.step(np.zeros((3, 4)))
 
 
@@ -547,8 +554,8 @@ def test_pictures(gymnasium):
     images.step(np.full((2, 4), 0.3))
     for still_picture, picture in zip(still, images.render()):
         assert still_picture.dtype == np.uint8 and still_picture.shape == picture.shape == (
-            484,
-            864,
+            490,
+            872,
             3,
         )
         # the cue ball is white where it lay, and elsewhere afterwards

@@ -65,8 +65,13 @@ def test_a_forged_stroke_ends_otherwise():
 @pytest.mark.parametrize(
     ("what", "instead", "status", "message"),
     [
-        ('"revision":', '"revision":9', "ERROR_REVISION", "line 1: the recording is of revision 9"),
-        ('"phi":', '"phy":', "ERROR_RECORD", "line 6: shot.phy is no key of the format"),
+        (
+            '"revision":',
+            '"revision":9',
+            "ERROR_REVISION",
+            "line 1: the recording was made with physics revision 924, not 24; its shots have other bits here",
+        ),
+        ('"phi":', '"phy":', "ERROR_RECORD", "line 6: shot.phy is not a key of the format"),
         ('{"end"', "", "ERROR_RECORD", "line 12"),
     ],
 )
@@ -79,7 +84,10 @@ def test_what_is_refused(what, instead, status, message):
 
 def test_nothing_follows_the_end():
     game = a_game()
-    with pytest.raises(carom.CaromError, match="cut off"):
+    with pytest.raises(
+        carom.CaromError,
+        match=r'line 11: the recording is truncated: there is no line \{"end": \.\.\.\}',
+    ):
         list(replay(game.lines))
     lines = len(game.lines)
     game.end()

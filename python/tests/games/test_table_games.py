@@ -96,9 +96,9 @@ def test_other_games_are_a_parameter(rules):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"rules": "chess"}, "rules: must be one of "),
+        ({"rules": "chess"}, "rules: unknown value 'chess'"),
         ({"rules": "cutthroat"}, "rules: 'cutthroat' is not a game of two sides"),
-        ({"reward": "fun"}, "reward: must be one of 'win', 'points'"),
+        ({"reward": "fun"}, "reward: unknown value 'fun'.*'win'"),
         ({"opponent_shots": 99}, "opponent_shots: "),
         ({"target": 0}, "target: "),
         ({"strokes": 0}, "strokes: "),

@@ -73,7 +73,9 @@ def test_designed_shots_tell_it(few):
     low, high = whole.intervals["mu_spin"]
     true = float(carom.balls([[0.3, 0.3]], game="snooker")["kind"]["mu_spin"][0])
     assert low - 2e-4 < true < high + 2e-4
-    with pytest.raises(ValueError, match="^design: whole shots told no constants"):
+    with pytest.raises(
+        ValueError, match="^design: this fit determined no constants from complete shots"
+    ):
         of(few.recordings, "none").design()
 
 

@@ -215,7 +215,7 @@ shot,ball,t,x,y
 1,cue,0,0.5,2.5
 1,cue,0.04,1.3,2.6
 """,
-        error="a.csv: the places fit a table of 1.42 x 2.84 m: are the table's extents in the order of x and y",
+        error="a.csv: the positions fit a table of 1.42 x 2.84 m; pass the table's extents in the order of x and y",
         options={"table": (2.84, 1.42), "radius": 0.03},
     ),
     "along_the_table_of_a_word": Case(
@@ -245,14 +245,14 @@ shot,ball,t,x,y
 shot,ball,t,x_px,y_px
 1,cue,0,900,700
 """,
-        error="places are in pixels: corners says where the table lies",
+        error="positions are in pixels; pass corners, the positions of the table's corners",
         options={"table": (2.84, 1.42)},
     ),
     "no_titles": Case(
         """\
 1,cue,0,0.5,0.5
 """,
-        error="line 1: '1,cue,0,0.5,0.5' names no columns of places and times; a line must name .* shot,ball,t,x,y",
+        error="line 1: '1,cue,0,0.5,0.5' names no columns of positions and times; a line must name .* shot,ball,t,x,y",
     ),
     "nothing": Case(
         "",

@@ -131,7 +131,7 @@ def test_a_recording_without_motion_has_no_strike():
     still = np.array([[0.0, 1.0, 0.5], [2.0, 1.001, 0.5]])
     with pytest.raises(tracks.TrackError, match="shot 7: no ball moves by more than 3 mm"):
         _ = tracks.Recording(7, (1,), (still,)).cue
-    with pytest.raises(ValueError, match="there is no constant 'mu'; known are"):
+    with pytest.raises(ValueError, match="unknown constant 'mu'; did you mean 'mu_slide'"):
         synthetic(1, constants={"mu": 0.2})
 
 

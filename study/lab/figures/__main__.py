@@ -1,7 +1,7 @@
 """The figures of the docs beyond the study: `tools/python -m study.lab.figures DIR` computes their CSV
 files in DIR/data and draws them in DIR. What is computed does not depend on the machine.
 
-Batches are measured, and so only with --budget. What `carom` draws itself stands in
+Batches are measured, and so only with --budget. What `carom` draws itself is in
 docs/figures/made.csv.
 """
 
@@ -140,7 +140,8 @@ def jumps(rows, radius):
 
 
 def measure(options):
-    """The CSV files of MEASURED, an equal share of the budget for each; False where one fails."""
+    """The CSV files of MEASURED, an equal fraction of the budget for each; False where one
+    fails."""
     for name, (_, command) in MEASURED.items():
         target = options.folder / f"{name}.csv"
         share = f"{options.budget / len(MEASURED):.4g}"

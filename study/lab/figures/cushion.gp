@@ -3,7 +3,7 @@ width = 1080; height = 470
 call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../../command/figures/style.gp" ARG1 ARG2 ARG3
 unset title
 of(name, x) = strcol("what") eq name ? x : NaN
-left(k) = 0.065 + 0.34 * (k - 1)
+left(k) = 0.08 + 0.33 * (k - 1)
 panel = "set lmargin at screen left(k); set rmargin at screen left(k) + 0.24; set label 2 panel_title at graph 0.5, graph 1.05 center font ',13' textcolor rgb ink"
 set tmargin at screen 0.82; set bmargin at screen 0.30
 set multiplot

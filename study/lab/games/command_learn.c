@@ -1,15 +1,14 @@
 /* `carom-lab learn`: a row of games/ratings/learned.h, fitted to racks that are played.
  *
  * A rack begins after a break, with some balls taken away, and is played until the turn ends and
- * once more by the other, by players whose errors are drawn. Of each layout on the way the sample
- * has x, as carom_plan_features() tells it, and what came of it. Three logistic regressions by
- * maximum likelihood follow, by Newton's method: of whether the turn was kept; of each later stroke
- * of the visit, by the mean of each layout before it; and of whether the other kept the turn that
- * was left to him. In straight pool and snooker the break is as hard as in eight-ball, and in a
- * quarter of the racks of snooker no red is left, in a quarter a colour is on after a red. Where
- * balls count for each player it is gentle or hard, and those that are down are shared out at
- * random. A game in which any ball may be struck is played as a match, of which all visits are
- * looked at.
+ * once more by the other, by players whose errors are drawn. For each layout on the way the sample
+ * has x, from carom_plan_features(), and the result. Three logistic regressions by maximum
+ * likelihood follow, by Newton's method: of whether the turn was kept; of each later stroke of the
+ * visit, by the mean of each layout before it; and of whether the other kept the turn that was left
+ * to him. In straight pool and snooker the break is as hard as in eight-ball, and in a quarter of
+ * the racks of snooker no red is left, in a quarter a colour is on after a red. Where balls count
+ * for each player it is gentle or hard, and those that are down are shared out at random. A game in
+ * which any ball may be struck is played as a match, of which all visits are looked at.
  */
 #include "program/command.h"
 #include "program/memory.h"
@@ -306,7 +305,7 @@ static size_t play_some(const void *context, size_t start, size_t end) {
 
 /* ---- The fit */
 
-/* Solves H d = g for a positive definite H by Gauss's method; d comes in the place of g. */
+/* Solves H d = g for a positive definite H by Gauss's method; d replaces g. */
 static void solve(int n, double H[][NEXT_NUMBERS], double *g) {
   for (int i = 0; i < n; i++)
     for (int k = i + 1; k < n; k++) {

@@ -1,7 +1,7 @@
 /* `carom-lab plan`: how strong the planner is. Racks after a break that pots nothing, run out from
- * ball in hand by a player who errs, or played to the end by two; and how often shots come off
- * and games are won beside the chances that were predicted for them. Of games of points also how
- * many a visit makes. */
+ * ball in hand by a player with errors, or played to the end by two; and how often shots succeed
+ * and games are won compared with the predicted chances. Of games of points also how many a visit
+ * makes. */
 #include "comparison.h"
 #include "game/ratings.h"
 #include "pot_kind.h"
@@ -34,12 +34,12 @@ FLAG(strength_job, option_games, "games", games,
      "two players play each rack to the end; report the chances to win");
 
 OPTION(strength_job, option_players, "players", rating, "A,B", set_ratings, 0,
-       "play matches of two players of these ratings, who break in turn; report how many the first "
-       "one wins");
+       "play matches of two players of these ratings, who break alternately; report how many the "
+       "first one wins");
 FLAG(strength_job, option_told, "told", told,
-     "with --players: they plan with --shots, see places of balls with errors and never think of "
-     "pots alone; report by kind of stroke the chances to play on, to foul, to lose at once and to "
-     "win that plans predict, beside what came; without --rules, of every game");
+     "with --players: they plan with --shots, see positions of balls with errors and never "
+     "consider only pots; report by kind of stroke the predicted chances to play on, to foul, to "
+     "lose at once and to win, next to the results; without --rules, for every game");
 FLAG(strength_job, option_run_out, "run-out", run_out, "plan to run out");
 OPTION(strength_job, option_racks, "racks", racks, "N", set_count, 1,
        "number of racks to play (default 100)");
@@ -59,8 +59,8 @@ OPTION(strength_job, option_left, "left", left, "N", set_count, 1,
        "balls");
 
 OPTION(strength_job, option_target, "target", target, "N", set_count, 1,
-       "points that win: in straight pool (default 100), and of the matches of --players (default: "
-       "those of the game)");
+       "points that win: in straight pool (default 100), and in the matches of --players (default: "
+       "the usual target of the game)");
 
 typedef struct tally {
   long racks, wins, strokes, pots, plans, fouls, visits;
@@ -109,7 +109,7 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
     sums->seconds += 1e-9 * (processor_ns() - begin);
     sums->plans++;
 
-    /* what was predicted beside what came */
+    /* predictions compared with results */
     visit += turn.points;
     if (turn.outcome != CAROM_TURN_KEEP) {
       sums->visits++;
@@ -219,7 +219,7 @@ static int play_ratings(const strength_job *job) {
   bool plays = true;
   for (int k = 0; plays && carom_rules_about_of((carom_rules_kind)k) != NULL; k++) {
     wanted.rules = (carom_rules_kind)k;
-    plays = k == CAROM_RULES_POTTING || lab_play_told(&wanted); /* one player alone pots */
+    plays = k == CAROM_RULES_POTTING || lab_play_told(&wanted); /* a single player pots */
   }
   return plays ? EXIT_GOOD : EXIT_USAGE;
 }
@@ -230,8 +230,9 @@ static const command_form form = {
     .about =
         "Plays racks with plans. A player who makes errors tries to run out each rack, from ball "
         "in hand after a break that potted nothing. Reports how many racks are run out, and how "
-        "often shots keep the turn, beside the predicted chance. With --games each rack is played "
-        "to the end, and the predicted chances to win stand beside the share of games won.\n",
+        "often shots keep the turn, next to the predicted chance. With --games each rack is played "
+        "to the end, and the report compares the predicted chances to win with the fraction of "
+        "games won.\n",
     .options =
         (const option_row *const[]){&option_rules, &option_games, &option_players, &option_told,
                                     &option_run_out, &option_left, &option_target, &option_racks,

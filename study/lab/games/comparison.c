@@ -1,4 +1,4 @@
-/* Chances beside what came of them. */
+/* Chances compared with their results. */
 #include "comparison.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Games that are played by plans of players who err: racks after a break, and their strokes. */
+/* Games that are played by plans of players with errors: racks after a break, and their strokes. */
 #ifndef CAROM_LAB_RACK_PLAY_H
 #define CAROM_LAB_RACK_PLAY_H
 
@@ -34,12 +34,12 @@ void lab_rack_begin(lab_rack *rack, carom_rules_kind game, double errors);
 /* The layout after the first break of a seed that pots nothing, with the cue ball in hand. Of games
  * whose break is a stroke like others the rack before it. */
 void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed);
-/* An end game in its place: so many solids, one stripe more, and the eight, or the last balls of
- * nine-ball, at random places; the cue ball is not in hand. */
+/* An end game in place: so many solids, one stripe more, and the eight, or the last balls of
+ * nine-ball, at random positions; the cue ball is not in hand. */
 void lab_rack_end(lab_rack *rack, int left);
-/* One stroke by a plan. Gives the choice and the turn; where neither has won, the rack is that of
- * the next stroke, of the other player after a CAROM_TURN_PASS. False: the plan was refused, which
- * is told. */
+/* One stroke by a plan. Returns the choice and the turn; if neither has won, the rack is ready for
+ * the next stroke, of the other player after a CAROM_TURN_PASS. False: the plan was rejected, which
+ * is printed. */
 bool lab_rack_stroke(lab_rack *rack, carom_plan_stroke *choice, carom_turn *turn);
 
 #endif

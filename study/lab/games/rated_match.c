@@ -1,7 +1,7 @@
-/* Matches of two rated players: the share that the first one wins, beside the share that is due,
- * 1/(1 + 2^((d - r)/100)) of a player of rating r against one of rating d. Both play as
- * carom_match_plan() lets the seat of a rating play. They break in turn, and match k has seeds of
- * its own, so that no result depends on the number of threads. */
+/* Matches of two rated players: the share that the first one wins, compared with the share that is
+ * due, 1/(1 + 2^((d - r)/100)) of a player of rating r against one of rating d. Both play as
+ * carom_match_plan() lets the seat of a rating play. They break alternately, and match k has its
+ * own seeds, so that no result depends on the number of threads. */
 #include "rated_match.h"
 
 #include "comparison.h"
@@ -34,7 +34,7 @@ void lab_interval(double wins, double count, double bounds[2]) {
   bounds[1] = middle + half;
 }
 
-/* A stroke of a match: the side that played it, and its chances beside what came. */
+/* A stroke of a match: the side that played it, and its chances compared with the result. */
 typedef struct told_stroke {
   int side, kind;
   double told[CHANCES], came[CHANCES];
@@ -212,7 +212,7 @@ bool lab_play_ratings(const lab_ratings *wanted) {
   }
   progress_clear();
 
-  /* the share of the first player, and what is due */
+  /* the fraction of the first player, and what is due */
   const double count = wanted->matches, *rating = wanted->rating;
   const double due = 1.0 / (1.0 + exp2(0.01 * (rating[1] - rating[0])));
   double bounds[2];
@@ -232,7 +232,7 @@ static void print_told(const lab_ratings *wanted, int kind, const lab_comparison
   if (kind < CAROM_PLAN_KINDS)
     name = carom_plan_kind_name((carom_plan_kind)kind);
   const bool is_alone = carom_plan_rules_of(wanted->rules).race == CAROM_RACE_ALONE;
-  const int chances_told = is_alone ? WIN : CHANCES; /* who is alone plays for points */
+  const int chances_told = is_alone ? WIN : CHANCES; /* a single player plays for points */
   for (int k = 0; k < chances_told && rows[k].strokes > 0; k++) {
     const double n = (double)rows[k].strokes;
     printf("%s,%s,%s,%ld,%.3f,%.3f,%+.3f,%.3f\n", carom_word(CAROM_WORDS_RULES, (int)wanted->rules),

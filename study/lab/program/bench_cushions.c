@@ -1,8 +1,9 @@
-/* `carom-lab bench --cushions`: single impacts on a cushion by each model, beside Han's.
+/* `carom-lab bench --cushions`: single impacts on a cushion by each model, compared with Han's.
  *
  * All models meet the same 512 random impacts of play. One is timed if it resolves all of them and
- * none gains energy. The ratio to Han is that of the same round, so what disturbs the machine for
- * longer than a round meets both; its spread is over the rounds. The clock is the processor's. */
+ * none gains energy. The ratio to Han is taken within the same round, so what disturbs the machine
+ * for longer than a round meets both; its spread is over the rounds. The clock is the
+ * processor's. */
 #include "bench_job.h"
 #include "machine.h"
 #include "program/program.h"

@@ -1,9 +1,9 @@
-/* `carom-lab bench --shots`: whole shots, beside the time that pooltool took for each.
+/* `carom-lab bench --shots`: complete shots, compared with the time that pooltool took for each.
  *
  * A subject of the engine is one shot, nothing kept of its events; with threads, a batch of
  * 64 copies of it for each. What is timed has been played once before: a shot that
  * ends in error, or by pooltool's models with another number of events than recorded, is
- * refused. With one thread the clock is the processor's time, which other programs disturb
+ * rejected. With one thread the clock is the processor's time, which other programs disturb
  * least, as pooltool's was taken. */
 #include "bench_job.h"
 #include "machine.h"

@@ -1,5 +1,5 @@
-/* `carom-lab published`: study/lab/published.py, which sets the values of data/measured.csv beside
- * those of carom, and study/lab/film.py, which does so with filmed shots. It reads carom's headers
+/* `carom-lab published`: study/lab/published.py, which compares the values of data/measured.csv
+ * with carom's, and study/lab/film.py, which does so with filmed shots. It reads carom's headers
  * and calls the shared library. */
 #include "program/program.h"
 #include "python.h"
@@ -19,20 +19,21 @@ FLAG(published_job, published_cushions, "cushions", cushions,
      "instead: tables of the cushions of pool and snooker (study/lab/cushions.py), which take a "
      "minute");
 
-OPTION(published_job, published_film, "film", film, "FILM.csv", set_text, 0,
-       "instead: filmed shots, rows shot,ball,t,x,y (data/README.md), beside those of carom, and "
-       "what they tell of the numbers of snooker (study/lab/film.py); half a minute for 21 shots");
+OPTION(
+    published_job, published_film, "film", film, "FILM.csv", set_text, 0,
+    "instead: filmed shots, rows shot,ball,t,x,y (data/README.md), compared with carom's, and the "
+    "constants of snooker that they determine (study/lab/film.py); half a minute for 21 shots");
 
 static const command_form form = {
     .name = "published",
     .usage = "[OPTIONS]",
-    .about = "Prints values that others measured or stated (data/measured.csv) beside those that "
-             "carom computes. The verdict is low or high if carom's value lies outside the bounds "
-             "of the source. A share of breaks is counted in 1600 breaks, and its standard error "
-             "stands beside it. docs/understanding/published.md explains the table.\n",
+    .about = "Prints values that others measured or stated (data/measured.csv) next to carom's "
+             "values. The verdict is low or high if carom's value is outside the bounds of the "
+             "source. A fraction of breaks is counted in 1600 breaks, and has its standard error. "
+             "docs/understanding/published.md explains the table.\n",
     .options = (const option_row *const[]){&option_data, &published_csv, &published_cushions,
                                            &published_film, &option_output, NULL},
-    .details = "exit code: 0; 1 if a value that measured.csv calls ok lies outside its bounds; 2 "
+    .details = "exit code: 0; 1 if a value that measured.csv calls ok is outside its bounds; 2 "
                "for bad usage or unreadable data\n",
     .example = "carom-lab published --csv -o published.csv",
 };

@@ -40,15 +40,15 @@ typedef struct stress_job {
  * reference, and those left to the precise solver. */
 enum { ROWS, OVER_1E6, OVER_1E5, OVER_2E5, UNRESOLVED, NOT_TAKEN, LEFT_OUT, SLOW, COUNTS };
 
-/* Rows of one group, solved in one way. Errors are those of rows with status ok that could be
+/* Rows of one group, solved in one way. Errors are over the rows with status ok that could be
  * compared. */
 typedef struct tally {
   long count[COUNTS], histogram[DECADES * PER_DECADE];
   double largest, largest_of_play, worst_share;
-  uint64_t worst; /* number of the draw whose error is the largest share of its bound */
+  uint64_t worst; /* number of the draw whose error is the largest fraction of its bound */
 } tally;
 
-/* One run, or a thread's part of it. */
+/* One run, or a thread's portion of it. */
 typedef struct stress {
   draw_kind kind;
   uint64_t seed, draws;   /* draws of each group */
@@ -85,7 +85,7 @@ static void count(tally *t, double error, bool of_play, uint64_t k) {
   t->histogram[(int)fmin(place, DECADES * PER_DECADE - 1)]++;
 }
 
-/* The error that so large a share of the rows do not exceed. */
+/* The error that so large a fraction of the rows do not exceed. */
 static double quantile(const tally *t, double share) {
   long below = 0;
   for (int k = 0; k < DECADES * PER_DECADE; k++)
@@ -118,7 +118,7 @@ static void add(stress *sum, const stress *part) {
 /* ---- One impact */
 
 /* Largest difference, over the largest speed of centres and surfaces: that after the impact, or
- * 1e-9 of that before, where balls come to rest but for rounding. */
+ * 1e-9 of that before, where balls stop but for rounding. */
 static double apart(const drawn *c, const outcome *a, const outcome *b) {
   if (c->cushion)
     return cushion_distance(&c->rail, &a->rail, &b->rail);
@@ -219,7 +219,7 @@ static void compare_single(stress *s, int group, const drawn *c, const carom_imp
 
 /* ---- Blocks of impacts, in threads */
 
-/* The batch of those collisions of a block that have this slip, beside single calls. */
+/* The batch of those collisions of a block that have this slip, compared with single calls. */
 static void run_batch(stress *s, int group, carom_slip slip, const drawn *block, size_t count) {
   const carom_options options = {.slip = slip, .threads = 1};
   static _Thread_local carom_impact in[BLOCK];
@@ -364,7 +364,7 @@ OPTION(stress_job, option_kind, "kind", kind, DRAW_KIND_NAMES, set_choice, 0,
        "realistic: collisions of play (default); regimes: the special cases of the tests; extreme: "
        "everything that carom accepts");
 OPTION(stress_job, option_cushions, "cushion", cushions, "N", set_count, 1,
-       "instead: number of impacts on a cushion of each kind, those of play and any");
+       "instead: number of impacts on a cushion of each kind, impacts of play and arbitrary ones");
 OPTION(stress_job, option_coincidences, "coincidences", coincidences, "N", set_count, 1,
        "instead: number of impacts of each kind of coincidence, of two balls and on a cushion: "
        "numbers that are exactly equal, zero or at the edge of a friction cone; planar motion; "
@@ -380,7 +380,7 @@ static const command_form form = {
         (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_cushions,
                                     &option_coincidences, &option_threads, &option_output, NULL},
     .details = "exit code: 0; 1 if an error is larger than carom.h promises, or if a batch has "
-               "bits other than those of single calls; 2 for bad usage\n",
+               "other bits than single calls; 2 for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
 };
 

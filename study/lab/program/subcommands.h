@@ -1,5 +1,5 @@
-/* The subcommands of `carom-lab`, a file each, command_NAME.c: those of the study, of this folder,
- * and of games/lab. */
+/* The subcommands of `carom-lab`, a file each, command_NAME.c: of the study, of this folder, and of
+ * games/lab. */
 #ifndef CAROM_LAB_SUBCOMMANDS_H
 #define CAROM_LAB_SUBCOMMANDS_H
 

@@ -3,7 +3,7 @@ output.
 
 Two balls move by small steps of their equations on the cloth, and meet without friction. A shot ends
 where a ball comes near a cushion, but for the last one, a ball that rolls into a cushion and keeps a
-share of each speed. The numbers differ from carom's snooker where that shows what a film tells.
+fraction of each speed. The numbers differ from carom's snooker where that shows what a film tells.
 """
 
 import math
@@ -44,7 +44,7 @@ def collide(cue, target):
 
 
 def play(name, balls, width, length, rebounds):
-    """Prints the rows of a shot, whose balls have their places, velocities and rolls."""
+    """Prints the rows of a shot, whose balls have their positions, velocities and rolls."""
     turned, step = False, 0
     while step * STEP < LONGEST:
         t = step * STEP

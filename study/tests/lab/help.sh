@@ -10,7 +10,7 @@ python -c 'import csv; rows = list(csv.DictReader(open("kernels.csv"))); print(l
 echo "--- the examples do what they show"
 cp "$DATA/collisions-204.csv" before.csv
 for command in "" kernels resolve verify bench trace experiments; do
-  example=$(lab $command --help | tail -n 1 | sed -n 's/^  carom-lab //p' | sed 's/--budget [0-9]*/--budget 0.1/')
+  example=$(lab $command --help | sed -n '/^example:$/{n;p;q;}' | sed -n 's/^  carom-lab //p' | sed 's/--budget [0-9]*/--budget 0.1/')
   [ -n "$example" ] && eval "lab $example" > said 2>&1 || {
     echo "the example of '$command' fails:"
     cat said

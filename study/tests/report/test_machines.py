@@ -147,7 +147,7 @@ def test_verdicts_of_a_run(tmp_path):
 
 
 def test_chains_of_a_run(tmp_path):
-    """Counts of the run's kernels stand in the table by compiler."""
+    """Counts of the run's kernels are in the table by compiler."""
     path = copied(tmp_path)
     machines.record([(STORED, "One", [])], path)
     counted = Sheet(STORED / "bounds.csv").first(kernel="double")

@@ -45,7 +45,7 @@ def verdicts(folder):
 
 
 def scaled(factor):
-    """The paper's machine with every kernel so many times as fast, beside base."""
+    """The paper's machine with every kernel so many times as fast, compared with base."""
     return {kernel: factor * SPEEDUPS[kernel] for kernel in KERNELS}
 
 

@@ -35,7 +35,7 @@ def claim_like(name, **changed):
 
 def test_claims_are_whole():
     """Claims in the order of the sections, each named once, with a measure that there is, limits
-    and their reason; and a row is refused whose measure there is not.
+    and their reason; and a row is rejected whose measure there is not.
     """
     sections = [claim["section"] for claim in CLAIMS.values()]
     assert sections == sorted(sections) and len(CLAIMS) == len(paper.read_claims())
@@ -136,7 +136,7 @@ def test_counts_are_of_the_compiler(tmp_path):
 
 
 def test_shares_need_one_module(tmp_path):
-    """No share of a bound where another build was counted than was timed."""
+    """No fraction of a bound where another build was counted than was timed."""
     folder = machine(tmp_path / "one")
     here = judged(folder)["share-base"]
     assert float(here["here"]) == pytest.approx(100 * 77000 / 85300, rel=1e-5)

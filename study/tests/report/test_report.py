@@ -60,7 +60,8 @@ def note_module(path, fingerprint):
 
 
 def test_share_of_another_module(tmp_path):
-    """Counts of one file and times of another give no share of the bound; the report says why."""
+    """Counts of one file and times of another give no fraction of the bound; the report says
+    why."""
     for path in STORED.glob("*.csv"):
         shutil.copy(path, tmp_path)
     options = SimpleNamespace(folder=tmp_path)
@@ -171,7 +172,7 @@ AGAIN = "make the figures anew: cmake --build build --target figures"
 
 
 def test_figures_of_the_docs(tmp_path):
-    """Each figure of the study is what gnuplot draws from the CSV beside it, all were measured in
+    """Each figure of the study is what gnuplot draws from the CSV next to it, all were measured in
     one run, and the code of every series is today's.
     """
     make(tmp_path / "one", "--from", DOCS / "data")

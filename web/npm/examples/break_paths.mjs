@@ -7,20 +7,8 @@
  *     node break_paths.mjs break.svg
  */
 import { writeFileSync } from "node:fs";
-import { load } from "carom";
+import { load, palette } from "carom";
 
-const COLOURS = [
-  "#777",
-  "#e6b800",
-  "#1f4fbf",
-  "#d62718",
-  "#5b2a86",
-  "#e8731a",
-  "#0c7a43",
-  "#7a1f1f",
-  "#111",
-  "#c9a227",
-];
 const carom = await load();
 const table = carom.table("9ft");
 const shot = carom.simulate(table, carom.rack("nineball", table), { speed: 8 });
@@ -32,22 +20,45 @@ const n = shot.balls.length;
 const path = (ball) =>
   times.map((_, k) => [places[3 * (k * n + ball)], places[3 * (k * n + ball) + 1]]);
 
-// The picture lies on its side: the length of the table is its x axis, in mm.
+// The picture lies on its side: the length of the table is its x axis, in mm. Its colours and sizes
+// are those of `carom shoot --plot`.
 const mm = (metres) => (1000 * metres).toFixed(0);
-const points = (ball) =>
-  path(ball)
-    .map(([x, y]) => `${mm(y)},${mm(x)}`)
-    .join(" ");
-const pockets = table.pockets.map(
-  ({ centre: [x, y], radius }) => `<circle cx="${mm(y)}" cy="${mm(x)}" r="${mm(radius)}"/>`,
+const at = ([x, y]) => `${mm(y)},${mm(x)}`;
+const { cloth, cushion, wood, part, size, balls } = palette;
+const disc = ({ centre: [x, y], radius }, style) =>
+  `<circle cx="${mm(y)}" cy="${mm(x)}" r="${mm(radius)}" ${style}/>`;
+const frame = (beyond, corner, fill) =>
+  `<rect x="${mm(-beyond)}" y="${mm(-beyond)}" width="${mm(table.length + 2 * beyond)}" height="${mm(table.width + 2 * beyond)}" rx="${mm(corner)}" fill="${fill}"/>`;
+const line = (points, style) =>
+  `<polyline points="${points.map(at).join(" ")}" fill="none" ${style}/>`;
+
+// The wood reaches as far beyond the pockets' facings as they reach beyond the noses.
+const ends = table.rails.flatMap(({ p, q }) => [p[1], q[1]]);
+const facings = -Math.min(...ends);
+const margin = size.margin * (Math.max(...ends) - Math.min(...ends));
+const nose = `stroke="${part.nose}" stroke-width="${mm(size.nose)}" stroke-linecap="round"`;
+const drawn = [
+  frame(facings + margin, size.corner, wood.pool),
+  frame(facings + margin / 2, size.bedCorner, cloth.pool),
+  ...table.pockets.map((pocket) => disc(pocket, `fill="${part.pocket}"`)),
+  ...table.jaws.map((jaw) => disc(jaw, `fill="${cushion.pool}"`)),
+  ...table.rails.map(({ p, q }) => line([p, q], nose)),
+];
+// Ball 9 is striped: it has the colour of ball 1, and dashes.
+const styleOf = (ball) =>
+  `stroke="${balls[ball > 8 ? ball - 8 : ball].path}" stroke-width="${mm(size.path)}"${ball > 8 ? ' stroke-dasharray="40 8"' : ""}`;
+for (let ball = 0; ball < n; ball++) drawn.push(line(path(ball), styleOf(ball)));
+shot.final.forEach(({ r }, ball) => {
+  const { colour, path } = balls[ball > 8 ? ball - 8 : ball];
+  const style = `fill="${colour}" stroke="${path}" stroke-width="4"`;
+  drawn.push(disc({ centre: r, radius: shot.balls[ball].kind.radius }, style));
+});
+const corner = mm(-facings - margin);
+const [width, height] = [table.length, table.width].map((side) =>
+  mm(side + 2 * (facings + margin)),
 );
-const paths = COLOURS.map(
-  (colour, ball) =>
-    `<polyline points="${points(ball)}" fill="none" stroke="${colour}" stroke-width="7"/>`,
-);
-const svg = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="-130 -130 ${mm(table.length + 0.26)} ${mm(table.width + 0.26)}" width="760">
-<rect x="-130" y="-130" width="100%" height="100%" fill="#5a3d28"/><rect width="${mm(table.length)}" height="${mm(table.width)}" fill="#d9e8dc"/>
-${[...pockets, ...paths].join("\n")}
+const svg = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="${corner} ${corner} ${width} ${height}" width="760">
+${drawn.join("\n")}
 </svg>
 `;
 writeFileSync(process.argv[2] ?? "break.svg", svg);

@@ -1,5 +1,5 @@
-// Many collisions, or many shots, in the module's memory: what is written here is read by the
-// library without a copy.
+// Many collisions, or many shots, in the module's memory: the library reads what is written here
+// without a copy.
 import { layout } from "./generated/layout.js";
 import type { Memory, Pointer } from "./memory.js";
 import { type Shot } from "./shot.js";
@@ -11,7 +11,7 @@ const RESULT = layout.carom_result;
 const CUE = layout.carom_cue;
 const STATE = layout.carom_ball_state;
 
-/** What batches need of the library. */
+/** The functions of the library that batches use. */
 export interface Library {
   readonly memory: Memory;
   statusName(code: number): string;
@@ -19,12 +19,12 @@ export interface Library {
   shotOf(shots: Shots, k: number): Shot;
 }
 
-/** Memory of the module that is given back by free(), or when nothing refers to it any more. */
+/** Memory of the module that is freed by free(), or when nothing refers to it any more. */
 const owned = new FinalizationRegistry<{ memory: Memory; pointers: Pointer[] }>(
   ({ memory, pointers }) => pointers.forEach((pointer) => memory.free(pointer)),
 );
 
-/** What holds memory of the module, and gives it back. */
+/** An object that owns memory of the module, and frees it. */
 export class Owner<L extends { memory: Memory } = Library> {
   readonly #held: { memory: Memory; pointers: Pointer[] };
 
@@ -41,16 +41,16 @@ export class Owner<L extends { memory: Memory } = Library> {
   /** @internal */
   pointer(k: number): Pointer {
     const pointer = this.#held.pointers[k];
-    if (pointer === undefined) throw new Error("carom: its memory has been given back");
+    if (pointer === undefined) throw new Error("carom: this memory has been freed");
     return pointer;
   }
-  /** A part of it as numbers. */
+  /** A section of it as numbers. */
   protected numbers(k: number, bytes: number): Float64Array {
     return new Float64Array(this.library.memory.buffer, this.pointer(k), bytes / 8);
   }
   /**
-   * Gives the memory back. Views of it are not valid any more. Without this call the garbage
-   * collector does it, later.
+   * Frees the memory. Views of it are no longer valid. Without this call the garbage collector
+   * frees it later.
    */
   free(): void {
     owned.unregister(this.#held);
@@ -58,7 +58,7 @@ export class Owner<L extends { memory: Memory } = Library> {
   }
 }
 
-/** An index of so many. */
+/** Checks an index below `count`. */
 export function indexed(k: number, count: number, name = "k"): number {
   if (!Number.isInteger(k) || k < 0 || k >= count)
     throw new RangeError(`${name}: it must be 0 to ${count - 1}, not ${k}`);
@@ -72,8 +72,8 @@ function rows(n: number, name: string): number {
 
 /**
  * Many collisions for `collideBatch`. `in`, `out` and `status` are views of WebAssembly memory. Get
- * them anew after creating other
- * batches or playing shots: the memory may have grown by that, and older views are then empty.
+ * them again after you have created other batches or played shots: the memory may have grown, and
+ * older views are then empty.
  */
 export class Collisions extends Owner {
   /** Number of collisions. */
@@ -85,15 +85,15 @@ export class Collisions extends Owner {
     this.n = n;
   }
   /**
-   * 26 doubles for each collision, those of carom_impact: r, v, w, radius, mass, mu_slide of both
+   * 26 doubles for each collision, as in carom_impact: r, v, w, radius, mass, mu_slide of both
    * balls; mu_ball, restitution.
    */
   get in(): Float64Array {
     return this.numbers(0, this.n * IMPACT.size);
   }
   /**
-   * 12 doubles for each collision, those of carom_result: v and w of both balls. NaN where the
-   * status is an error.
+   * 12 doubles for each collision, as in carom_result: v and w of both balls. NaN where the status
+   * is an error.
    */
   get out(): Float64Array {
     return this.numbers(1, this.n * RESULT.size);
@@ -172,7 +172,7 @@ export class Shots extends Owner {
       writeBalls(library.memory, this.pointer(1) + k * count * layout.carom_shot_ball.size, balls),
     );
   }
-  /** `cueSize` numbers for each shot, those of carom_cue; `cueFields` says where each is. */
+  /** `cueSize` numbers for each shot, as in carom_cue; `cueFields` has the index of each. */
   get cues(): Float64Array {
     return this.numbers(2, this.n * CUE.size);
   }
@@ -184,7 +184,7 @@ export class Shots extends Owner {
     return this.numbers(4, this.n * this.count * STATE.size);
   }
   /**
-   * One status for each shot: 0 came to rest, positive stopped as asked, negative an error of
+   * One status for each shot: 0 all balls rest, positive stopped as requested, negative an error of
    * carom.h.
    */
   get status(): Int8Array {

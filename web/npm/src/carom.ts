@@ -106,7 +106,7 @@ const BALL = {
   muSlide: 0.2,
 } as const;
 
-/** How continue() refuses arguments, with nothing played. */
+/** The errors with which continue() rejects arguments, with nothing played. */
 const REFUSED: readonly number[] = [
   values.CAROM_ERROR_STATE,
   values.CAROM_ERROR_STATE_TABLE,
@@ -117,7 +117,7 @@ const REFUSED: readonly number[] = [
   values.CAROM_ERROR_EVENTS_MOST,
 ];
 
-/** Parts of the memory that every call uses again, one behind the other. */
+/** Consecutive blocks of memory that every call reuses. */
 function arena(memory: Memory): (bytes: number) => Pointer {
   let next = memory.allocate(65536);
   const end = next + 65536;
@@ -130,8 +130,8 @@ function arena(memory: Memory): (bytes: number) => Pointer {
 }
 
 /**
- * The library carom, loaded. Calls may be made from any thread that has loaded it; each has a
- * memory of its own.
+ * The library carom, loaded. Calls may be made from any thread that has loaded it; each thread has
+ * its own memory.
  */
 export class Carom {
   /** The build that runs. */
@@ -329,8 +329,8 @@ export class Carom {
   }
 
   /**
-   * A number that changes whenever a result has other bits than before: equal numbers are needed
-   * for replays and lockstep.
+   * A number that changes whenever the bits of a result change: replays and lockstep need equal
+   * numbers.
    */
   get physicsRevision(): number {
     return this.#call.carom_physics_revision();
@@ -393,7 +393,7 @@ export class Carom {
     return writeOptions(this.#memory, this.#addresses.options, "carom_options", options);
   }
 
-  /** What carom_check() says of the impact that a call refused. */
+  /** The error that carom_check() reports for the impact that a call rejected. */
   #impactError(code: number, options: Pointer): CaromError {
     const { impact, number } = this.#addresses;
     this.#call.carom_check(impact, options, number);
@@ -411,7 +411,7 @@ export class Carom {
     };
   }
 
-  /** Calls with an impact and options in the module's memory. Throws what is refused. */
+  /** Calls a function with an impact and options in the module's memory. Throws its errors. */
   #resolve(
     impact: Impact,
     options: CollideOptions,
@@ -426,8 +426,8 @@ export class Carom {
   }
 
   /**
-   * Resolves one collision of two balls. Throws a CaromError that names the field where something
-   * is out of range.
+   * Resolves one collision of two balls. Throws a CaromError that names the field that is out of
+   * range.
    */
   collide(impact: Impact, options: CollideOptions = {}): Collided {
     const { result } = this.#addresses;
@@ -471,7 +471,7 @@ export class Carom {
   }
 
   /**
-   * Friction between pool balls that slip on each other as those of the impact, by Alciatore's law.
+   * Friction between pool balls with the slip of the impact, by Alciatore's law.
    */
   muBall(impact: Impact): number {
     this.#writeImpact(this.#addresses.impact, { ...impact, muBall: 0 });
@@ -500,8 +500,7 @@ export class Carom {
 
   /**
    * Resolves all collisions of a batch, each with the bits of `collide`. A bad row gets NaN and its
-   * status, and changes nothing for the
-   * others. Returns "ok", or the name of the first error.
+   * status, and does not change the others. Returns "ok", or the name of the first error.
    */
   collideBatch(batch: Collisions, options: CollideOptions = {}): string {
     const opt = this.#writeOptions(options);
@@ -518,7 +517,7 @@ export class Carom {
 
   // ---- A ball and a cushion ---------------------------------------------------------------------
 
-  /** What an impact does not say: the ball and the cushion of pool for a model. */
+  /** Defaults of an impact: the ball and the cushion of pool for a model. */
   #rail(model: CushionOptions["model"] = "mathavan"): object {
     const kind = this.kind("pool", model);
     return {
@@ -554,7 +553,7 @@ export class Carom {
   // ---- Tables, racks, balls, cues ---------------------------------------------------------------
 
   /**
-   * A built-in table, some of whose measures may be others, m and degrees: table("9ft", {
+   * A built-in table, optionally with some other measures, m and degrees: table("9ft", {
    * cornerMouth: 0.108 }).
    */
   table(name: TableName, measures: Partial<Measures> = {}): Table {
@@ -616,9 +615,8 @@ export class Carom {
   }
 
   /**
-   * Checks a table of one's own for balls of a radius (m): that each part is in range, and that no
-   * ball can leave it. Throws a CaromError
-   * that says which part is wrong.
+   * Checks a custom table for balls of a radius (m): that each part is in range, and that no ball
+   * can leave it. Throws a CaromError that names the invalid part.
    */
   checkTable(table: Table, radius = 0.028575): void {
     writeTable(this.#memory, this.#addresses.table, table);
@@ -649,8 +647,7 @@ export class Carom {
 
   /**
    * The balls of a rack; the cue ball is the first. Neighbours are `gap` apart, m (default 1e-4; 0
-   * is a frozen rack). `seed` draws how they
-   * lie within it.
+   * is a frozen rack). `seed` draws their displacements within the gap.
    */
   rack(
     name: RackName,
@@ -673,9 +670,9 @@ export class Carom {
   }
 
   /**
-   * The constants of a game's balls for a model of the cushion, which has its own, under conditions
-   * of a pool table, such as "fast_cloth". Throws a RangeError where the game has none for the
-   * model, or has conditions and is not played on tables of pool.
+   * The constants of a game's balls for a model of the cushion, under conditions of a pool table,
+   * such as "fast_cloth". Throws a RangeError if the game has no constants for the model, or if
+   * conditions are given for a game that is not played on pool tables.
    */
   kind(
     game: Game,
@@ -686,7 +683,7 @@ export class Carom {
       conditions.length > 0 &&
       this.kind(game).restitutionCushion !== this.kind("pool").restitutionCushion
     )
-      throw new RangeError(`conditions: they are of tables of pool, not of ${game}`);
+      throw new RangeError(`conditions: they apply to pool tables, not to ${game}`);
     if (
       !this.#call.carom_ball_kind_for(
         value("carom_game", game, "game"),
@@ -703,7 +700,7 @@ export class Carom {
     return readStruct(this.#memory, this.#addresses.detail, "carom_ball_kind");
   }
 
-  /** Bank number 0, 1 or 2 of those that calibrate a table: sight, speed of the ball, m/s, roll. */
+  /** Bank number 0, 1 or 2 for the calibration of a table: sight, speed of the ball, m/s, roll. */
   bank(k: number): Bank {
     this.#refuse(this.#call.carom_bank_of(k, this.#addresses.detail), `bank ${k}`);
     return readStruct(this.#memory, this.#addresses.detail, "carom_bank");
@@ -711,9 +708,9 @@ export class Carom {
 
   /**
    * The restitution and friction of a table's cushions with their standard deviations, from where
-   * the three banks came back, in sights from their corner. Without readings: where they come back
-   * on the usual table. Throws a RangeError where a reading is not above 0 and below 8, and a
-   * CaromError where a bank does not come back.
+   * the three banks returned, in sights from their corner. Without readings: where they return with
+   * the constants of the ball. Throws a RangeError if a reading is not above 0 and below 8, and a
+   * CaromError if a bank does not return.
    */
   calibrate(
     readings: readonly [number, number, number] | undefined,
@@ -736,7 +733,7 @@ export class Carom {
     return readStruct(this.#memory, text, "carom_calibration");
   }
 
-  /** A ball at rest at x, y (m), of a game or of constants of one's own. */
+  /** A ball at rest at x, y (m), of a game or with custom constants. */
   ball(x: number, y: number, kind: Game | BallKind = "pool"): ShotBall {
     const constants = typeof kind === "string" ? this.kind(kind) : kind;
     refuseUnknownOf("carom_ball_kind", constants, "kind");
@@ -748,8 +745,8 @@ export class Carom {
 
   /**
    * Ball in hand: the layout with a ball at rest at x, y (m), also one that was pocketed. Throws a
-   * CaromError where the place is not free, whose
-   * `field` is the ball or the part of the table that is in the way.
+   * CaromError if the position is not free; its `field` is the ball or the part of the table that
+   * is in the way.
    */
   placeBall(
     table: Table,
@@ -785,10 +782,9 @@ export class Carom {
   }
 
   /**
-   * A cue: that of the game with the fields given. By default 2 m/s along the table, 0.25 radii
-   * above the centre, ball 0. `tip` says `a` and
-   * `b` as a player does, to the right and above; `ballSpeed` is the speed that a level cue gives a
-   * ball of the game, instead of `speed`.
+   * A cue: the usual cue of the game with the given fields. By default 2 m/s along the table, 0.25
+   * radii above the centre, ball 0. `tip` replaces `a` and `b`: to the right and above, as players
+   * see it; `ballSpeed` is the speed that a level cue gives a ball of the game, instead of `speed`.
    */
   cue(
     fields: Partial<Cue> & { ballSpeed?: number; tip?: readonly [number, number] } = {},
@@ -796,16 +792,18 @@ export class Carom {
   ): Cue {
     const { ballSpeed, tip, ...rest } = fields;
     if (tip !== undefined && (rest.a !== undefined || rest.b !== undefined))
-      throw new TypeError("cue.tip: it says what a and b say; one of both is needed");
+      throw new TypeError(
+        "cue.tip: it replaces a and b, which were given too; give only one of them",
+      );
     const cue = this.#cue(tip === undefined ? rest : { ...rest, a: 0 - tip[0], b: tip[1] }, game);
     if (ballSpeed === undefined) return cue;
     if (rest.speed !== undefined)
       throw new TypeError(
-        "cue.ballSpeed: speed is that of the cue, ballSpeed that of the ball; one of both is needed",
+        "cue.ballSpeed: it replaces speed, the speed of the cue, which was given too; give only one of them",
       );
     if (cue.theta !== 0)
       throw new RangeError(
-        "cue.ballSpeed: it is that which a level cue gives the ball; with theta give speed, the speed of the cue",
+        "cue.ballSpeed: it is for a level cue, but theta is not 0; give speed, the speed of the cue, instead",
       );
     // Along x, and by a root, it has the same bits in other languages.
     const [x, y] = this.strike({ ...cue, speed: 1, phi: 0 }, this.kind(game)).v;
@@ -862,10 +860,9 @@ export class Carom {
   }
 
   /**
-   * Plays a shot until nothing moves. Without a cue, or if a ball moves already, there is no
-   * strike. Throws a CaromError that names the ball
-   * where something is out of range; where the shot ends in an error later, its `shot` has what had
-   * happened.
+   * Plays a shot until nothing moves. Without a cue, or if a ball already moves, there is no
+   * strike. Throws a CaromError that names the ball if something is out of range; if the shot ends
+   * in an error later, its `shot` is the shot up to the error.
    */
   simulate(
     table: Table,
@@ -893,7 +890,7 @@ export class Carom {
     });
   }
 
-  /** Plays a shot by options in the module's memory. */
+  /** Plays a shot with options in the module's memory. */
   #shoot(
     table: Table,
     balls: readonly ShotBall[],
@@ -907,8 +904,8 @@ export class Carom {
     const cueAt = struck === undefined ? 0 : addresses.cue;
     this.#needRoom(256);
     let code: number;
-    // A shot that has more events than there is room for is played again with enough of it: it has
-    // the same bits.
+    // A shot that has more events than there is room for is played again with enough room; its bits
+    // are the same.
     for (;;) {
       this.#writeShot(0);
       code =
@@ -935,12 +932,11 @@ export class Carom {
   }
 
   /**
-   * Goes on with a shot that was stopped, by `timeMost`, `stopAt` or a bound, as if it had not
-   * been: every event and state has the bits of the
-   * unbroken shot, however often it is stopped. The options say when to stop again; table, balls
-   * and models are those that the shot began
-   * with. The shot that is given does not change; the new one has all events from the beginning. A
-   * shot at rest stays as it is.
+   * Continues a shot that was stopped by `timeMost`, `stopAt` or a bound: every event and state has
+   * the bits of the uninterrupted shot, however often it is stopped. The options set when to stop
+   * again; table, balls and models are the same as at the beginning of the shot. The given shot
+   * does not change; the new one has all events from the beginning. A shot at rest is returned as
+   * it is.
    */
   continue(shot: Shot, options: StopOptions = {}): Shot {
     refuseUnknown(options, KEYS.stop);
@@ -948,11 +944,11 @@ export class Carom {
     const retained = shot.retained;
     if (retained === undefined)
       throw new TypeError(
-        `shot: only what simulate() or continue() stopped can go on, not a shot "${shot.status}", or one of a batch`,
+        `shot: a shot with the status "${shot.status}", or of a batch, cannot be continued; only simulate() and continue() stop shots that can`,
       );
     const addresses = this.#addresses;
     let code: number;
-    // As in simulate(), if there is too little room: what was there before is put back.
+    // As in simulate(), if there is too little room, the memory is restored first.
     for (;;) {
       this.#resident = undefined;
       this.#reside(shot);
@@ -975,8 +971,8 @@ export class Carom {
   }
 
   /**
-   * The shot that has just been played or continued in the module's memory. Throws where it ended
-   * in an error.
+   * The shot that has just been played or continued in the module's memory. Throws if it ended in
+   * an error.
    */
   #ended(table: Table, balls: readonly ShotBall[], code: number, cue: Cue | undefined): Shot {
     const { shot: pointer, final } = this.#addresses;
@@ -1011,8 +1007,8 @@ export class Carom {
   }
 
   /**
-   * What carom_shot_fault() says of arguments that it refuses: the number at fault, its value, and
-   * what it must be.
+   * The error that carom_shot_fault() reports for arguments: the invalid number, its value, and its
+   * allowed values.
    */
   #shotError(
     ...args: [table: Pointer, balls: Pointer, count: number, cue: Pointer, options: Pointer]
@@ -1031,7 +1027,7 @@ export class Carom {
     const name = this.#memory
       .text(this.#memory.u32[(row + layout.carom_number.offset.name) / 4]!)!
       .replace(/_(.)/g, (_, letter: string) => letter.toUpperCase());
-    // The constants of a ball are in its kind, and its place is in its state.
+    // The constants of a ball are in its kind, and its position is in its state.
     const inner = { ball: "kind", state: "state" }[kind as string];
     const field = [part, inner, name].filter(Boolean).join(".");
     const must = this.#memory.text(text);
@@ -1079,7 +1075,9 @@ export class Carom {
     );
   }
 
-  /** Puts balls and events of a shot into the module's memory, if others are there. */
+  /**
+   * Writes the balls and events of a shot into the module's memory, unless they are already there.
+   */
   #reside(shot: Shot): void {
     if (this.#resident === shot) return;
     this.#resident = undefined;
@@ -1118,16 +1116,16 @@ export class Carom {
 
   /**
    * Plays a recording again, a text or its lines as they come, and yields each of its shots. Throws
-   * a CaromError with the line where it is wrong,
-   * cut off, or of another revision of the physics.
+   * a CaromError that names the line if the recording is invalid, is cut off, or was made with
+   * another revision of the physics.
    */
   replay(recording: string | Iterable<string>): Generator<Replayed, void> {
     return replayed(this.#recordings, recording);
   }
 
   /**
-   * What the cue ball touches first, or undefined. The shot is followed until then only, but its
-   * state is kept: this costs as much as `simulate`.
+   * What the cue ball touches first, or undefined. The shot is only followed up to this contact,
+   * but its state is kept, so the call takes as long as `simulate`.
    */
   firstContact(
     table: Table,
@@ -1151,9 +1149,9 @@ export class Carom {
   }
 
   /**
-   * Memory for n shots on a table: of one layout of balls for all, or one for each. `room` is how
-   * many events of each are kept; 0, the
-   * default: none, only final states. All cues are at first those of `cue()`.
+   * Memory for n shots on a table: of one layout of balls for all, or one for each. `room` is the
+   * number of events of each shot that are kept; 0, the default: only final states. At first all
+   * cues are `cue()`.
    */
   shots(
     table: Table,
@@ -1220,8 +1218,8 @@ export class Carom {
   }
 
   /**
-   * Begins a match of 2 to 8 seats by the rules of a game, or of a state of it; without a table one
-   * whose lines are read at first, of a game of your own with its rules.
+   * Begins a match of 2 to 8 seats by the rules of a game, or from a state of it; without a table,
+   * a match whose lines are read first (for a custom game, give its rules).
    */
   match(game?: OwnGame): Match;
   match(
@@ -1244,11 +1242,11 @@ export class Carom {
   // ---- Plans and games --------------------------------------------------------------------------
 
   /**
-   * A player by his errors of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees of direction and of elevation
-   * and 0.003 radii each way, times `errors`; they grow with the speed. Or by a Fargo rating, 200
-   * to 850, such as 500: its plans then play as rated where `shots` is not given; `onlyPots: 0`
-   * makes plans that advise such a player. With `rules`, a player of matches of this game, in which
-   * 100 points are odds of 2 to 1.
+   * A player with errors of 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii
+   * along a and b for a stroke of 2 m/s, times `errors`; the errors grow with the speed. Or a
+   * player with a Fargo rating, 200 to 850, such as 500, whose plans play as rated if `shots` is
+   * not given; `onlyPots: 0` makes plans that advise such a player. With `rules`, a player of
+   * matches of this game, in which 100 points are odds of 2 to 1.
    */
   player(skill: Skill = {}): Player {
     refuseUnknown(skill, KEYS.player);
@@ -1257,7 +1255,7 @@ export class Carom {
 
   /**
    * The Fargo rating of a player by games won and lost, 200 to 850, with its interval of 95 %.
-   * Without games it is a guess.
+   * Without games it is the prior estimate.
    */
   rating(scores: readonly Score[]): Rating {
     return this.#plans.rating(scores);
@@ -1269,8 +1267,8 @@ export class Carom {
   }
 
   /**
-   * What a stroke of a game of two sides with pockets meant, and what it cost a player; and a drill
-   * of it. Balls, options and call are those before the stroke.
+   * The intention of a stroke in a game of two sides with pockets, and the value that it lost; and
+   * a drill for it. Balls, options and call are as before the stroke.
    */
   review(
     table: Table,
@@ -1284,9 +1282,9 @@ export class Carom {
   }
 
   /**
-   * The breaks that win most often for a player: the place of the cue ball behind the head string,
-   * the speed, the height of the tip and the cut. `balls` are a rack, ball 0 the cue ball; each
-   * break that is tried has a rack of its own. It takes some 12,000 breaks.
+   * The breaks that win most often for a player: the position of the cue ball behind the head
+   * string, the speed, the height of the tip and the cut. `balls` are a rack, with the cue ball as
+   * ball 0; each break that is tried has its own rack. A call plays about 12,000 breaks.
    */
   bestBreaks(
     rack: RackName,
@@ -1299,8 +1297,8 @@ export class Carom {
   }
 
   /**
-   * The stroke that a player makes of the one that he means, with errors drawn from a seed and the
-   * number of the stroke.
+   * The stroke of a player who intends `cue`, with errors drawn from a seed and the number of the
+   * stroke.
    */
   withErrors(cue: Partial<Cue>, player: Player, seed: number, number = 0): Cue {
     this.#resident = undefined;
@@ -1308,10 +1306,9 @@ export class Carom {
   }
 
   /**
-   * Aims a pot: the direction of the cue in which a ball goes to the middle of a pocket's mouth, by
-   * a bank, a kick or a combination where `via` says so, with
-   * squirt, swerve, throw and the model of the cushion. Where `is` is "no_way", the direction of
-   * the cue stays.
+   * Aims a pot: the direction of the cue in which a ball goes to the middle of a pocket's mouth,
+   * with a bank, a kick or a combination if `via` lists it, and with squirt, swerve, throw and the
+   * model of the cushion. If `is` is "no_way", the direction of the cue does not change.
    */
   aim(
     table: Table,
@@ -1326,13 +1323,13 @@ export class Carom {
 
   /**
    * Where pockets are for a player at the head, y = 0: "head-left", "side-left", "foot-left" and so
-   * on; undefined on tables that are no rectangles.
+   * on; undefined on tables that are not rectangular.
    */
   pocketNames(table: Table): (string | undefined)[] {
     return this.#names(table, "pocket");
   }
 
-  /** The same of rails, "head", "foot", "left" or "right"; undefined for the cut of a pocket. */
+  /** The same for rails, "head", "foot", "left" or "right"; undefined for the cut of a pocket. */
   railNames(table: Table): (string | undefined)[] {
     return this.#names(table, "rail");
   }
@@ -1344,18 +1341,17 @@ export class Carom {
   }
 
   /**
-   * The shots that win most often from a layout, the best first. It takes some 20 µs a shot, so a
-   * worker is the place for large plans. The choice
-   * depends on the arguments alone.
+   * The shots that win most often from a layout, the best first. It takes about 20 µs per shot, so
+   * run large plans in a worker. The choice depends only on the arguments.
    */
   plan(table: Table, balls: readonly ShotBall[], options: PlanOptions = {}): PlanStroke[] {
     return this.#plans.plan(table, balls, undefined, options);
   }
 
   /**
-   * A plan in slices of so many events, some 2 µs each, for an opponent who thinks between frames:
-   * `next()` plays a slice, and the last one returns
-   * the choices of `plan`, bit for bit. Table, balls and options are not changed meanwhile.
+   * A plan in slices of `slice` events, about 2 µs each, for an opponent who thinks between frames:
+   * `next()` plays a slice, and the last one returns the choices of `plan`, bit for bit. Do not
+   * change table, balls and options meanwhile.
    */
   think(
     table: Table,
@@ -1367,8 +1363,8 @@ export class Carom {
   }
 
   /**
-   * The chances of strokes that are given, each played shots / cues.length times with errors, at
-   * least 10 times.
+   * The chances of the given strokes, each played shots / cues.length times with errors, at least
+   * 10 times.
    */
   chances(
     table: Table,
@@ -1380,14 +1376,14 @@ export class Carom {
   }
 
   /**
-   * A run-out as a whole: each stroke from what the one before leaves without errors, with the
-   * landing zone of the cue ball, and the chance of the whole by run-outs that are played.
+   * A complete run-out: each stroke starts from what the preceding one leaves without errors, with
+   * the landing zone of the cue ball; and the chance of the run-out, from run-outs that are played.
    */
   sequence(table: Table, balls: readonly ShotBall[], options: SequenceOptions = {}): Sequence {
     return resultOf(this.#plans.sequence(table, balls, options, 0));
   }
 
-  /** The same in slices, as `think`. Each run-out that is played is a slice. */
+  /** The same in slices, as in `think`. Each played run-out is a slice. */
   thinkSequence(
     table: Table,
     balls: readonly ShotBall[],
@@ -1404,8 +1400,8 @@ export class Carom {
   }
 
   /**
-   * Plays a shot as `simulate` does, and rules what it amounts to. Eight-ball needs a call, but for
-   * the break and a safety.
+   * Plays a shot as `simulate` does, and judges it by the rules. Eight-ball needs a call, except
+   * for the break and a safety.
    */
   referee(
     table: Table,
@@ -1420,12 +1416,11 @@ export class Carom {
   }
 
   /**
-   * The same of a shot that was played, which is not played again; `cueBall` is the index of the
-   * cue ball.
+   * Judges a shot that was already played; `cueBall` is the index of the cue ball.
    */
   rule(shot: Shot, game: GameState | OwnGame, call?: Call, cueBall = 0): Ruling {
     refuseUnknown(game, KEYS.game, "game");
-    if (shot.facts === undefined) throw new TypeError("shot: one of a batch has no facts");
+    if (shot.facts === undefined) throw new TypeError("shot: a shot of a batch has no facts");
     this.#reside(shot);
     this.#memory.u8.set(shot.facts, this.#addresses.facts);
     writeStates(this.#memory, this.#addresses.final, shot.final);

@@ -1,16 +1,16 @@
 import type { Shot } from "./shot.js";
 
-/** What a call refuses, or how a shot ended that cannot go on. */
+/** The error of a call that rejects its arguments, or of a shot that cannot be continued. */
 export class CaromError extends Error {
   constructor(
-    /** Its number in carom.h. */
+    /** The number of the status in carom.h. */
     readonly code: number,
     /** The name of the status, such as "bad_radius". */
     readonly status: string,
     text: string,
-    /** The field or the ball at fault, where there is one: "a.r[0]", "balls[3]". */
+    /** The field or the ball at fault, if there is one: "a.r[0]", "balls[3]". */
     readonly field?: string,
-    /** What had happened of a shot until then. */
+    /** The shot up to the error. */
     readonly shot?: Shot,
   ) {
     super(field === undefined ? text : `${field}: ${text}`);

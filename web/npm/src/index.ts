@@ -1,6 +1,6 @@
 /**
- * carom: collisions of two billiard balls, balls and cushions, and whole shots, by the C library of
- * the same name as WebAssembly.
+ * carom: collisions of two billiard balls, impacts on cushions, and complete shots, with the C
+ * library of the same name as WebAssembly.
  *
  *     import { load } from "carom";
  *     const carom = await load();
@@ -29,6 +29,7 @@ export {
   type StrokeOptions,
 } from "./match.js";
 export type { Build } from "./memory.js";
+export { palette } from "./palette.js";
 export { type Replayed, type ShotEnd } from "./recording.js";
 export { Shot } from "./shot.js";
 export type * from "./types.js";
@@ -38,15 +39,15 @@ export { words } from "./generated/words.js";
 /** Options of `load`. */
 export interface LoadOptions {
   /**
-   * The build to run; by default "simd" where the machine has 128-bit vectors, else "plain". Both
-   * have the same bits.
+   * The build to run; by default "simd" if the machine has 128-bit vectors, otherwise "plain". The
+   * results have the same bits.
    */
   build?: Build;
 }
 
 /**
- * Compiles the WebAssembly module and returns the library. Each call gives a library with a memory
- * of its own.
+ * Compiles the WebAssembly module and returns the library. Each call returns a library with its own
+ * memory.
  */
 export async function load(options: LoadOptions = {}): Promise<Carom> {
   refuseUnknown(options, KEYS.build);

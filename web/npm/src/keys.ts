@@ -1,5 +1,5 @@
-// The keys of objects that users hand in: an unknown one is refused, by its name, with the one that
-// was probably meant.
+// The keys of objects that users pass: the error for an unknown key names it, and the key that was
+// probably meant.
 import { numbers, options } from "./generated/layout.js";
 import type { PlanOptions as PlanRows } from "./generated/structs.js";
 import type {
@@ -15,7 +15,7 @@ import type {
   ShotBall,
 } from "./types.js";
 
-/** The keys of an interface; the compiler refuses a list that lacks one or has another. */
+/** The keys of an interface; the compiler rejects a list that lacks one or has another. */
 const keysOf = <T>(keys: Record<keyof T, 1>): readonly string[] => Object.keys(keys);
 
 const GAME: Record<keyof GameState, 1> = {
@@ -52,7 +52,7 @@ const PLAN = [
   }),
 ];
 
-/** The keys of the objects that are no struct of C. */
+/** The keys of the objects that are not structs of C. */
 export const KEYS = {
   impact: keysOf<Impact>({ a: 1, b: 1, muBall: 1, restitution: 1 }),
   collide: optionKeys("carom_options"),
@@ -91,8 +91,8 @@ export const KEYS = {
 } as const;
 
 /**
- * How many letters have to be put in, left out, replaced or exchanged with the next one to make one
- * word of the other.
+ * The number of letters that must be inserted, deleted, replaced or exchanged with the next one to
+ * turn one word into the other.
  */
 function distance(a: string, b: string): number {
   const rows = [Array.from({ length: b.length + 1 }, (_, k) => k)];
@@ -113,8 +113,8 @@ function distance(a: string, b: string): number {
 }
 
 /**
- * `; did you mean "speed"?` where one of the names resembles the word, else nothing. Capitals and
- * underscores do not count.
+ * `; did you mean "speed"?` if one of the names resembles the word, otherwise "". Capitals and
+ * underscores are ignored.
  */
 export function meant(word: string, names: readonly string[]): string {
   const letters = (name: string): string => name.toLowerCase().replaceAll("_", "");
@@ -137,8 +137,7 @@ export function meant(word: string, names: readonly string[]): string {
 }
 
 /**
- * Throws where an object has a key that is not among those known. `name` says which object it is,
- * such as "cue".
+ * Throws if an object has an unknown key. `name` is the name of the object, such as "cue".
  */
 export function refuseUnknown(source: object, known: readonly string[], name = ""): void {
   if (typeof source !== "object" || source === null)

@@ -4,7 +4,7 @@ import { KEYS, refuseUnknown } from "./keys.js";
 import type { RulesKind } from "./generated/structs.js";
 import type { BallKind, Cue, Game, Line, ShotBall, Table, TableName } from "./types.js";
 
-/** What the reader of a line needs of the library. */
+/** The functions of the library that the reader of a line uses. */
 interface Library {
   table(name: TableName): Table;
   kind(game: Game): BallKind;
@@ -50,7 +50,7 @@ function numbers(source: unknown, key: string, count: number): number[] {
   return good ? (source as number[]) : refuse(key, `${count} numbers are needed`);
 }
 
-/** Numbers by their keys; `other` is the key of what is no number. */
+/** Numbers by their keys; `other` is the key of a value that is not a number. */
 function fill<Key extends string>(
   into: Record<Key, number>,
   keys: readonly (readonly [string, Key])[],
@@ -71,7 +71,7 @@ function fill<Key extends string>(
 
 /**
  * Reads a line of `carom shoot`, with a built-in table. `carom` is the library that load() returns.
- * Throws a TypeError that names the key where something is wrong.
+ * Throws a TypeError that names the invalid key.
  */
 export function fromLine(carom: Library, text: string): Line {
   let line: Record<string, unknown>;
@@ -93,8 +93,8 @@ export function fromLine(carom: Library, text: string): Line {
     names.push(
       typeof ball.id === "string" ? ball.id : refuse(`balls[${k}].id`, "a text is needed"),
     );
-    // Missing numbers are those of the game, or pooltool's, whose friction of spinning depends on
-    // the radius.
+    // Missing numbers have the values of the game, or of pooltool, whose friction of spinning
+    // depends on the radius.
     const kind = carom.kind((params.game ?? "pooltool_pool") as Game);
     fill(kind as unknown as Record<string, number>, PARAMS, params, "game", `balls[${k}].params`);
     if (params.game === undefined && params.u_sp === undefined)
@@ -125,7 +125,7 @@ export function fromLine(carom: Library, text: string): Line {
     return refuse("cue.ball", `it must be the id of a ball, not ${JSON.stringify(fields.ball)}`);
   const cue = carom.cue({ ball, phi: 0 }, "pooltool_pool");
   fill(cue as unknown as Record<string, number>, CUE, fields, "ball", "cue");
-  // A strike says how high it is: the cue's usual b is not the centre.
+  // A strike must specify b, because the cue's default b is not the centre.
   if (fields.b === undefined && Object.keys(fields).some((key) => key !== "ball"))
     return refuse(
       "cue.b",
@@ -141,13 +141,13 @@ export function fromLine(carom: Library, text: string): Line {
   };
 }
 
-/** The highest number of a ball of the games whose rules know balls by their numbers. */
+/** The highest number of a ball, for the games whose rules identify balls by their numbers. */
 export const LAST: Partial<Record<RulesKind, number>> = Object.fromEntries(
   Object.entries(games).flatMap(([name, { last }]) => (last > 0 ? [[name, last]] : [])),
 );
 const COLOURS = ["yellow", "green", "brown", "blue", "pink", "black"] as const;
 
-/** The number of a ball by its name in a line; 0 for what has none. */
+/** The number of a ball by its name in a line; 0 for a ball without a number. */
 function numberOf(name: string, rules: RulesKind): number {
   const colour = rules === "snooker" ? (COLOURS as readonly string[]).indexOf(name) : -1;
   if (colour >= 0) return 16 + colour;
@@ -156,9 +156,9 @@ function numberOf(name: string, rules: RulesKind): number {
 }
 
 /**
- * The layout of a line as plans and rulings want it: ball k of the list is ball k of the game, and
- * balls that are missing are down. Throws a
- * TypeError where the names are not the cue ball and numbers of the game, each once.
+ * The layout of a line in the form that plans and rulings require: ball k of the list is ball k of
+ * the game, and missing balls are down. Throws a TypeError if the names are not the cue ball and
+ * numbers of the game, each once.
  */
 export function byNumber(line: Line, rules: RulesKind): Line {
   const last = LAST[rules];
@@ -185,7 +185,7 @@ export function byNumber(line: Line, rules: RulesKind): Line {
   return { ...line, balls, names: balls.map(({ id }) => id!), cue: { ...line.cue, ball: 0 } };
 }
 
-/** Refuses a layout of named balls that do not lie in the list as a game numbers them. */
+/** Rejects a layout whose named balls are not in the order of the game's numbers. */
 export function refuseOrder(balls: readonly ShotBall[], rules: RulesKind): void {
   if (LAST[rules] === undefined) return;
   for (const [k, { id }] of balls.entries())

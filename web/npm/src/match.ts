@@ -43,14 +43,16 @@ import type {
 const MATCH = layout.carom_match.offset;
 const SEATING = layout.carom_seating.offset;
 const SEAT = layout.carom_seat;
-/** When a stroke is stopped, and the seat that plays it: by default the one at the table. */
+/** When a stroke is stopped, and the seat that plays it: by default the seat at the table. */
 export type StrokeOptions = StopOptions & { seat?: number };
-/** The number of a game of the caller's in recordings. */
+/** The number of a custom game in recordings. */
 const OWN = 1000;
 
 /** What a match waits for; "over": nothing. */
 export type Phase = C.MatchPhase;
-/** The choices besides a stroke: a line "act" has 2 to the power of the place in this list. */
+/**
+ * The choices in addition to a stroke: a line "act" has 2 to the power of the index in this list.
+ */
 export const choices = names.carom_choice;
 export type Choice = (typeof choices)[number];
 
@@ -58,17 +60,17 @@ export type Choice = (typeof choices)[number];
 export interface Bounds {
   low: Vec2;
   high: Vec2;
-  /** Of the D; `radius` is 0 where there is none. */
+  /** Of the D; `radius` is 0 if there is no D. */
   centre: Vec2;
   radius: number;
 }
 
-/** What the calls of this file need of the library. */
+/** The functions of the library that this file uses. */
 export interface Host extends RecordingHost {
   cue(fields: Partial<Cue>): Cue;
   writeShotOptions(options: ShotOptions): Pointer;
   readState(pointer: Pointer, game: Rules): GameState;
-  /** Throws what rules of the caller's threw in the last call. */
+  /** Throws the exception that custom rules threw in the last call. */
   checkOwn(): void;
   writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer;
   /** The last shot of a match, with its events. */
@@ -97,13 +99,12 @@ function inJavaScript(text: string): string {
 
 /**
  * A game of 2 to 8 seats: the table, the balls, the rules, the players with their cues, the last
- * shot and the recording in one object, which takes one act after another:
- * `carom.match("eightball", table)`. An act that the rules forbid throws a CaromError, whose text
- * says what would be right, and changes nothing. The seat that acts is by default the one at the
- * table.
+ * shot and the recording in one object, which is changed by acts: `carom.match("eightball",
+ * table)`. An act that the rules forbid throws a CaromError, whose text describes what would be
+ * right, and changes nothing. By default the seat at the table acts.
  */
 export class Match extends MatchActs<Host> {
-  /** But those in the text of C, of the last act. */
+  /** All lines except those of the last act, which are in the text of C. */
   readonly #lines: string[] = [];
   readonly #undone: string[][] = [];
   #film: { hash: bigint; shot: Shot | undefined } | undefined;
@@ -114,7 +115,7 @@ export class Match extends MatchActs<Host> {
     super(host, [layout.carom_match.size]);
   }
 
-  /** @internal The rules of the caller's for lines that are read. */
+  /** @internal The custom rules for lines that are read. */
   readBy(game: Partial<GameState>): void {
     this.#customRules = game.own;
     const rules = this.#host.writeState(game, []) - layout.carom_plan_rules.offset.state;
@@ -132,7 +133,7 @@ export class Match extends MatchActs<Host> {
     this.#customRules = game.own;
     const rules = game.own ? OWN : value("carom_rules_kind", game.rules ?? "eightball", "rules");
     if (game.own && balls === undefined)
-      throw new TypeError("balls: rules of your own have no rack; a layout is needed");
+      throw new TypeError("balls: custom rules have no rack; a layout is needed");
     const side = whole(player, "player", values.CAROM_SEATS_MOST - 1);
     const draws = whole(seed, "seed", Number.MAX_SAFE_INTEGER);
     this.#using(
@@ -173,7 +174,7 @@ export class Match extends MatchActs<Host> {
     );
   }
 
-  /** Writes who plays. Returns whether they are others than the usual two without names. */
+  /** Writes the seats. Returns whether they differ from the usual two without names. */
   #writeSeats(
     seating: Pointer,
     rules: number,
@@ -184,7 +185,7 @@ export class Match extends MatchActs<Host> {
     const { memory } = this.#host;
     const given = typeof seats === "object" ? seats : Array<string>(seats ?? 0).fill("");
     if (memory.exports.carom_seating_make(rules, given.length, seating) < 0)
-      throw new RangeError(`seats: this game is not played by ${given.length}`);
+      throw new RangeError(`seats: ${given.length} seats cannot play this game`);
     for (const [k, one] of given.entries()) {
       const seat = seating + SEATING.seat + k * SEAT.size;
       const name = `seats[${k}]`;
@@ -212,33 +213,53 @@ export class Match extends MatchActs<Host> {
   }
 
   /**
-   * Reads a line of another program and judges it: an act, or a line of the ruling of the last act.
-   * With `seat` the act must be one of that seat. Throws a CaromError where the line is not by the
-   * rules, has other bits, or is an act of another seat; then nothing has changed.
+   * Reads the next line of a file and judges it: an act, or a line of the ruling of the last act.
+   * Throws a CaromError where the line is not by the rules or has other bits; then nothing has
+   * changed.
    */
-  read(line: string, seat?: number): void {
-    this.#read(line, seat === undefined ? -1 : this.seatOf(seat));
-    this.#undone.length = 0;
-  }
-
-  #read(line: string, seat: number): void {
+  read(line: string): void {
     const state = (): string => `${this.#record64("line")} ${this.#record64("hash")}`;
     const known = this.#written;
     const isDue = this.#number("due") > 0;
     const size = this.#number("size");
-    const before = state();
+    const previous = state();
     this.#withText(line, (text, bytes) =>
       this.#using(["carom_record"], ([scratch]) =>
-        this.#called((pointer, call) =>
-          call.carom_match_read_from(pointer, scratch, text, bytes, seat),
-        ),
+        this.#called((pointer, call) => call.carom_match_read(pointer, scratch, text, bytes)),
       ),
     );
     if (isDue && this.#number("size") < size) this.#lines.push(known[0]!);
-    else if (!isDue && state() !== before) this.#lines.push(...known, `${line.trim()}\n`);
+    else if (!isDue && state() !== previous) this.#lines.push(...known, `${line.trim()}\n`);
+    this.#undone.length = 0;
   }
 
-  /** Another match that stands as this one, and goes on by itself. */
+  /**
+   * Judges a line that a peer has sent, such as a client of a server. `seat` is the seat that sent
+   * it; null: a sender that may send every line, such as the server of a client. The lines of the
+   * ruling need not follow, because the match makes them, and a line of the last act that comes
+   * again changes nothing. Returns whether the match has changed; `lines` then has new ones. Throws
+   * a CaromError where the line is not by the rules, has other bits, or is an act of another seat;
+   * the match then stays as it was, to the bit.
+   */
+  receive(line: string, seat: number | null): boolean {
+    const known = this.#written;
+    const lineCount = this.#record64("line");
+    this.#withText(line, (text, bytes) =>
+      this.#using(["carom_match"], ([room]) =>
+        this.#called((pointer, call) =>
+          call.carom_match_receive(pointer, room, text, bytes, seat ?? -1),
+        ),
+      ),
+    );
+    if (this.#record64("line") === lineCount) return false;
+    this.#lines.push(...known);
+    // A line of the beginning is read, and the match makes no lines.
+    if (this.#number("size") === 0) this.#lines.push(`${line.trim()}\n`);
+    this.#undone.length = 0;
+    return true;
+  }
+
+  /** A copy of this match, independent of it. */
   copy(): Match {
     const twin = new Match(this.#host);
     twin.#take(this, this.#lines);
@@ -253,7 +274,7 @@ export class Match extends MatchActs<Host> {
     this.#lines.splice(0, Infinity, ...lines);
   }
 
-  /** Takes the last act back, by judging the lines before it again. Returns whether there was one. */
+  /** Undoes the last act, by judging the lines before it again. Returns whether there was one. */
   undo(): boolean {
     const { lines } = this;
     const kept = this.#withText(lines.join(""), (text, bytes) => {
@@ -262,29 +283,31 @@ export class Match extends MatchActs<Host> {
       return new TextDecoder().decode(memory.u8.slice(text, text + size)).match(/.*\n/g) ?? [];
     });
     if (kept.length === lines.length) return false;
-    const before = new Match(this.#host);
-    if (this.#customRules) before.readBy({ own: this.#customRules });
+    const earlier = new Match(this.#host);
+    if (this.#customRules) earlier.readBy({ own: this.#customRules });
     try {
-      for (const line of kept) before.#read(line, -1);
-      this.#take(before, before.#lines);
+      for (const line of kept) earlier.read(line);
+      this.#take(earlier, earlier.#lines);
     } finally {
-      before.free();
+      earlier.free();
     }
     this.#undone.push(lines.slice(kept.length));
     return true;
   }
-  /** Does the act again that was undone last, unless another act followed. */
+  /** Repeats the act that was undone last, unless another act followed. */
   redo(): boolean {
     const lines = this.#undone.pop();
-    for (const line of lines ?? []) this.#read(line, -1);
+    const others = this.#undone.splice(0);
+    for (const line of lines ?? []) this.read(line);
+    this.#undone.push(...others);
     return lines !== undefined;
   }
 
   // ---- How the match stands
 
   /**
-   * The recording so far, a line each, which `carom verify` judges again. Of a text that was read
-   * and cut off it has the lines that were missing.
+   * The lines of the recording so far, which `carom verify` judges again. For a text that was cut
+   * off they include the missing lines.
    */
   get lines(): string[] {
     return [...this.#lines, ...this.#written];
@@ -297,7 +320,7 @@ export class Match extends MatchActs<Host> {
     const count = this.#recorded("count");
     return readBalls(this.#host.memory, this.#record("balls"), count);
   }
-  /** How the game stands for the player at the table. */
+  /** The state of the game for the player at the table. */
   get game(): GameState {
     const state = this.#pointer + MATCH.rules + layout.carom_plan_rules.offset.state;
     return this.#host.readState(state, this.#rules);
@@ -312,7 +335,7 @@ export class Match extends MatchActs<Host> {
       return { name, ...readStruct<Omit<Seat, "name">>(memory, seat, "carom_seat") };
     });
   }
-  /** The bounds of strokes; 0: none. */
+  /** The limits of strokes; 0: no limit. */
   get limits(): C.StrokeLimits {
     const limits = this.#pointer + MATCH.seating + SEATING.limits;
     return readStruct(this.#host.memory, limits, "carom_stroke_limits");
@@ -328,7 +351,7 @@ export class Match extends MatchActs<Host> {
     const sides = this.standing.won.length;
     return set.race === 0 ? undefined : { ...set, order: word, won: won.slice(0, sides) };
   }
-  /** How the match stands, by sides. */
+  /** The score of the match, by sides. */
   get standing(): Standing {
     return this.#using(["carom_standing"], ([standing]) => {
       const { memory } = this.#host;
@@ -343,7 +366,10 @@ export class Match extends MatchActs<Host> {
       };
     });
   }
-  /** What the match waits for, or how it ended; `ruling.words` says the last ruling. */
+  /**
+   * A text with what the match waits for, or how it ended; `ruling.words` describes the last
+   * ruling.
+   */
   get words(): string {
     const { memory } = this.#host;
     const text = memory.allocate(1024);
@@ -354,7 +380,10 @@ export class Match extends MatchActs<Host> {
       memory.free(text);
     }
   }
-  /** The balls that the player at the table may strike: `cueBall`, or where the rules say so any. */
+  /**
+   * The balls that the player at the table may strike: `cueBall`, or any ball if the rules allow
+   * it.
+   */
   get strikable(): number[] {
     const { anyCueBall } = layout.carom_plan_rules.offset;
     const isAny = this.#host.memory.i32[(this.#pointer + MATCH.rules + anyCueBall) / 4] !== 0;
@@ -363,11 +392,11 @@ export class Match extends MatchActs<Host> {
       state.label === "pocketed" || state.label === "off" ? [] : [ball],
     );
   }
-  /** Where the rules let a cue ball in hand be put, until the stroke: `bounds` in a word. */
+  /** Where the rules allow a cue ball in hand, until the stroke: the name of `bounds`. */
   get hand(): Ruling["hand"] {
     return this.phase === "over" ? "no" : HANDS[this.#number("leave")]!;
   }
-  /** Where a cue ball in hand may be put, until the stroke. */
+  /** The bounds of a cue ball in hand, until the stroke. */
   get bounds(): Bounds | undefined {
     if (this.hand === "no") return undefined;
     return readStruct(this.#host.memory, this.#pointer + MATCH.bounds, "carom_bounds");
@@ -377,7 +406,7 @@ export class Match extends MatchActs<Host> {
     if (this.#number("rulings") === 0) return undefined;
     return this.#host.readRuling(this.#pointer + MATCH.ruling, this.#rules, this.balls);
   }
-  /** The last shot, or what was played of it, with its events: played here or read. */
+  /** The last shot, as far as it was played, with its events: played here or read. */
   get shot(): Shot | undefined {
     const { memory } = this.#host;
     const cue = readStruct<Cue>(memory, this.#pointer + MATCH.stroke, "carom_cue");
@@ -413,8 +442,8 @@ export class Match extends MatchActs<Host> {
     });
   }
   /**
-   * Plays a stroke of `cue`, but for what is given, up to where the options stop it. The ball may be
-   * another `strikable` one. Returns whether the shot has ended, and is ruled.
+   * Plays a stroke of `cue`, with the given fields replaced, until the options stop it. The ball
+   * may be any `strikable` one. Returns whether the shot has ended, and was judged.
    */
   stroke(cue: Partial<Cue>, { seat, ...stop }: StrokeOptions = {}): boolean {
     return this.#using(["carom_cue"], ([struck]) => {
@@ -428,14 +457,14 @@ export class Match extends MatchActs<Host> {
   #fillCue(pointer: Pointer, cue: Partial<Cue>): void {
     writeStruct(this.#host.memory, pointer, "carom_cue", cue, "cue", this.cue);
   }
-  /** Goes on with a shot that was stopped, likewise. */
+  /** Continues a stopped shot in the same way. */
   continue(stop: StopOptions = {}): boolean {
     const stopOptions = this.#host.writeShotOptions(stop);
     return this.act((pointer, call) => call.carom_match_continue(pointer, stopOptions, 0));
   }
   /**
-   * Does what a choice of a plan asks for before its stroke: places, pushes out and calls; or
-   * passes, and no stroke follows.
+   * Performs the acts that a choice of a plan requires before its stroke: places, pushes out and
+   * calls; or passes, in which case no stroke follows.
    */
   prepare({ kind, place, ball, pocket }: PlanStroke, seat?: number): void {
     this.#using(["carom_plan_stroke"], ([choice]) => {
@@ -447,14 +476,14 @@ export class Match extends MatchActs<Host> {
     });
   }
   /**
-   * Takes a choice of a plan: prepares it, and plays its stroke unless it is a pass. `cue` is the
+   * Plays a choice of a plan: prepares it, and plays its stroke unless it is a pass. `cue` is the
    * stroke as the player makes it.
    */
   take(choice: PlanStroke, cue: Partial<Cue> = choice.cue, options: StrokeOptions = {}): boolean {
     this.prepare(choice, options.seat);
     return choice.kind === "pass" || this.stroke(cue, options);
   }
-  /** The whole text, with its last line: nothing follows, and the memory is given back. */
+  /** The complete text, with its last line: nothing follows, and the memory is freed. */
   end(): string {
     this.act((pointer, call) => call.carom_match_end(pointer));
     const text = this.lines.join("");
@@ -465,8 +494,8 @@ export class Match extends MatchActs<Host> {
   // ---- Plans
 
   /**
-   * Who plays against the seat at the table, as carom_match_opponent() says: by rating, else
-   * `player` with the errors that strokes of the other side show.
+   * The opponent of the seat at the table, by carom_match_opponent(): by rating, or else `player`
+   * with errors estimated from the strokes of the other side.
    */
   opponent(player: Player): Player {
     return this.#using(["carom_player", "carom_player"], ([asks, found]) => {
@@ -478,7 +507,7 @@ export class Match extends MatchActs<Host> {
   }
   /**
    * The best strokes of the seat at the table, with a cue ball in hand within `bounds`. By default
-   * the cue is that of the seat, the player one of its rating, and the opponent `opponent()`.
+   * the cue is the cue of the seat, the player has its rating, and the opponent is `opponent()`.
    */
   plan(options: PlanOptions = {}): PlanStroke[] {
     return this.think(options, 0).next().value as PlanStroke[];
@@ -563,7 +592,7 @@ export class Match extends MatchActs<Host> {
     const bytes = this.#host.memory.u8.slice(text, text + this.#number("size"));
     return new TextDecoder().decode(bytes).match(/.*\n/g) ?? [];
   }
-  /** Does what C does. Returns whether a shot has ended. */
+  /** Calls a function of C. Returns whether a shot has ended. */
   protected override act(act: (pointer: Pointer, call: Exports) => number): boolean {
     const known = this.#written;
     const code = this.#called(act);
@@ -571,7 +600,7 @@ export class Match extends MatchActs<Host> {
     this.#undone.length = 0;
     return code === 0;
   }
-  /** What C returns. What it or rules of the caller's refuse is thrown, and changes nothing. */
+  /** Returns the result of C. Errors of C or of custom rules are thrown, and change nothing. */
   #called(act: (pointer: Pointer, call: Exports) => number): number {
     const { memory } = this.#host;
     const pointer = this.#pointer;

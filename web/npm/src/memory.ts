@@ -16,7 +16,7 @@ export interface Exports {
 }
 
 // A function whose body is one instruction on vectors: v128.const 0, i32x4.extract_lane 0. It
-// validates where SIMD128 is known.
+// validates if SIMD128 is supported.
 const VECTORS = new Uint8Array([
   0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 127, 3, 2, 1, 0, 10, 25, 1, 23, 0, 253, 12, 0, 0,
   0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 253, 27, 0, 11,
@@ -55,8 +55,8 @@ export class Memory {
   ) {}
 
   /**
-   * Runs functions of the caller's, which the library has called: meanwhile nothing else may use
-   * the memory, because the call of the library still reads it. With `isPaused` false the opposite.
+   * Marks that functions of the caller run, which the library has called: nothing else may use the
+   * memory meanwhile, because the call of the library still reads it. `isPaused` false ends this.
    */
   paused<T>(run: () => T, isPaused = true): T {
     this.#isPaused = isPaused;
@@ -128,8 +128,8 @@ export async function start(build: Build): Promise<Memory> {
       ? (await import("./generated/simd.js")).default
       : (await import("./generated/plain.js")).default;
   const module = await WebAssembly.compile(await bytesOf(base64));
-  // The library asks the system for nothing but the time, and the environment, in which it finds
-  // nothing.
+  // The library requests only the time and the environment from the system; the environment is
+  // empty.
   let buffer = (): ArrayBufferLike | undefined => undefined; // there is a memory after the start
   const empty = (count: number, size: number): number => {
     const memory = buffer();
@@ -159,7 +159,7 @@ export async function start(build: Build): Promise<Memory> {
     (imports[wantedImport.module] ??= {})[name] =
       known[name] ??
       (() => {
-        throw new Error(`carom: the library called ${name}(), which has no meaning here`);
+        throw new Error(`carom: the library called ${name}(), which is not available here`);
       });
   }
   const instance = await WebAssembly.instantiate(module, imports);

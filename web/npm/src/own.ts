@@ -1,5 +1,5 @@
 // Rules of a game that are written in JavaScript: the functions that the module imports for them,
-// and what they throw.
+// and the exceptions that they throw.
 import { layout, names, values } from "./generated/layout.js";
 import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
@@ -23,14 +23,14 @@ const RULES = layout.carom_plan_rules;
 const STATE = layout.carom_rules_state.offset;
 const TURN = layout.carom_turn.offset;
 const HAND = names.carom_leave.indexOf("anywhere");
-/** The words of a state that are the rules'; its context is the number of the rules. */
+/** The integers of a state that belong to the rules; its context is the number of the rules. */
 const WORDS = 8;
-/** The methods that rules may leave to the library, as own.c numbers them. */
+/** The optional methods of rules, as own.c numbers them. */
 const OPTIONAL = ["value", "pockets", "points", "settle"] as const;
-/** What is returned of a method that threw. */
+/** The return value of a method that threw. */
 const NOTHING = 0;
 
-/** The rules that a library's calls were given. */
+/** The rules that were passed to calls of the library. */
 export class OwnRules {
   readonly #memory: Memory;
   readonly #numbers = new WeakMap<GameRules, number>();
@@ -106,7 +106,7 @@ export class OwnRules {
         const tableRead = readTable(memory, table);
         const layoutBalls = readBalls(memory, balls, count);
         const turn = this.#readTurn(turnAt);
-        /** The library puts a ball back, where the rules have laid the others. */
+        /** The library spots a ball in the layout that the rules have made. */
         const spot = (ball: number): void =>
           memory.paused(() => {
             writeBalls(memory, balls, layoutBalls);
@@ -133,7 +133,7 @@ export class OwnRules {
     });
   }
 
-  /** Writes rules with a state that is 0 but for its words. */
+  /** Writes rules with a state that is 0 except for its integers. */
   write(pointer: Pointer, rules: GameRules, user: readonly number[], seat = 0): void {
     const memory = this.#memory;
     for (const method of ["on", "judge", "left"] as const)
@@ -163,14 +163,14 @@ export class OwnRules {
     memory.i64[(state + STATE.context) / 8] = BigInt(number);
   }
 
-  /** The words of a state in the module's memory. */
+  /** The integers of a state in the module's memory. */
   user(state: Pointer): Words {
     const pointer = (state + STATE.user) / 8;
     const words = Array.from(this.#memory.i64.slice(pointer, pointer + WORDS), Number);
     return Object.assign(words, { seat: this.#memory.i32[(state + STATE.seat) / 4]! });
   }
 
-  /** Throws what rules threw in the call that has ended. */
+  /** Throws the exception that rules threw in the call that has ended. */
   check(): void {
     const failure = this.#failure;
     this.#failure = undefined;
@@ -199,7 +199,7 @@ export class OwnRules {
     }
   }
 
-  /** Writes the words of a state, and its seat. */
+  /** Writes the integers of a state, and its seat. */
   writeUser(state: Pointer, user: Words, name: string): void {
     if (user.length > WORDS)
       throw new RangeError(`${name}: a state has ${WORDS} words, not ${user.length}`);
@@ -211,7 +211,7 @@ export class OwnRules {
     this.#memory.i32[(state + STATE.seat) / 4] = seat;
   }
 
-  /** Refuses balls that lie where none can; a cue ball in hand may lie anywhere. */
+  /** Rejects balls in impossible positions; a cue ball in hand may be anywhere. */
   #checkSettled(table: Pointer, balls: Pointer, count: number, turn: Pointer): void {
     const memory = this.#memory;
     const { size, offset } = layout.carom_fault;

@@ -1,4 +1,4 @@
-// Which shot to play, players who err, and the rules of games: the calls of carom_plan.h.
+// Which shot to play, players with errors, and the rules of games: the calls of carom_plan.h.
 import { games, layout, names, values } from "./generated/layout.js";
 import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
@@ -61,7 +61,7 @@ const POT = layout.carom_pot;
 const PART = layout.carom_part;
 
 const MAY = names.carom_choice;
-/** Where the cue ball may be put, by its carom_leave. */
+/** Where the cue ball may be put, by carom_leave. */
 export const HANDS = ["no", "no", "anywhere", "kitchen", "d", "baulk"] as const;
 /** The leave within whose bounds the cue ball is put, by the word of `inHand`; 0: none. */
 const leaveOf = (inHand: PlanOptions["inHand"]): number =>
@@ -84,7 +84,7 @@ const fieldsOf = (state: object, keys: readonly string[]): object =>
 /** The result of a search without slices. */
 export function resultOf<T>(search: Generator<undefined, T>): T {
   const { done, value } = search.next();
-  if (!done) throw new RangeError("carom: a plan at once has not ended");
+  if (!done) throw new RangeError("carom: a plan without slices has not ended");
   return value;
 }
 const SCORE = layout.carom_score;
@@ -102,7 +102,7 @@ const BOUNDS = {
   eye: 0,
 };
 
-/** What the calls of this file need of the library. */
+/** The functions of the library that this file uses. */
 export interface Host {
   readonly memory: Memory;
   readonly addresses: Record<"table" | "balls" | "cue" | "shot" | "final", Pointer>;
@@ -117,13 +117,14 @@ export interface Host {
 export type Rules = Partial<Pick<GameState, "rules" | "own">>;
 type Method = (...numbers: Pointer[]) => number;
 
-/** Refuses what is no layout of a game, for a plan. */
+/** Rejects a layout that is not valid for a game, for a plan. */
 function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: string): void {
   const needed = { billiard: 3, fourball: 4 }[games[rules as C.RulesKind].balls as string];
   const pool = needed === undefined;
   if (pool && pockets.length === 0)
-    throw new TypeError(`table: it has no pockets, which ${rules} needs`);
-  if (!pool && pockets.length > 0) throw new TypeError(`table: ${rules} needs one without pockets`);
+    throw new TypeError(`table: it has no pockets, but ${rules} needs them`);
+  if (!pool && pockets.length > 0)
+    throw new TypeError(`table: it has pockets, but ${rules} is played without`);
   if (!pool && balls.length < needed)
     throw new TypeError(`balls: ${rules} needs ${needed === 3 ? "three" : "four"}`);
   const last = LAST[rules as C.RulesKind] ?? balls.length;
@@ -215,7 +216,7 @@ export class Plans {
     const { exports } = this.#memory;
     const { player } = this.#addresses;
     if (fargo === undefined && rules !== undefined)
-      throw new TypeError("rules: a game needs a rating in it, fargo");
+      throw new TypeError("rules: they need a rating, fargo");
     if (fargo === undefined) exports.carom_player_of(player, errors);
     else if (rules === undefined) exports.carom_player_fargo(player, fargo);
     else exports.carom_player_rated(player, fargo, value("carom_rules_kind", rules, "rules"));
@@ -279,7 +280,7 @@ export class Plans {
     }
   }
 
-  /** What a stroke of a game meant and cost, and a drill of it. */
+  /** The intention of a stroke of a game and the value that it lost, and a drill for it. */
   review(
     table: Table,
     balls: readonly ShotBall[],
@@ -311,7 +312,7 @@ export class Plans {
     }
   }
 
-  /** The breaks that win most often, by breaks of a rack that are played. */
+  /** The breaks that win most often, from played breaks of a rack. */
   bestBreaks(
     rack: RackName,
     table: Table,
@@ -389,8 +390,8 @@ export class Plans {
   }
 
   /**
-   * A plan in slices of so many events; 0: at once. `leave`: within which bounds the cue ball was
-   * placed for this stroke, a carom_leave.
+   * A plan in slices of `slice` events; 0: at once. `leave`: the bounds within which the cue ball
+   * was placed for this stroke, a carom_leave.
    */
   *think(
     table: Table,
@@ -455,8 +456,8 @@ export class Plans {
   }
 
   /**
-   * A run-out as a whole, and the share of those that are played; in slices of so many events, and
-   * one for each that is played. 0: at once.
+   * A complete run-out, and the success rate of played run-outs; in slices of `slice` events, and
+   * one slice for each played run-out. 0: at once.
    */
   *sequence(
     table: Table,
@@ -519,9 +520,9 @@ export class Plans {
   }
 
   /**
-   * The options with the ball to strike. Where the rules let a player strike any ball, and neither
-   * the options nor strokes that are given name one, it is the ball from which the player wins most
-   * often, as in carom_match_plan().
+   * The options with the ball to strike. If the rules let a player strike any ball, and neither the
+   * options nor the given strokes name one, it is the ball with which the player wins most often,
+   * as in carom_match_plan().
    */
   #withCueBall(
     table: Table,
@@ -701,8 +702,8 @@ export class Plans {
   }
 
   /**
-   * What a shot comes to, which is in the module's memory with its table, balls, facts and last
-   * states; 0: none was played.
+   * The ruling of a shot that is in the module's memory with its table, balls, facts and final
+   * states; 0: no shot was played.
    */
   rule(
     balls: readonly ShotBall[],
@@ -734,7 +735,7 @@ export class Plans {
     return this.readRuling(ruling, game, balls);
   }
 
-  /** A carom_ruling in the module's memory; `balls` have what it leaves as it was. */
+  /** A carom_ruling in the module's memory; `balls` provide the values that it does not change. */
   readRuling(ruling: Pointer, game: Rules, balls: readonly ShotBall[]): Ruling {
     const memory = this.#memory;
     const { text } = this.#addresses;
@@ -771,7 +772,7 @@ export class Plans {
   }
 
   /**
-   * A carom_rules_state in the module's memory; and one that is written there, once it is checked.
+   * A carom_rules_state in the module's memory; or one that is written there after it was checked.
    */
   readState(pointer: Pointer, { rules = "eightball", own: custom }: Rules): GameState {
     const {
@@ -790,7 +791,7 @@ export class Plans {
     };
   }
 
-  /** The words of a state and its seat, of games of the library that have some. */
+  /** The integers of a state and its seat, for built-in games that use them. */
   #wordsOf(pointer: Pointer, isOwn: boolean): Pick<GameState, "user" | "seat"> {
     const user = this.customRules.user(pointer);
     return isOwn || user.some((word) => word > 0) ? { user: [...user], seat: user.seat } : {};
@@ -804,8 +805,8 @@ export class Plans {
   // ---- Structs ----------------------------------------------------------------------------------
 
   /**
-   * Whether the rules do more with the places of balls than to put some back; all their balls are
-   * in the list then.
+   * Whether the rules use the positions of balls for more than spotting; all their balls are in the
+   * list then.
    */
   get #settles(): boolean {
     return this.#memory.u32[(this.#addresses.rules + RULES.offset.settle) / 4] !== 0;

@@ -1,5 +1,5 @@
-// Recordings that are played again: the calls of carom_record.h. The format is that of
-// docs/reference/files.md.
+// Recordings that are played again: the calls of carom_record.h. docs/reference/files.md has the
+// format.
 import { CaromError } from "./error.js";
 import { layout, values } from "./generated/layout.js";
 import type { Memory, Pointer } from "./memory.js";
@@ -29,10 +29,10 @@ export interface Replayed {
   shot: number;
   /** Of the recording, from 1. */
   line: number;
-  /** Whether it goes on with the shot before, which was stopped. */
+  /** Whether it continues the previous shot, which was stopped. */
   continues: boolean;
   table: Table;
-  /** The layout at its start; of one that continues, at the start of the shot. */
+  /** The layout at its start; for a continuation, at the start of the shot. */
   balls: ShotBall[];
   cue: Cue;
   recorded: ShotEnd;
@@ -41,15 +41,15 @@ export interface Replayed {
   same: boolean;
   final: BallState[];
   /**
-   * What was played, with its events and places at any time; of one that continues, from the start
-   * of the shot.
+   * The played shot, with its events and its positions at any time; for a continuation, from the
+   * start of the shot.
    */
   film: Shot;
 }
 
 const hex = (hash: bigint): string => BigInt.asUintN(64, hash).toString(16).padStart(16, "0");
 
-/** What the calls of this file need of the library. */
+/** The functions of the library that this file uses. */
 export interface Host {
   readonly memory: Memory;
   statusName(code: number): string;
@@ -88,7 +88,7 @@ class Game {
     };
   }
 
-  /** Throws what is wrong with a line. */
+  /** Throws the error of a line. */
   refuse(code: number): void {
     const line = `line ${this.number(RECORD.line)}`;
     if (code === values.CAROM_ERROR_RECORD)
@@ -122,8 +122,8 @@ class Game {
   film: Shot | undefined;
 
   /**
-   * Plays a shot with all of its events. Where they need more memory, it is played again: it has
-   * the same bits.
+   * Plays a shot with all of its events. If they need more memory, it is played again, with the
+   * same bits.
    */
   play(kind: number): number {
     const { memory } = this.#host;
@@ -150,7 +150,7 @@ class Game {
           );
         return code;
       }
-      // Those of a shot that goes on stay.
+      // The events of a shot that is continued are kept.
       const events = memory.allocate(2 * count * EVENT_SIZE);
       memory.u8.copyWithin(events, this.#events, this.#events + this.#room * EVENT_SIZE);
       memory.free(this.#events);
@@ -168,7 +168,7 @@ class Game {
       this.#line = memory.allocate((this.#lineRoom = 2 * bytes.length));
     }
     memory.u8.set(bytes, this.#line);
-    // Blank lines are lines too, but for the end of a text.
+    // Blank lines count as lines, except at the end of a text.
     this.refuse(
       bytes.length === 0
         ? 0

@@ -1,7 +1,7 @@
 // One shot that was played: its events, and where the balls are at any time.
 import type { BallState, Contact, Cue, Frame, ShotBall, ShotEvent, Table } from "./types.js";
 
-/** What a shot needs of the library. */
+/** The functions of the library that a shot uses. */
 export interface Reader {
   events(shot: Shot): ShotEvent[];
   states(shot: Shot, time: number, drawn: boolean): BallState[];
@@ -10,7 +10,9 @@ export interface Reader {
   frame(shot: Shot, time: number): Frame;
 }
 
-/** What a stopped shot needs to go on, as bytes of C: the table, the options and the state. */
+/**
+ * What is needed to continue a stopped shot, as bytes of C: the table, the options and the state.
+ */
 export type Kept = Readonly<Record<"table" | "options" | "state", Uint8Array>>;
 
 /** One shot that was played. It keeps its events in JavaScript's memory and needs no release. */
@@ -25,7 +27,7 @@ export class Shot {
     /** The balls at the start. */
     readonly balls: readonly ShotBall[],
     /**
-     * "ok" where everything came to rest; "stopped_at_time", "stopped_at_event"; or how it failed.
+     * "ok" if all balls rest; "stopped_at_time", "stopped_at_event"; or how it failed.
      */
     readonly status: string,
     /** How long it lasts, s. */
@@ -36,7 +38,7 @@ export class Shot {
     readonly count: number,
     /** @internal The events as the library wrote them. */
     readonly bytes: Uint8Array,
-    /** @internal What rules ask about, as the library wrote it. */
+    /** @internal The facts for rules, as the library wrote them. */
     readonly facts?: Uint8Array,
     /** @internal What `continue` needs. */
     readonly retained?: Kept,
@@ -52,8 +54,8 @@ export class Shot {
   }
 
   /**
-   * The first contact of the cue ball, which is the one that the cue struck or ball 0, with another
-   * ball; or undefined.
+   * The first contact of the cue ball (the ball that the cue struck, or ball 0) with another ball;
+   * or undefined.
    */
   get firstContact(): Contact | undefined {
     const struck = this.events[0]?.type === "stick_ball" ? this.events[0].a : 0;
@@ -75,7 +77,7 @@ export class Shot {
 
   /**
    * x, y, z of every ball at many times (s), m: 3 numbers for each ball, time after time. Ascending
-   * times cost least. `drawn` as of `states`.
+   * times are fastest. `drawn` as for `states`.
    */
   positionsAt(times: ArrayLike<number>, drawn = false): Float64Array {
     return this.#reader.positionsAt(this, times, drawn);
@@ -83,7 +85,7 @@ export class Shot {
 
   /**
    * The states of all balls at a time, s. With `drawn` a pocketed ball falls in its pocket until it
-   * lies at the depth: it is lower than there.
+   * rests at the bottom, below the cloth.
    */
   states(time: number, drawn = false): BallState[] {
     return this.#reader.states(this, time, drawn);
@@ -99,9 +101,9 @@ export class Shot {
   }
 
   /**
-   * The states of all balls at a time, s, and how they have turned, for drawing. It goes on from
-   * the frame before, where that was of this shot and
-   * earlier, and nothing is copied: the arrays are those of the next frame, too.
+   * The states of all balls at a time, s, and how they have turned, for drawing. It continues from
+   * the previous frame if that was earlier in this shot. Nothing is copied: the next frame uses the
+   * same arrays.
    */
   frame(time: number): Frame {
     return this.#reader.frame(this, time);

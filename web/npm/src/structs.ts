@@ -22,26 +22,27 @@ import type {
 
 export type StructName = keyof typeof layout;
 
-/** The place of a word in a list. */
+/** The index of a name in a list. */
 export function indexOf(words: readonly string[], word: unknown, option: string): number {
   const found = word === "" ? -1 : words.indexOf(word as string);
   return found >= 0 ? found : refuseName(option, word as string, words.filter(Boolean));
 }
 
-/** The value of a word of an enumeration: value("carom_cushion_model", "han", "model"). */
+/** The value of a name of an enumeration: value("carom_cushion_model", "han", "model"). */
 export function value(enumeration: keyof typeof NAMES, word: unknown, option: string): number {
   return indexOf(NAMES[enumeration], word, option);
 }
 
-/** Throws because a name is none of a list. */
+/** Throws the error of a name that is not in a list. */
 export function refuseName(option: string, name: string, names: readonly string[]): never {
+  const hint = meant(String(name), names);
   throw new TypeError(
-    `${option}: it must be one of ${names.join(", ")}, not ${JSON.stringify(name)}${meant(String(name), names)}`,
+    `${option}: unknown name ${JSON.stringify(name)}${hint ? `${hint} Use` : "; use"} one of ${names.join(", ")}`,
   );
 }
 
 type Type = "f64" | "i64" | "i32" | StructName | "";
-/** Where a field is, of what, and how many of them. */
+/** The offset, the type and the number of elements of a field. */
 interface Field {
   key: string;
   begin: number;
@@ -67,18 +68,18 @@ const KEYS_OF = Object.fromEntries(
   Object.entries(FIELDS).map(([struct, fields]) => [struct, fields.map(({ key }) => key)]),
 ) as Record<StructName, string[]>;
 
-/** Refuses what a struct does not have. */
+/** Rejects keys that a struct does not have. */
 export function refuseUnknownOf(struct: StructName, fields: object, name: string): void {
   refuseUnknown(fields, KEYS_OF[struct], name);
 }
 
-/** What a field has to be, in words. */
+/** A description of the values of a field. */
 function wordsOf(size: number, whole: boolean): string {
   if (whole) return "a whole number";
   return size === 1 ? "a number" : `${size} numbers`;
 }
 
-/** The numbers of a field that is one of them or a list; undefined where it is neither. */
+/** The numbers of a field that is a number or a list; undefined if it is neither. */
 function listOf(value: unknown, size: number): ArrayLike<number> | null | undefined {
   if (size === 1) return [value as number];
   return typeof value === "object" ? (value as ArrayLike<number> | null) : undefined;
@@ -86,7 +87,7 @@ function listOf(value: unknown, size: number): ArrayLike<number> | null | undefi
 
 /**
  * A struct of numbers and arrays of them, from an object whose keys are the fields; `defaults` has
- * those that may be missing.
+ * the optional ones.
  */
 export function writeStruct(
   memory: Memory,
@@ -153,8 +154,8 @@ export function whole(number: number | undefined, option: string, most = 0x7ffff
 }
 
 /**
- * Options of a call by their rows; each that is missing is 0, its default. With `stops` only when
- * to stop.
+ * Options of a call by their rows; a missing option is 0, its default. With `stops` only the
+ * stopping options.
  */
 export function writeOptions(
   memory: Memory,
@@ -287,7 +288,7 @@ const PARTS = [
   ["pockets", TABLE.pockets, "carom_pocket", TABLE.pocket, values.CAROM_POCKETS_MOST],
 ] as const;
 
-/** What the parts of a table may lack. */
+/** The optional keys of the parts of a table. */
 const PART = { line: [0, 0, 0], muCushion: 0, restitution: 0 };
 
 export function writeTable(memory: Memory, pointer: Pointer, table: Table): void {
@@ -351,14 +352,14 @@ export function members(set: number, count = 32): number[] {
   return Array.from({ length: count }, (_, k) => k).filter((k) => (set >>> k) & 1);
 }
 
-/** The set of balls, or of others that are fewer than `count`. */
+/** The set of balls, or of other elements with indices below `count`. */
 export function setOf(members: readonly number[], name: string, count = 32): number {
   return members.reduce((set, item) => set | (1 << whole(item, name, count - 1)), 0) >>> 0;
 }
 
 const FACTS = layout.carom_facts.offset;
 
-/** The facts of a shot with so many balls. */
+/** The facts of a shot with `count` balls. */
 export function readFacts(
   memory: Memory,
   pointer: Pointer,

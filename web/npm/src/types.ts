@@ -1,6 +1,6 @@
-// What users hand in and get back. Units are SI: metres, kilograms, seconds, rad/s for spins.
+// The types of arguments and results. Units are SI: metres, kilograms, seconds, rad/s for spins.
 // Directions of a cue are in degrees. The table is the plane x, y; z points up; vectors are
-// right-handed. Field names are those of carom.h and carom_shot.h in camel case.
+// right-handed. Field names are as in carom.h and carom_shot.h, in camel case.
 
 import type * as C from "./generated/structs.js";
 
@@ -13,8 +13,8 @@ export type Vec3 = readonly [number, number, number];
 export type Vec2 = readonly [number, number];
 
 /**
- * One ball just before a collision. What is missing is at rest in the origin, of radius 0.028575 m
- * and mass 0.17 kg, with muSlide 0.2.
+ * One ball just before a collision. Defaults: at rest at the origin, radius 0.028575 m, mass 0.17
+ * kg, muSlide 0.2.
  */
 export type Ball = Partial<C.Ball>;
 
@@ -25,7 +25,7 @@ export interface Impact {
   /** The second ball. */
   b: Ball;
   /**
-   * Sliding friction between the balls, 0 to 1. Default: by Alciatore's law from the speed of slip.
+   * Sliding friction between the balls, 0 to 1. Default: Alciatore's law for the speed of slip.
    */
   muBall?: number;
   /** Coefficient of restitution, 0 to 1. Default 0.95. */
@@ -38,7 +38,7 @@ export type CollideOptions = C.Options;
 
 /** Two balls after a collision. */
 export interface Collided {
-  /** "ok", or "separating" where the balls did not approach each other and nothing changed. */
+  /** "ok", or "separating" if the balls did not approach each other and nothing changed. */
   status: string;
   /** The first ball. */
   a: Motion;
@@ -69,8 +69,8 @@ export interface TracePoint
 }
 
 /**
- * A ball that touches a cushion. What is missing: no spin, the ball and the cushion of pool for the
- * model, jawRadius 0.
+ * A ball that touches a cushion. Defaults: no spin, the ball and the cushion of pool for the model,
+ * jawRadius 0.
  */
 export type CushionImpact = Optional<
   C.CushionImpact,
@@ -83,13 +83,13 @@ export type CushionOptions = C.CushionOptions;
 
 /** A named condition of a pool table's cloth or cushions. */
 export type Condition = C.Condition;
-/** A bank that calibrates a table, and what three of them tell. */
+/** A bank for the calibration of a table, and the result of three of them. */
 export type Bank = C.Bank;
 export type Calibration = C.Calibration;
 
 /**
- * A game: whose balls, cloth and cue. docs/reference/constants.md has the source of each
- * number.
+ * A game, for its balls, cloth and cue. docs/reference/constants.md has the source of each
+ * constant.
  */
 export type Game = C.Game;
 
@@ -99,13 +99,13 @@ export type BallKind = C.BallKind;
 export type Label = C.Label;
 
 /**
- * A frame of a shot, in which pocketed balls fall: views into the module's memory, which hold until
- * the next frame, or until that memory grows.
+ * A frame of a shot, in which pocketed balls fall: views into the module's memory, valid until the
+ * next frame, or until that memory grows.
  */
 export interface Frame {
   /**
-   * Place, velocity and spin of each ball, SI: 10 numbers, of which the last is no number: its
-   * label.
+   * Position, velocity and spin of each ball, SI: 10 elements, of which the last is not a number,
+   * but the label.
    */
   readonly states: Float64Array;
   /**
@@ -127,14 +127,14 @@ export interface ShotBall {
   state: BallState;
   /**
    * Its name in a line: the number of a ball of eight-ball or nine-ball, which plans and rulings
-   * compare with its place in the list.
+   * compare with its index in the list.
    */
   id?: string;
 }
 
 /**
- * A straight piece of cushion. Without a line it is derived; without muCushion or restitution it
- * has those of the ball.
+ * A straight piece of cushion. A missing line is derived; without muCushion or restitution the
+ * values of the ball are used.
  */
 export type Rail = Optional<C.Rail, "line" | "muCushion" | "restitution">;
 
@@ -144,7 +144,7 @@ export type Jaw = Optional<C.Jaw, "muCushion" | "restitution">;
 export type Pocket = C.Pocket;
 
 /**
- * A table of any geometry. The playing surface of the built-in ones is 0 <= x <= width, 0 <= y <=
+ * A table of any geometry. The playing surface of the built-in tables is 0 <= x <= width, 0 <= y <=
  * length, in m.
  */
 export interface Table
@@ -157,7 +157,7 @@ type Counted = "rails" | "jaws" | "pockets" | "rail" | "jaw" | "pocket";
 
 export type Cue = C.Cue;
 
-/** What happened, in the words of files of `carom shoot`. */
+/** What happened, by the names in files of `carom shoot`. */
 export type EventType = C.EventType;
 
 export type StopOptions = C.StopOptions;
@@ -171,25 +171,25 @@ export interface ShotEvent {
   type: EventType;
   /** Index of the ball. */
   a: number;
-  /** Index of the other ball, rail, jaw or pocket; -1 where there is none. */
+  /** Index of the other ball, rail, jaw or pocket; -1 if there is none. */
   b: number;
   /** States before, of ball a and, for two balls, of ball b. */
   before: BallState[];
   /** States after. */
   after: BallState[];
   /**
-   * Of the contact of two balls: how many contacts its cluster has, whose events follow each other;
-   * 0: it is alone.
+   * For a contact of two balls: the number of contacts in its cluster, whose events are
+   * consecutive; 0: a single contact.
    */
   cluster: number;
   /**
-   * N s, for sounds: the size of what ball a got from cue, ball, cushion or slate; in a cluster
-   * from ball b alone. 0 of every other event.
+   * N s, for sounds: the magnitude of the impulse on ball a from the cue, ball, cushion or slate;
+   * in a cluster only from ball b. 0 for every other event.
    */
   impulse: number;
   /**
-   * m/s, for sounds: how fast surfaces pass each other as they meet; 0 of the strike, of pockets
-   * and of events without a contact.
+   * m/s, for sounds: the slip between the surfaces as they meet; 0 for the strike, for pockets and
+   * for events without a contact.
    */
   slip: number;
 }
@@ -208,7 +208,7 @@ export type TableName = C.TableKind;
 export type Measures = C.Measures;
 export type RackName = C.RackKind;
 
-/** How the strokes of a player differ from those that are meant. What is missing is 0. */
+/** How the strokes of a player differ from the intended ones. Missing members are 0. */
 export type Player = Optional<
   C.Player,
   "speedShare" | "speedLeast" | "speedMost" | "tipMost" | "growth" | "onlyPots" | "shots" | "eye"
@@ -221,56 +221,60 @@ export interface Skill extends Pick<Partial<GameState>, "rules"> {
   errors?: number;
   fargo?: number;
 }
-/** A rating by games: the mean of the likely ones, and the interval that has 95 % of them. */
+/** A rating estimated from games: the mean, and the 95 % interval. */
 export type Rating = Omit<C.Rating, "row">;
 
 /** A match of two rated sides, for `odds`. One number of games or sets is for both sides. */
 export interface Series {
-  /** Fargo ratings, 0 to 1000: 100 points more win two games for each one of the other. */
+  /** Fargo ratings, 0 to 1000: 100 points more are odds of 2 to 1. */
   ratings: readonly [number, number];
   /** How many win a set, 1 to 100. Default 1. */
   games?: number | readonly [number, number];
   /** How many win the match. Default 1. */
   sets?: number | readonly [number, number];
-  /** Who breaks within a set; sets are begun in turn. Default "alternate". */
+  /** Who breaks within a set; the sides begin the sets alternately. Default "alternate". */
   order?: C.BreakOrder;
-  /** Which side breaks first. Default: either, by lot. */
+  /** Which side breaks first. Default: drawn by lot. */
   side?: 0 | 1;
-  /** How many points a side has more in a game that it breaks. Default 0. */
+  /** How many rating points stronger a side is in a game that it breaks. Default 0. */
   breakPoints?: number;
 }
 /** The chances of the first side, and of all final scores. */
 export interface Odds extends Omit<C.Odds, "score"> {
   /**
-   * `score[s][k]`: that side s wins while the other has k sets; where one set decides, k games.
+   * `score[s][k]`: the chance that side s wins while the other has k sets; if one set decides, k
+   * games.
    */
   score: [number[], number[]];
   /** The games of both sides with which the match is fairest. */
   fair: readonly number[];
 }
-/** What breaks are compared by, for `bestBreaks`. */
+/** Options of the comparison of breaks, for `bestBreaks`. */
 export interface BreakOptions {
-  /** How many breaks are played of each break that is proposed, at least 16. Default 500. */
+  /** How many times each proposed break is played, at least 16. Default 500. */
   breaks?: number;
-  /** How many are proposed, 1 to 8. Default 3. */
+  /** Number of proposed breaks, 1 to 8. Default 3. */
   best?: number;
-  /** Between the balls of the racks, m. Default 1e-4. */
+  /** The gap between the balls of the racks, m. Default 1e-4. */
   gap?: number;
   seed?: number;
   /** The stroke to compare with; no break is faster. Default: 9 m/s. */
   cue?: Partial<Cue>;
   player?: Player;
-  /** Default: who errs as the player does. */
+  /** Default: an opponent with the errors of the player. */
   opponent?: Player;
   shot?: ShotOptions;
 }
-/** A break: costs of errors are NaN for all but the first. */
+/** A break. The costs of errors are NaN for all breaks except the first. */
 export interface BreakChoice extends Omit<C.BreakChoice, "aim"> {
   aim: C.BreakAim;
 }
-/** A layout to practise a stroke: that of the review. */
+/** A drill: a stroke to practise in the layout of the review. */
 export type Drill = C.Drill;
-/** What a stroke meant and cost. Numbers of a stroke at no pocket are NaN, and it has no drill. */
+/**
+ * The intention of a stroke and the value that it lost. For a stroke that aims at no pocket the
+ * numbers are NaN, and there is no drill.
+ */
 export interface Review extends Omit<C.Review, "group" | "kept"> {
   /** Such as "long thin cut". */
   group: string;
@@ -280,7 +284,7 @@ export interface Review extends Omit<C.Review, "group" | "kept"> {
 
 /**
  * A game between two strokes, as the player at the table sees it. Ball k is ball k of the game,
- * ball 0 the cue ball. What is missing is that of a new game.
+ * ball 0 the cue ball. Missing members are as in a new game.
  */
 export interface GameState
   extends Partial<
@@ -289,59 +293,60 @@ export interface GameState
       "fouls" | "score" | "lost" | "pocket" | "on" | "freeBall" | "target" | "innings"
     >
   > {
-  /** A game of `words.rules`, which says by whose rules. Default "eightball". */
+  /** A game of `words.rules`, which describes its rules. Default "eightball". */
   rules: C.RulesKind;
-  /** Whose balls the player has. Default "open". */
+  /** The group of the player. Default "open". */
   group: C.Group;
   /** Whether the next stroke is the break. Default false. */
   opening: boolean;
-  /** What the player may do besides a stroke. Default: nothing. */
+  /** What the player may do in addition to a stroke. Default: nothing. */
   may?: readonly C.Choice[];
-  /** Rules of your own; then nothing else but `user` and `seat` is read. */
+  /** Custom rules; only `user` and `seat` are read in addition. */
   own?: GameRules;
   /**
-   * Up to eight words of the state, whole numbers, at least 0: those of your own rules, or in killer
-   * the lives of each seat, in cut-throat its balls as a set.
+   * Up to eight integers of the state, at least 0: for custom rules, or in killer the lives of each
+   * seat, in cut-throat its balls as a set.
    */
   user?: readonly number[];
   /** The seat at the table in a race of seats. Default 0. */
   seat?: number;
 }
 
-/** A game of your own: `carom.plan(table, balls, { own: rules, user })`. */
+/** A custom game: `carom.plan(table, balls, { own: rules, user })`. */
 export interface OwnGame
   extends Required<Pick<GameState, "own">>,
     Pick<GameState, "user" | "seat"> {}
 
-/** The words of a state of your own rules, and the seat at the table. */
+/** The integers of the state of custom rules, and the seat at the table. */
 export interface Words extends Array<number> {
   seat: number;
 }
 
-/** What a stroke amounts to by rules of your own. */
+/** The outcome of a stroke by custom rules. */
 export interface OwnTurn {
-  /** Who plays next, or how the game ends; in a race of seats by `user.seat`, which may have won. */
+  /**
+   * Who plays next, or how the game ends; in a race of seats, `user.seat` plays next or has won.
+   */
   turn: C.TurnOutcome;
-  /** The layout of the next stroke. Default "after": as the balls lie. */
+  /** The layout of the next stroke. Default "after": the balls stay where they are. */
   leave?: C.Leave;
-  /** Why it is a foul. Default "none". */
+  /** Why the stroke is a foul. Default "none". */
   reason?: C.Foul;
-  /** Balls that come back to the foot spot: any that are down or off the table. */
+  /** Balls to put on the foot spot: any that are down or off the table. */
   spot?: readonly number[];
-  /** Default 0. Plans read them where there is no opponent. */
+  /** Default 0. Plans read them if there is no opponent. */
   points?: number;
 }
 
 /**
- * Rules of a game of your own. Lists of balls have their indices. The results depend on the
- * arguments alone; `user` are eight numbers that are the rules', as the player at the table has
- * them. In a race of "seats" `user[k]` says what seat k has left, such as its lives; 0: it is out.
- * The seat at the table is `user.seat`, and `judge` sets it to the one that plays next. What a
- * method throws ends the call that needed it. The methods cannot call the library,
- * which waits for them.
+ * Custom rules of a game. Lists of balls contain indices. The results must depend only on the
+ * arguments; `user` has eight integers for the rules, from the view of the player at the table. In
+ * a race of "seats", `user[k]` is what seat k has left, such as its lives; 0: it is out. The seat
+ * at the table is `user.seat`, and `judge` sets it to the seat that plays next. An exception of a
+ * method ends the call that needed it. The methods cannot call the library, which waits for them.
  */
 export interface GameRules {
-  /** Whose balls are to be potted. Default "own"; "points": `left` says how many each needs. */
+  /** Whose balls must be potted. Default "own"; "points": `left` returns how many each needs. */
   race?: C.Race;
   /** Whether ball and pocket are called. */
   calls?: boolean;
@@ -352,8 +357,9 @@ export interface GameRules {
   /** The balls that may be met first, and potted. */
   on(user: Words, inPlay: number[]): readonly number[];
   /**
-   * The outcome of a shot; `inPlay` were the balls before it. `user` may be changed, and is left as
-   * the next player has it. `foul` finds the foul that it is in any game with these balls on.
+   * The outcome of a shot; `inPlay` were the balls before it. `user` may be changed, and must be
+   * left from the view of the next player. `foul` returns the foul by the rules that all games
+   * share, with these balls on.
    */
   judge(
     user: Words,
@@ -366,24 +372,24 @@ export interface GameRules {
   /** How many balls, or points, the player at the table and the other need to win. */
   left(user: Words, inPlay: number[]): readonly [number, number];
 
-  // The library has its own of those that are missing.
+  // The library replaces missing methods by its own.
 
   /** The pockets in which balls count, by index. */
   pockets?(user: Words): readonly number[];
   /**
-   * The chance that the player at the table wins, 0 to 1; without an opponent, how many balls this
-   * player is still going to pot. A plan in a race of seats needs it.
+   * The chance that the player at the table wins, 0 to 1; without an opponent, the expected number
+   * of balls that this player still pots. A plan in a race of seats needs it.
    */
   value?(user: Words, layout: BallState[], inHand: boolean): number;
   /**
-   * In a race for points, those of a ball that falls in the next stroke; of ball -1, the mean of a
-   * later pot.
+   * In a race for points, the points of a ball that falls in the next stroke; for ball -1, the mean
+   * of a later pot.
    */
   points?(user: Words, inPlay: number[], ball: number): number;
   /**
-   * Does what depends on the places of the balls after a stroke that was judged, and returns the
-   * turn, changed or not. `balls` and `user` may be changed. `spot` puts a ball on the foot spot, or
-   * behind it: those of `turn.spot` come back by it alone.
+   * Applies the rules that depend on the positions of the balls after a stroke was judged, and
+   * returns the turn, changed or not. `balls` and `user` may be changed. `spot` puts a ball on the
+   * foot spot, or behind it; the balls of `turn.spot` only return by calling it.
    */
   settle?(
     user: Words,
@@ -394,43 +400,42 @@ export interface GameRules {
   ): OwnTurn;
 }
 
-/** What an aim is asked for: a ball, and its pocket by index or name, such as "foot-left". */
+/** The request for an aim: a ball, and its pocket by index or name, such as "foot-left". */
 export interface AimOf {
   ball: number;
   pocket: number | string;
   /**
    * The way there, up to four contacts: indices of balls and names of rails, "head", "foot",
-   * "left", "right", that the ball before them meets. ["left"] is a
-   * bank, [2] a combination, ["head", ball] a kick: where `ball` is not named, it comes after the
-   * last other ball.
+   * "left", "right", that the ball before them meets. ["left"] is a bank, [2] a combination,
+   * ["head", ball] a kick: if `ball` is not named, it follows the last other ball.
    */
   via?: readonly (number | string)[];
 }
 
-/** A stroke that pots a ball, or why there is none. */
+/** A stroke that pots a ball, or the reason why there is none. */
 export interface Aim {
   /**
    * "no_way": no direction sends the ball there; "barred": something is met first; "short": a ball
-   * comes to rest; "rejected": by the jaws;
-   * "stick": a stick over what is behind the cue ball is raised by more than 60 degrees. */
+   * stops before; "rejected": by the jaws; "stick": to clear what is behind the cue ball, the stick
+   * must be raised by more than 60 degrees. */
   outcome: "falls" | "no_way" | "barred" | "short" | "rejected" | "stick";
   cue: Cue;
   /**
-   * Degrees: the least elevation with which the stick is over the cushions and balls behind the cue
+   * Degrees: the least elevation with which the stick clears the cushions and balls behind the cue
    * ball; a stroke with less cannot be played.
    */
   elevation: number;
   /**
-   * Degrees, of the cue ball on the first ball, which goes to the left of its way where this is
-   * above 0.
+   * Degrees: the cut of the cue ball on the first ball. Above 0, the first ball goes to the left of
+   * the cue ball's path.
    */
   cut: number;
-  /** Degrees by which the way of the ball into the pocket may turn, to either jaw. */
+  /** Degrees by which the path of the ball into the pocket may deviate towards either jaw. */
   margin: number;
   /** Directions of the cue, degrees, and speeds, m/s, between which the ball falls. */
   phi: Vec2;
   speed: Vec2;
-  /** Of "barred" and "short": what ends the way of ball a. */
+  /** For "barred" and "short": what ends the path of ball a. */
   met?: { type: EventType; a: number; b: number };
 }
 
@@ -441,43 +446,44 @@ export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   /** Default: as the player; in `Match.plan` its `opponent()`. */
   opponent?: Player;
   /**
-   * Where a cue ball in hand may be put, as a ruling says it: behind the head string ("kitchen"), in
-   * the D ("d"), ...; or between two corners, m. Then `place` says where to put it. Default "no".
+   * Where a cue ball in hand may be put, as in a ruling: behind the head string ("kitchen"), in the
+   * D ("d"), ...; or between two corners, m. Choices then have its position in `place`. Default
+   * "no".
    */
   inHand?: Ruling["hand"] | readonly [Vec2, Vec2];
   /** Plan to run out: a turn that ends before the game is won is worth nothing. */
   runOut?: boolean;
-  /** What the stroke is to leave; `value` is then the chance that it does, without a foul. */
+  /** What the stroke must leave; `value` is then the chance that it does so without a foul. */
   goal?: Goal;
   /** How many choices at most; default 5. */
   best?: number;
   /**
-   * Masses and the like of the cue; the stroke is not read. Where the rules let a player strike any
-   * ball, a plan chooses `ball` unless it is given.
+   * Masses and other constants of the cue; the stroke is not read. If the rules let a player strike
+   * any ball, a plan chooses `ball` unless it is given.
    */
   cue?: Partial<Cue>;
-  /** Models; when to stop is not read. */
+  /** Models; the stopping options are not read. */
   shot?: ShotOptions;
 }
 
-/** What a stroke is to leave; `carom_goal_kind` of the C header explains the kinds. */
+/** What a stroke must leave; `carom_goal_kind` of the C header explains the kinds. */
 export interface Goal {
   kind: C.GoalKind;
-  /** Of "snooker": the ball. */
+  /** For "snooker": the ball. */
   ball?: number;
-  /** Of "apart": the balls. */
+  /** For "apart": the balls. */
   balls?: readonly number[];
-  /** Of "near": the place, m. */
+  /** For "near": the position, m. */
   place?: Vec2;
-  /** Of "near" and "apart": the largest distance, or the smallest gap, m. */
+  /** For "near" the largest distance, for "apart" the smallest gap, m. */
   distance?: number;
 }
 
-/** Options of run-outs: those of plans, and how far and how often. */
+/** Options of run-outs: the options of plans, and two more. */
 export interface SequenceOptions extends Omit<PlanOptions, "goal" | "safeties" | "best"> {
-  /** How much chance to run out the cue ball may lose within a landing zone; default 0.03. */
+  /** How much of the chance to run out may be lost within a landing zone; default 0.03. */
   within?: number;
-  /** How many run-outs to play for the chance of the whole; default 100. */
+  /** How many run-outs to play to estimate the chance; default 100. */
   plays?: number;
 }
 
@@ -490,19 +496,19 @@ export interface SequenceStroke extends Omit<C.SequenceStroke, "choice" | "rulin
   zone: Vec2[];
 }
 
-/** A run-out as one answer. */
+/** A complete run-out. */
 export interface Sequence {
   strokes: SequenceStroke[];
-  /** The share of the played run-outs that succeeded. */
+  /** The fraction of the played run-outs that succeeded. */
   chance: number;
   plays: number;
 }
 
-/** A stroke, and what is known of it. */
+/** A stroke and its estimated chances. */
 export interface PlanStroke extends Omit<C.PlanStroke, "kind"> {
   /**
-   * What happens: "pot" is a direct one; "scan": by several ways; "foul": nothing better was found;
-   * "given" was asked for; "push", "pass": as of a call.
+   * What happens: "pot" is a direct pot; "scan": a pot in several ways; "foul": nothing better was
+   * found; "given": a stroke of the caller; "push", "pass": as in a call.
    */
   kind: C.PlanKind;
 }
@@ -513,7 +519,7 @@ export interface PlanStroke extends Omit<C.PlanStroke, "kind"> {
  */
 export type Call = C.Call | "push" | "pass";
 
-/** What happened in a shot, by indices of balls; -1 where there is none. */
+/** What happened in a shot, by indices of balls; -1 if there is none. */
 export interface ShotFacts {
   /** The first two different balls that the cue ball met. */
   first: readonly [number, number];
@@ -523,7 +529,7 @@ export interface ShotFacts {
   cushionsAfter: number;
   /** Impacts of each ball on cushions. */
   cushions: readonly number[];
-  /** The balls that fell, in their order, the pocket that took each, and when, s. */
+  /** The balls that fell, in order, with their pockets and times, s. */
   potted: readonly { ball: number; pocket: number; time: number }[];
   /** The balls that left the table. */
   off: readonly number[];
@@ -533,43 +539,43 @@ export interface ShotFacts {
   pushed: readonly number[];
   /** The balls that it flew over before it met one. */
   jumped: readonly number[];
-  /** Touches of the tip: 1, or 2 and more of a double hit within the push; 0 without a strike. */
+  /** Touches of the tip: 1, or 2 and more for a double hit within the push; 0 without a strike. */
   touches: number;
 }
 
-/** What a shot amounts to. */
+/** The ruling of a shot. */
 export interface Ruling {
-  /** Of the shot; of one that was not played, or ended in an error, no ball was met. */
+  /** The facts of the shot; if it was not played, or ended in an error, no ball was met. */
   facts: ShotFacts;
-  /** Whether the player plays on, the other one plays, or the player has won or lost. */
+  /** Whether the player plays on, the opponent plays, or the player has won or lost. */
   turn: C.TurnOutcome;
   foul: boolean;
-  /** By which rule it is a foul: "none" of a legal shot. */
+  /** Why it is a foul: "none" for a legal shot. */
   reason: C.Foul;
-  /** That rule in words: "the cue ball met no ball"; "" of a legal shot. */
+  /** A description of the foul: "the cue ball met no ball"; "" for a legal shot. */
   why: string;
-  /** Where whoever plays next may put the cue ball. */
+  /** Where the next player may put the cue ball. */
   hand: "no" | "anywhere" | "kitchen" | "d" | "baulk";
-  /** Of the shot, in games of points; of three-cushion and of the drill too. */
+  /** The points of the shot, in games of points, in three-cushion and in the drill. */
   points: number;
   /**
-   * Points, or balls, of whoever plays next, and of the other, less those that they lost or owe.
+   * Points, or balls, of the next player and of the opponent, minus those that they lost or owe.
    */
   score: [number, number];
   /**
-   * The layout of the next stroke: all that come back are there. A cue ball in hand is where the
-   * shot left it, or down.
+   * The layout of the next stroke, with all spotted balls. A cue ball in hand is where the shot
+   * left it, or down.
    */
   balls: ShotBall[];
-  /** The balls that lie elsewhere than the shot left them. */
+  /** The balls that are no longer where the shot left them. */
   put: number[];
-  /** All of that in words. */
+  /** The text of the ruling. */
   words: string;
-  /** The game as whoever plays next sees it. */
+  /** The game as the next player sees it. */
   game: GameState;
 }
 
-/** A shot as a line has it. */
+/** A shot of a line. */
 export interface Line {
   id: string;
   /** The name of a built-in table, as in the line. */
@@ -581,46 +587,50 @@ export interface Line {
   cue: Cue;
 }
 
-/** A seat: who sits there, and with what. A rating of 0 is unknown. */
+/** A seat: the player and the cue. A rating of 0 is unknown. */
 export interface Seat extends Omit<C.Seat, "name"> {
   name: string;
 }
-/** How a match stands, by sides, whoever is at the table. */
+/** The score of a match, by sides, independent of who is at the table. */
 export interface Standing {
   /** The side of each seat. */
   sides: number[];
   /** With the handicap; or what each seat has left, such as lives. */
   points: number[];
-  /** Matches of the set, with this one. */
+  /** Matches of the set won, including this one. */
   won: number[];
   /** The side that has won the set. */
   setWinner: number | undefined;
 }
 /** A set: matches that are played until a side has won `race` of them. */
 export interface MatchSet extends Omit<C.Set, "order"> {
-  /** Who breaks next: the sides in turn, or who has won or lost. */
+  /** Who breaks next: the sides alternately, or the winner or the loser. */
   order: C.BreakOrder;
 }
 
 /** How a match begins. */
 export interface MatchOptions {
-  /** Of the gaps of the rack, 0.1 mm at most. */
+  /** For the displacements of the balls in the rack, whose gaps are 0.1 mm. */
   seed?: number;
   /** The side that plays first. */
   player?: number;
   /**
-   * Who plays: how many, or their names, or what differs from the usual. Two sides play in turn: of
-   * four seats, 0 and 2 are partners. Of the cue its stick and tip are read. Default: two seats.
+   * The seats: their number, or their names, or what differs from the defaults. Two sides
+   * alternate: of four seats, 0 and 2 are partners. Only the stick and the tip of a cue are read.
+   * Default: two seats.
    */
   seats?: number | readonly (string | (Partial<Omit<Seat, "cue">> & { cue?: Partial<Cue> }))[];
-  /** Whether partners take turns by strokes, as in Scotch doubles, and not by visits. */
+  /**
+   * Whether partners alternate after each stroke, as in Scotch doubles, instead of after each
+   * visit.
+   */
   alternate?: boolean;
-  /** Bounds of strokes; 0 is none, and of `ownCue` 1 demands the stick of the seat. */
+  /** Limits of strokes; 0: no limit; `ownCue` 1 requires the stick of the seat. */
   limits?: Partial<C.StrokeLimits>;
-  /** The match is one of a set. You measure its times. */
+  /** The set to which the match belongs. You measure its times. */
   set?: Pick<MatchSet, "race"> &
     Partial<Pick<MatchSet, "order" | "clock" | "extension" | "extensions" | "timeouts">>;
-  /** Another layout than the rack of the game. Only then `hand` is read. */
+  /** A layout other than the rack of the game. `hand` is only read with a layout. */
   balls?: readonly ShotBall[];
   /** Whether the cue ball is in hand. */
   hand?: Ruling["hand"];

@@ -179,14 +179,14 @@ describe("what is refused", () => {
     expect(batch.get(50).a.v).toEqual([NaN, NaN, NaN]);
     expect(batch.get(51)).toEqual(carom.collide(good));
     batch.free();
-    refuses([() => batch.in, "given back"], [() => carom.collideBatch(batch), "given back"]);
+    refuses([() => batch.in, "freed"], [() => carom.collideBatch(batch), "freed"]);
   });
 
   test("words, shapes, fields and sizes that are not there", () => {
     refuses(
       [
         () => carom.collide(good, { solver: "magic" as never }),
-        "solver: it must be one of exact, euler",
+        'solver: unknown name "magic"; use one of exact, euler',
       ],
       [() => carom.collide(good, { steps: -1 }), "steps: it must be a whole number"],
       [
@@ -196,14 +196,14 @@ describe("what is refused", () => {
       [() => carom.cushion({ v: [1, 0, 0], normal: [0, 0] }), "normal"],
       [
         () => carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { model: "wood" as never }),
-        "model: it must be one of mathavan, stronge, han, mirror, euler, smooth",
+        'model: unknown name "wood"; use one of mathavan, stronge, han, mirror, euler, smooth',
       ],
       [() => carom.trace(good, 1), "at least 2"],
       [() => carom.collisions(-1), "0 or more"],
       [() => carom.collisions(2).set(2, good), "k: it must be 0 to 1"],
       [() => carom.table("10ft" as never), "7ft, 8ft, 9ft"],
       [() => carom.rack("golf" as never, carom.table("9ft")), "nineball"],
-      [() => carom.kind("golf" as never), "game: it must be one of"],
+      [() => carom.kind("golf" as never), 'game: unknown name "golf"; use one of'],
       [() => carom.rack("nineball", carom.table("9ft"), { gap: -1 }), CaromError],
       [() => carom.rack("nineball", carom.table("9ft"), { seed: 0.5 }), "seed"],
     );

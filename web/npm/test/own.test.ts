@@ -156,7 +156,10 @@ test("what rules cannot say, and that they cannot call the library", () => {
   const rule = (changes: object) => carom.rule(shot, { own: { ...good, ...changes } });
   refuses(
     [() => rule({ judge: () => undefined }), "judge: an object is needed"],
-    [() => rule({ judge: () => ({ turn: "stop" }) }), "judge: turn: it must be one of"],
+    [
+      () => rule({ judge: () => ({ turn: "stop" }) }),
+      'judge: turn: unknown name "stop"; use one of',
+    ],
     [() => rule({ judge: () => ({ turn: "pass", spot: [40] }) }), "judge: spot"],
     [() => rule({ on: () => [-1] }), "on: it must be a whole number"],
     [
@@ -184,7 +187,7 @@ test("what rules cannot say, and that they cannot call the library", () => {
     [() => rule({ settle: settle(NaN, 1) }), "settle: balls[1]: a position must be"],
     [() => rule({ settle: settle(9, 1) }), "settle: balls[1]: a ball is not on"],
     [() => rule({ settle: settle(0.6, 1.6) }), /settle: balls.*: two balls overlap/],
-    [() => carom.match({ own: good }, table), "rules of your own have no rack"],
+    [() => carom.match({ own: good }, table), "custom rules have no rack"],
   );
   expect(carom.rule(shot, { own: good }).turn).toBe("pass");
 });

@@ -69,7 +69,7 @@ test("a forged stroke, damage and other revisions are told", () => {
       [() => [...carom.replay(damaged)], message],
     );
   };
-  refused(text.replace('"phi"', '"phy"'), /line 6: shot.phy is no key of the format/);
+  refused(text.replace('"phi"', '"phy"'), /line 6: shot.phy is not a key of the format/);
   refused(text.replace('"revision":', '"revision":9'), /line 1: the recording is of revision 9/);
   refused(text.split("\n").slice(0, -2).join("\n"), /cut off/);
 });
@@ -169,12 +169,12 @@ test.each(builds)("partners, a set, limits and time, by $name", ({ carom }) => {
     won: [0, 0],
     setWinner: undefined,
   });
-  expect(match.words).toBe("Ann (seat 0): a place of the cue ball in hand, or a choice");
+  expect(match.words).toBe("Ann (seat 0): a position of the cue ball in hand, or a choice");
   match.place(0.6, 0.6);
   match.extend();
   refuses(
     [() => match.stroke({ speed: 12.5 }), "stroke: cue.speed must be at most 12 m/s in this match"],
-    [() => match.stroke({ mass: 0.5 }), "stroke: the stick must be that of seat 0"],
+    [() => match.stroke({ mass: 0.5 }), "stroke: stick and tip must be the same as for seat 0"],
     [() => match.extend(), "extend: none is left"],
     [() => match.timeout(), "timeout: none is left"],
     [() => match.next(), "next: no match has been won"],
@@ -198,13 +198,16 @@ test.each(builds)("partners, a set, limits and time, by $name", ({ carom }) => {
 test("beginnings that are refused", () => {
   const begin = (options: object) => () => carom.match("eightball", carom.table("9ft"), options);
   refuses(
-    [begin({ seats: 1 }), "seats: this game is not played by 1"],
+    [begin({ seats: 1 }), "seats: 1 seats cannot play this game"],
     [begin({ seats: [{ nam: "Ann" }, "Bo"] }), "seats[0].nam: there is no such key"],
     [begin({ seats: [{ side: 1 }, { side: 3 }] }), "begin: seats: side must be 0, 1 and so on"],
     [begin({ seats: [{ side: "a" }, "Bo"] }), 'seats[0].side: a number is needed, not "a"'],
     [begin({ limits: { speeds: 1 } }), "limits.speeds: there is no such key"],
     [begin({ set: { race: 1001 } }), "begin: set.race must be 1 to 1000"],
-    [begin({ set: { race: 1, order: "loosers" } }), "set.order: it must be one of alternate"],
+    [
+      begin({ set: { race: 1, order: "loosers" } }),
+      'set.order: unknown name "loosers"; did you mean "loser"? Use one of alternate',
+    ],
   );
 });
 
@@ -218,11 +221,15 @@ test.each(builds)("a peer sends its own acts alone, by $name", ({ carom }) => {
     const sent = ann.lines.slice(known);
     const { lines } = bob;
     refuses(
-      [() => bob.read(sent[0]!, 1), "seat 1 has sent an act of seat 0"],
-      [() => bob.read(sent[0]!.replace("0.6", "0.7").replace("90.2", "90.3"), 0), CaromError],
+      [() => bob.receive(sent[0]!, 1), "seat 1 has sent an act of seat 0"],
+      [() => bob.receive(sent[0]!.replace("0.6", "0.7").replace("90.2", "90.3"), 0), CaromError],
     );
     expect(bob.lines).toEqual(lines);
-    for (const line of ["", ...sent]) bob.read(line, 0);
+    expect(["", ...sent].map((line) => bob.receive(line, 0))).toEqual([
+      false,
+      true,
+      ...sent.slice(1).map(() => false),
+    ]);
     expect(bob.lines).toEqual(ann.lines);
   }
   expect(bob.shot!.events).toEqual(ann.shot!.events);
@@ -360,7 +367,7 @@ test("a match that is read again has the bounds of a scratch, and nothing behind
 
   const { lines } = match;
   const text = match.end();
-  expect(() => match.stroke({ speed: 1 })).toThrow("given back");
+  expect(() => match.stroke({ speed: 1 })).toThrow("freed");
   replay.read(text.trimEnd().split("\n").at(-1)!);
   refuses(
     [() => replay.stroke({ speed: 1 }), /is over/],

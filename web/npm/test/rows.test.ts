@@ -47,7 +47,9 @@ test.each(options)("option $key of $struct", ({ key, form, words, call }) => {
   const good: Partial<Record<string, unknown>> = { set: [1], number: 0.5, flag: 1 };
   for (const value of words === null ? [good[form] ?? 100] : known) call({ [key]: value });
   for (const wrong of ["no such word", form === "number" ? NaN : -1.5])
-    expect(() => call({ [key]: wrong })).toThrow(Number.isNaN(wrong) ? /./ : `${key}: it must be`);
+    expect(() => call({ [key]: wrong })).toThrow(
+      Number.isNaN(wrong) ? /./ : `${key}: ${words === null ? "it must be" : "unknown name"}`,
+    );
   expect(() => call({ [`${key}x`]: 1 })).toThrow("there is no such key; did you mean");
 });
 
@@ -128,8 +130,8 @@ test("three banks find the cushions of a table, and conditions are named", () =>
   const slow = carom.kind("pool", "default", ["slow_cloth", "old_cushion"]);
   expect([slow.muRoll, slow.restitutionCushion]).toEqual([0.015, 0.75]);
   refuses(
-    [() => carom.kind("pool", "default", ["felt" as never]), "conditions: it must be"],
-    [() => carom.kind("snooker", "default", ["fast_cloth"]), "pool, not of snooker"],
+    [() => carom.kind("pool", "default", ["felt" as never]), 'conditions: unknown name "felt"'],
+    [() => carom.kind("snooker", "default", ["fast_cloth"]), "pool tables, not to snooker"],
   );
 });
 

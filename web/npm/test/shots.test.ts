@@ -273,7 +273,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
       );
     }
     expect(() => carom.simulate(table, balls, {}, { stopAt: ["pocket"] as never })).toThrow(
-      /^stopAt: it must be one of contact, stick_ball, .*, not "pocket"; did you mean "ball_pocket"\?$/,
+      /^stopAt: unknown name "pocket"; did you mean "ball_pocket"\? Use one of contact, stick_ball, /,
     );
   });
 
@@ -328,7 +328,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     expect([error.status, error.shot!.count]).toEqual(["too_many_events", 50]);
     expect(carom.continue(error.shot!).bytes).toEqual(whole.bytes);
     expect(() => carom.continue(rail, { timeMost: rail.time / 2 })).toThrow(
-      /^timeMost: it must be .* not before the time of a shot that goes on$/,
+      /^timeMost: it must be .* not before the time of the shot to continue$/,
     );
     const changed = carom.simulate(table, balls, { speed: 20 }, { timeMost: 0.01 });
     (changed.balls[1]!.kind as { mass: number }).mass *= 1.1;
@@ -345,7 +345,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     const batch = carom.shots(table, balls, 1, { room: 64 });
     carom.simulateBatch(batch, { timeMost: 0.01 });
     expect(() => carom.continue(batch.shot(0))).toThrow(
-      /^shot: only what simulate\(\) or continue\(\) stopped can go on, .*"stopped_at_time"/,
+      /^shot: a shot with the status "stopped_at_time", or of a batch, cannot be continued/,
     );
     batch.free();
   });
@@ -472,7 +472,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
       [() => carom.simulate(table, [], {}), "1 to 32"],
       [
         () => carom.simulate(table, balls, {}, { cushionModel: "wood" as never }),
-        "cushionModel: it must be one of ",
+        'cushionModel: unknown name "wood"; use one of ',
       ],
       [
         () => carom.simulate({ ...table, rails: Array(33).fill(table.rails[0]) }, balls, {}),

@@ -1,4 +1,5 @@
-// The page without a network: what was loaded is kept, and asked for again wherever there is one.
+// The page without a network: this worker keeps what was loaded, and requests it again whenever
+// there is a network.
 const KEPT = "carom-explorer";
 self.addEventListener("install", (event) => {
   event.waitUntil(

@@ -1,6 +1,6 @@
-// The parts of the page behind its first one, which `import()` asks for. They lie in the page as
-// compressed text (vite.config.ts), so that the first view does not wait for them; a part finds what it
-// has of another in `caromParts`.
+// The parts of the page that follow its first one, loaded by `import()`. The page contains them as
+// compressed text (vite.config.ts), so that the first view does not wait for them; a part finds the
+// exports of another one in `caromParts`.
 import { texts } from "./texts/texts.js";
 
 declare global {

@@ -1,7 +1,7 @@
 // The library in workers, for calls that take longer than a frame. The page is one file, so a
-// worker runs the page's first part, which serves where there is no document. Each kind of call has
-// a worker: the chance of a stroke does not wait for a plan. A search runs in slices, between which
-// it can be stopped.
+// worker runs the first part of the page, which acts as a server where there is no document. Each
+// kind of call has its worker: the chances of a stroke do not wait for a plan. A search runs in
+// slices, and can be stopped between two of them.
 import { type Carom, load } from "carom";
 import { drillStroke } from "./play/drill_search.js";
 import { wrong } from "./ui.js";

@@ -27,7 +27,7 @@ async function begin(main: HTMLElement): Promise<void> {
   const solver = document.getElementById("solver") as HTMLSelectElement;
   document.documentElement.lang = language;
   name();
-  // What comes behind this script has words too.
+  // The elements after this script have texts too.
   document.addEventListener("DOMContentLoaded", name);
   document.querySelector("nav")!.setAttribute("aria-label", texts.views);
   const theme = document.getElementById("theme") as HTMLButtonElement;

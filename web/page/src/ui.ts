@@ -5,7 +5,7 @@ import { texts } from "./texts/texts.js";
 
 export { el };
 
-/** What went wrong, in words. */
+/** The message of an error. */
 export const wrong = (error: unknown): string =>
   error instanceof Error ? error.message : String(error);
 
@@ -160,7 +160,7 @@ export function check(
   return { root: el("label.check", input, text), input };
 }
 
-/** Calls `draw` once before the next frame, however often it is asked for. */
+/** Calls `draw` once before the next frame, however often it is requested. */
 export function eachFrame(draw: () => void): () => void {
   let isPending = false;
   return () => {

@@ -43,7 +43,7 @@ test.each(["eightball", "nineball", "tenball", "snooker", "threecushion", "pyram
       line[0] === "stroke" && (line as Stroke)[3][0]! > 4.9 ? [...line.slice(0, 3), [4.5]] : line,
     );
     expect(() => read(carom, JSON.stringify({ ...play.setup, lines: changed }))).toThrow(
-      /stroke \d is not as it was played.*hash/,
+      /shot \d is not as it was played.*hash/,
     );
   },
 );

@@ -43,7 +43,7 @@ describePages("beside the game", () => {
     await comesToSay(
       page,
       "said",
-      /^Hint: ball [19] into the .*\. An unrated player \(\d+\) keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\./,
+      /^Hint: ball [19] into the .*\. An unrated player \(\d+\) keeps the turn \d+ % of the time, wins the game \d+ %, fouls \d+ %\. Played now, it gets the errors of that rating\./,
     );
     // The run-out behind it, whose landing zone is drawn.
     const cloth = async () => (await page.locator("#table-scene").screenshot()).toString("base64");
@@ -51,7 +51,7 @@ describePages("beside the game", () => {
     await comesToSay(
       page,
       "said",
-      /To run out: ball 1 into the .*, ball 9 into the .*\. It succeeds in \d+ % of tries\.$/,
+      /Run-out: ball 1 into the .*, ball 9 into the .*\. It works \d+ % of the time\.$/,
     );
     expect(await cloth()).not.toBe(hinted);
     // A stroke that meets nothing: a foul, which the chances and the review tell.
@@ -60,17 +60,17 @@ describePages("beside the game", () => {
     await comesToSay(
       page,
       "said",
-      /^This stroke: An unrated player \(\d+\) keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/,
+      /^This shot: An unrated player \(\d+\) keeps the turn 0 % of the time, wins the game \d+ %, fouls 100 %\.$/,
     );
     await act(page, "#shoot");
     await comesToSay(
       page,
       "said",
-      /^Player 1 pocketed no ball\. That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\. The chance to win was \d+ % before that stroke, and \d+ % after it\.( It (cost|won) \d+ %\.)?$/,
+      /^Player 1 potted nothing\. That shot wins \d+ % of the time; the best one, .*, \d+ %\. It cost \d+ %\. Your chance to win was \d+ % before that shot, and is \d+ % after it\.( It (cost|gained) \d+ %\.)?$/,
     );
     await act(page, "#new-game", "#open-log");
     await counts(page, "#log tbody tr", 1);
-    await says(page, "log-sum", /^1 stroke\. A stroke cost [1-9]\d* % of a game/);
+    await says(page, "log-sum", /^1 shot\. A shot cost [1-9]\d* % of a game/);
     expect(await violations(page)).toEqual([]);
     // On paper there is the log alone.
     await page.emulateMedia({ media: "print" });
@@ -88,17 +88,21 @@ describePages("beside the game", () => {
     await comesToSay(
       page,
       "said",
-      /^Hint: a safety, .* wins the game in \d+ %.* Also drawn: 2 wins in \d+ %.* Tap a number/,
+      /^Hint: a safety, .* wins the game \d+ %.* Also shown: 2 wins \d+ %.* Tap a number/,
     );
     await ask("#ask-hidden");
-    await comesToSay(page, "said", /^Hint: .* leaves the cue ball hidden in \d+ %, fouls in \d+ %/);
+    await comesToSay(
+      page,
+      "said",
+      /^Hint: .* leaves the cue ball hidden \d+ % of the time, fouls \d+ %/,
+    );
     await ask("#snooker-on=4", "#ask-snooker");
-    await comesToSay(page, "said", /^Hint: .* leaves a snooker on ball 4 in \d+ %/);
+    await comesToSay(page, "said", /^Hint: .* leaves a snooker on ball 4 \d+ % of the time/);
 
     // A place is tapped, or aimed at with the keys; a ring shows it.
-    const near = /leaves the cue ball within 20 cm of the place in [1-9]\d* %/;
+    const near = /leaves the cue ball within 20 cm of the spot [1-9]\d* %/;
     await ask("#ask-near");
-    await says(page, "said", /^Tap the place/);
+    await says(page, "said", /^Tap the spot/);
     await click(page, 0.635, 1.7, true);
     await comesToSay(page, "said", near);
     const [red, , blue] = await colour(page, 0.835, 1.7, 5);
@@ -124,9 +128,8 @@ describePages("beside the game", () => {
     // The odds are those of the library.
     await act(page, "#odds-against=400", "#odds-games=1");
     const said = await text(page, "odds-said");
-    const [, rating, game, match] = /for a (\d+),.* a game in (\d+) % .* match in (\d+) %/.exec(
-      said,
-    )!;
+    const [, rating, game, match] =
+      /for a (\d+),.* you win (\d+) % of games and (\d+) % of matches/.exec(said)!;
     const chance = 1 / (1 + 2 ** ((400 - Number(rating)) / 100));
     expect([game, match]).toEqual([0, 0].map(() => (100 * chance).toFixed(0)));
     expect(await violations(page)).toEqual([]);
@@ -144,7 +147,7 @@ describePages("beside the game", () => {
     await comesToSay(
       page,
       "said",
-      /^The break that wins most is aimed, at \d\.\d m\/s.* wins with it in \d+\.\d % \(± \d\.\d %\), .* of the tip -?\d\.\d % of games\.$/,
+      /^The best break is aimed, at \d\.\d m\/s.* wins \d+\.\d % of games with it \(± \d\.\d %\), .* in tip position -?\d\.\d %\.$/,
     );
     await act(page, "#shoot", "#skip");
     const places = linesOf<{ at?: [number, number] }>(await keptGame(page), "place");
@@ -301,7 +304,7 @@ describePages("beside the game", () => {
     // A foul, and the cue ball in hand.
     await turnTo(page, 200);
     await act(page, "#power=0.4", "#shoot", "#skip");
-    await comesToSay(page, "turn", /Cue ball in hand: drag it/);
+    await comesToSay(page, "turn", /Ball in hand: drag the cue ball/);
     // The mark that is nearest to whoever aims.
     const seenMarks = await marks();
     const start = middle(
@@ -342,11 +345,7 @@ describePages("beside the game", () => {
       } as typeof HTMLCanvasElement.prototype.getContext;
     });
     await act(page, "#space");
-    await comesToSay(
-      page,
-      "said",
-      "This browser does not show three dimensions (it has no WebGL 2).",
-    );
+    await comesToSay(page, "said", "This browser cannot show 3D (it has no WebGL 2).");
     await shows(page, "#table-scene");
   });
 });

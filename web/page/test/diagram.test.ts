@@ -47,13 +47,13 @@ describePages("a diagram", () => {
       await act(page, "#power=3");
       await opened(page);
       expect(await page.locator("#diagram-which option").allTextContents()).toEqual([
-        "the stroke that is aimed",
+        "the shot as aimed",
         "the balls as they lie",
       ]);
       await says(
         page,
         "diagram-words",
-        "Eight-ball. Cue: 3.0 m/s, direction 70.00°, tip in the middle.",
+        "Eight-ball. Cue: 3.0 m/s, direction 70.00°, tip in the centre.",
       );
       // Each choice draws something else.
       const drawn = [await picture(page)];
@@ -67,7 +67,7 @@ describePages("a diagram", () => {
       expect(await violations(page)).toEqual([]);
       await page.locator("#notes").fill(NOTES);
       await act(page, "#link-diagram");
-      await comesToSay(page, "diagram-said", "The link to this diagram is copied.");
+      await comesToSay(page, "diagram-said", "Link to this diagram copied.");
       const link = await page.evaluate(() => navigator.clipboard.readText());
 
       // On paper there are the table as wide as it is on the screen or wider, the words and the
@@ -122,7 +122,7 @@ describePages("a diagram", () => {
     await comesToShow(page, "#skip", false);
     await opened(page);
     expect(await page.locator("#diagram-which option").allTextContents()).toEqual([
-      "the last stroke",
+      "the last shot",
       "the balls as they lie",
     ]);
     await says(page, "diagram-words", /^Nine-ball\. Cue: 2\.5 m\/s/);
@@ -147,7 +147,7 @@ describePages("a diagram", () => {
     }
     await opened(page);
     await act(page, "#link-diagram");
-    await comesToSay(page, "diagram-said", "The link to this diagram is copied.");
+    await comesToSay(page, "diagram-said", "Link to this diagram copied.");
     const drawn = await picture(page);
     const link = new URL(await page.evaluate(() => navigator.clipboard.readText())).hash;
     const secondPage = await open(link);
@@ -178,20 +178,32 @@ describePages("a diagram", () => {
       }, text);
     const good = { game: PRACTICE.game, at: PRACTICE.at, cue: [3, 70, 0, 0, 0], notes: "" };
     for (const [d, why] of [
-      [(await packed(JSON.stringify(good))).slice(0, -9), "the link is cut off or damaged"],
-      [await packed(JSON.stringify({ ...good, game: "chess" })), 'game: there is no game "chess"'],
-      [await packed(JSON.stringify({ ...good, at: "0.5,0.5" })), "at: 16 places x,y are needed"],
-      [await packed(JSON.stringify({ ...good, cue: [3, 70] })), "cue: 5 numbers are needed"],
-      [await packed(JSON.stringify({ ...good, ball: 0.5 })), "ball: a whole number is needed"],
-      [await packed(JSON.stringify({ ...good, ball: 99 })), "the stroke cannot be played: "],
+      [(await packed(JSON.stringify(good))).slice(0, -9), "the link is incomplete or damaged"],
+      [
+        await packed(JSON.stringify({ ...good, game: "chess" })),
+        'game: no such game "chess"; New game lists all games',
+      ],
+      [
+        await packed(JSON.stringify({ ...good, at: "0.5,0.5" })),
+        'at: "0.5,0.5" is not 16 positions; give x,y in metres',
+      ],
+      [
+        await packed(JSON.stringify({ ...good, cue: [3, 70] })),
+        "cue: [3,70] is not 5 numbers; give speed, direction, ",
+      ],
+      [await packed(JSON.stringify({ ...good, ball: 0.5 })), "ball: 0.5 is not a whole number"],
+      [await packed(JSON.stringify({ ...good, ball: 99 })), "the shot cannot be played: "],
       [
         await packed(JSON.stringify({ ...good, cue: [3, 70, 0, 0, 95] })),
-        "the stroke cannot be played: ",
+        "the shot cannot be played: ",
       ],
-      [await packed(JSON.stringify({ ...good, notes: 1 })), "notes and at: texts are needed"],
+      [
+        await packed(JSON.stringify({ ...good, notes: 1 })),
+        "notes, at: not text; both must be text in quotes",
+      ],
     ] as const) {
       await page.evaluate((d) => (location.hash = `#view=play&d=${d}`), d);
-      await expect.poll(() => text(page, "said")).toContain(`The diagram was not read: ${why}`);
+      await expect.poll(() => text(page, "said")).toContain(`The diagram was not opened: ${why}`);
       await shows(page, "#diagram", false);
     }
   });

@@ -101,6 +101,6 @@ test("a game of pool is played on the table that it names, with the pockets of t
   const tight = into(practiceOn("tight"));
   expect(tight).toBeGreaterThan(2);
   expect(tight).toBeLessThan(usual);
-  expect(() => practiceOn("10ft")).toThrow('table: there is no table "10ft" for this game');
-  expect(() => practiceOn("7ft", "snooker")).toThrow('there is no table "7ft"');
+  expect(() => practiceOn("10ft")).toThrow('table: this game has no table "10ft"');
+  expect(() => practiceOn("7ft", "snooker")).toThrow('this game has no table "7ft"');
 });

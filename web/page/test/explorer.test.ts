@@ -205,17 +205,17 @@ describePages("the laboratory", () => {
       await says(
         page,
         "message",
-        "The balls are read as those of Eight-ball. If they are of Nine-ball, choose this game and import again.",
+        "Read as Eight-ball. If the balls are for Nine-ball, choose that game and import again.",
       );
       await take("nineball", both);
-      await says(page, "message", /read as those of Nine-ball/);
+      await says(page, "message", /^Read as Nine-ball/);
       await take("eightball", both.replace("a layout", "nineball"));
       expect(await valueOf(page, "game")).toBe("nineball");
       await take("snooker", both);
       await says(
         page,
         "message",
-        "balls: they fit Nine-ball and Eight-ball; choose one of these games, then import again",
+        "balls: they fit Nine-ball and Eight-ball; choose one of these games and import again",
       );
       // Neither: it can be played.
       await take("nineball", fileOf("cue", "5", "2"));
@@ -272,7 +272,7 @@ describePages("the laboratory", () => {
     }
     await act(page, "#game=snooker", "#cushion=stronge");
     expect(await page.locator("#message").textContent()).toContain(
-      'snooker has no constants for "stronge"; it plays those of its own cushions',
+      'snooker has no constants for "stronge"; the usual cushions of this game are played instead',
     );
   });
 
@@ -384,7 +384,7 @@ describePages("the laboratory", () => {
       await page.dispatchEvent(".table-view", "drop", { dataTransfer: dropped });
       const forged = lineOf('"speed":2.5');
       expect(await wordsOf("forged.jsonl")).toContain(
-        `forged.jsonl: 3 shots, 1 ends otherwise than recorded, first shot 3 (line ${forged}).`,
+        `forged.jsonl: 3 shots, 1 ends differently than recorded, first shot 3 (line ${forged}).`,
       );
       expect(await text(page, "reel-shot")).toContain(
         `Shot 3 of 3, line ${forged}: recorded ok, ${ends[2]!.events} events, ${ends[2]!.time.toFixed(6)} s, hash ${ends[2]!.hash}; played ok, `,
@@ -392,7 +392,7 @@ describePages("the laboratory", () => {
       // Damage is refused by its line; without a shot before it, nothing changes.
       await give("damaged.jsonl", whole.replace('"place"', '"plaice"'));
       expect(await wordsOf("damaged.jsonl")).toContain(
-        `damaged.jsonl: 3 shots, every bit agrees. The rest is refused: line ${lineOf('"place"')}: `,
+        `damaged.jsonl: 3 shots, every bit agrees. The rest was not read: line ${lineOf('"place"')}: `,
       );
       await give("other.jsonl", whole.replace('"revision":', '"revision":9'));
       expect(await wordsOf("other.jsonl", "message")).toContain(

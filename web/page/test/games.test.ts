@@ -57,12 +57,12 @@ describePages("kept games", () => {
     const { open: first, games } = await keptGames(page);
 
     await load(page, "#view=play&seat=1&g=bY_damaged");
-    await says(page, "said", /not opened: the link is cut off or damaged/);
+    await says(page, "said", /not opened: the link is incomplete or damaged/);
     expect((await keptGames(page)).open).toBe(first);
     expect((await keptGames(page)).games[first]).toBe(games[first]);
 
     await begin(page, "snooker", "person");
-    await says(page, "said", /The game before is kept under New game\.$/);
+    await says(page, "said", /Your previous game is saved under New game\.$/);
     await act(page, "#new-game", "#start-drill");
     const stored = await keptGames(page);
     expect(stored.games[first]).toBe(games[first]);
@@ -72,7 +72,7 @@ describePages("kept games", () => {
     await act(page, "#new-game");
     const rows = page.locator("#saved-games li");
     await expect.poll(() => rows.count()).toBe(2);
-    await page.getByRole("button", { name: "Go on with Nine-ball" }).click();
+    await page.getByRole("button", { name: "Resume Nine-ball" }).click();
     await expect.poll(async () => (await keptGames(page)).open).toBe(first);
     expect(await text(page, "turn")).not.toContain("break");
   });
@@ -87,7 +87,7 @@ describePages("kept games", () => {
     await shows(page, "#end", false);
     await act(page, "#concede");
     await comesToShow(page, "#end");
-    expect(await page.locator("#end").textContent()).toContain("The other player gave up.");
+    expect(await page.locator("#end").textContent()).toContain("The game was conceded.");
     const { lines } = JSON.parse((await keptGames(page)).games[id]!) as { lines: string[] };
     expect(lines.at(-2)).toContain('"act":3');
     expect(lines.at(-1)).toContain('"winner"');
@@ -110,7 +110,7 @@ describePages("kept games", () => {
     await shoot(page, 8);
     const { open: first, games } = await keptGames(page);
     const secondPage = await visit();
-    await says(secondPage, "said", /open in another tab: go on there/);
+    await says(secondPage, "said", /open in another tab; continue it there/);
     await begin(secondPage, "eightball", "person");
     await shoot(secondPage, 8);
     const both = await keptGames(secondPage);
@@ -132,7 +132,7 @@ describePages("kept games", () => {
       .getByRole("button")
       .last();
     await remove.click();
-    expect(await remove.textContent()).toBe("Delete: it counts as lost");
+    expect(await remove.textContent()).toBe("Delete (counts as a loss)");
     const lost = () => page.evaluate(() => localStorage.getItem("carom-ladder"));
     expect(await lost()).toBe(null);
     await remove.click();
@@ -147,7 +147,7 @@ describePages("kept games", () => {
       localStorage.setItem("carom-ladder", '{"300":"many"}');
     });
     await reload(page);
-    await says(page, "said", /kept as settings, ladder was damaged and begins anew/);
+    await says(page, "said", /was damaged and has been reset: settings, ladder\./);
     expect(await page.evaluate(() => localStorage.getItem("carom-settings-damaged"))).toBe("{bad");
   });
 
@@ -200,15 +200,15 @@ describePages("kept games", () => {
     await counts(page, "#clock.warned", 1);
     // Each of both players has the whole time anew.
     await page.clock.runFor(8_000);
-    await says(page, "turn", /^Player 1 fouls: the time for the stroke is over. Player 2/);
+    await says(page, "turn", /^Player 1 fouls: time ran out. Player 2/);
     await says(page, "clock", /^(2[6-9]|30) s left$/);
     const lines = await keptLines(page);
     expect(lines.filter((line) => line.startsWith('{"act":{"act":4,'))).toHaveLength(1);
     await reload(page);
-    await says(page, "turn", /^Player 1 fouls: the time/);
+    await says(page, "turn", /^Player 1 fouls: time ran out/);
     // Three fouls in a row lose nine-ball.
     for (let turn = 0; turn < 4; turn++) await page.clock.runFor(31_000);
-    expect(await page.locator("#end").textContent()).toContain("The time for the stroke is over.");
+    expect(await page.locator("#end").textContent()).toContain("Time ran out.");
     await shows(page, "#clock", false);
     await context.close();
   });
@@ -268,7 +268,7 @@ describePages("kept games", () => {
     );
     await comesToSay(page, "said", /^Missed: 0 of 1/);
     await act(page, "#new-game", "#open-log");
-    await says(page, "log-sum", /^1 stroke\. Practise next:/);
+    await says(page, "log-sum", /^1 shot\. Practise next:/);
     const cells = await page.locator("#log tbody td").allTextContents();
     expect(cells.filter((cell) => cell === "–").length).toBeGreaterThan(5);
   });
@@ -279,7 +279,7 @@ describePages("kept games", () => {
     await comesToSay(
       page,
       "said",
-      /^Hint: the stroke that is aimed, at .* makes it in \d+ % of 200 tries\.$/,
+      /^Hint: the shot as aimed, at .* makes it \d+ % of the time, in 200 tries\.$/,
     );
   });
 
@@ -287,6 +287,6 @@ describePages("kept games", () => {
     const page = await open("");
     await begin(page, game, "practice");
     await act(page, "#hint");
-    await comesToSay(page, "said", /^Hint: .* keeps the turn in \d+ %/);
+    await comesToSay(page, "said", /^Hint: .* keeps the turn \d+ %/);
   });
 });

@@ -43,8 +43,8 @@ test.each([
   ["a pot that falls", {}, /^ball 7 into the/],
   ["one that falls by luck", { keep: 0.04 }, "a safety"],
   ["a safety", { kind: "safety", ball: -1, keep: 0.02 }, "a safety"],
-  ["one that fouls", { kind: "safety", ball: -1, keep: 0.02, foul: 0.57 }, /often fouls/],
-  ["balls that fall by luck", { kind: "scan", ball: -1, keep: 0.4 }, /several balls may fall/],
+  ["one that fouls", { kind: "safety", ball: -1, keep: 0.02, foul: 0.57 }, /often a foul/],
+  ["balls that fall by luck", { kind: "scan", ball: -1, keep: 0.4 }, /several balls may drop/],
   ["a pot that a player called", { kind: "given", keep: 0.04 }, /^ball 7 into the/],
   ["a push-out", { kind: "push", ball: -2, pocket: -1, keep: 0 }, "a push-out"],
 ] as const)("a stroke is called what its tries did: %s", (_, choice, expected) => {

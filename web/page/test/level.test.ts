@@ -65,7 +65,7 @@ describePages("by level", () => {
       await seen("full", {});
       // A tap on the picture says what it shows.
       await act(page, "#part");
-      const [, share] = /^The aim meets (\d+) % of the 1\./.exec(await text(page, "said"))!;
+      const [, share] = /^Your aim covers (\d+) % of the 1\./.exec(await text(page, "said"))!;
       expect(Number(share)).toBeGreaterThan(40);
       const initial = await numberIn(page, "phi");
       const box = await boxOf(page, "#wheel");
@@ -88,21 +88,21 @@ describePages("by level", () => {
     await says(
       page,
       "new-note",
-      /You are unrated until your first game\. Hints are those for a 426, the mean of all players\./,
+      /You are unrated until your first game\. Until then, hints are for a 426, the average player\./,
     );
     await act(page, "#rate=1000", "#menu .close");
     await turnTo(page, 225);
     await act(page, "#shoot");
-    await comesToSay(page, "turn", /have won: the 9 fell\.$/);
+    await comesToSay(page, "turn", /have won: the 9 was potted\.$/);
     // A normal distribution, 400 and 150 wide, from 200 to 850, times 1 / (1 + 2^(5 - r / 100)):
     // summed at 200,000 ratings.
     await says(
       page,
       "said",
-      "Your rating is about 487 (95 %: 250 to 741), by 1 : 0 against a 500.",
+      "Your rating is about 487 (95 %: 250 to 741), from 1 : 0 against a 500.",
     );
     expect(await page.locator("#end").innerText()).toMatch(
-      /You have won\s+The 9 fell\.[^]*Your best stroke: ball 9 into the head-left pocket; its aim had a room of \d+\.\d\d°\.\s+Your first rating is 487\.\s+Won at the level 500: 1 of 3\./,
+      /You have won\s+The 9 was potted\.[^]*Your best shot: ball 9 into the head-left pocket, with an aiming window of \d+\.\d\d°\.\s+Your first rating is 487\.\s+Level 500: 1 of 3 games won\./,
     );
     // The other balls roll out, unless motion is to be reduced.
     const rolling = () =>
@@ -141,14 +141,14 @@ describePages("by level", () => {
       await comesToSay(
         page,
         "said",
-        /^Hint: .* This stroke errs like his\. If you play it, this game does not count/,
+        /^Hint: .* Played now, it gets the errors of that rating\. If you play it, this game does not count/,
       );
       const meant = await numberIn(page, "phi");
       await turnTo(page, meant + by);
       await act(page, "#shoot");
       // What misses may be followed by more strokes of both.
       for (;;) {
-        await comesToSay(page, "turn", /won: the 9 fell\.$|Your turn/);
+        await comesToSay(page, "turn", /won: the 9 was potted\.$|Your turn/);
         if (/won: /.test(await text(page, "turn"))) break;
         await act(page, "#shoot");
       }
@@ -160,7 +160,7 @@ describePages("by level", () => {
       expect(error > 0.2).toBe(!isOwn);
       expect((await ladder(page)) !== null).toBe(isOwn);
       const words = await page.locator("#end").innerText();
-      expect(words.includes("A hint aimed one of your strokes, so this game")).toBe(!isOwn);
+      expect(words.includes("You used 1 hint, so this game")).toBe(!isOwn);
       await act(page, "#end .close");
       if (!isOwn) expect(await page.evaluate(() => localStorage.getItem("carom-log"))).toBeNull();
     },
@@ -176,9 +176,9 @@ describePages("by level", () => {
       "#start-drill",
       "#hint",
     );
-    await comesToSay(page, "said", /^Hint: the stroke that is aimed/);
+    await comesToSay(page, "said", /^Hint: the shot as aimed/);
     await act(page, "#shoot");
-    await comesToSay(page, "said", /A hint aimed this try, so it does not count\.$/);
+    await comesToSay(page, "said", /You used a hint, so this try does not count\.$/);
     const kept = await page.evaluate(() => [
       localStorage.getItem("carom-drills"),
       localStorage.getItem("carom-log"),
@@ -207,7 +207,7 @@ describePages("by level", () => {
     await says(first, "score", "lowest ball 1 · race to 2: 1 : 1");
     await first.close();
     const last = await win([1, 0]);
-    expect(await last.locator("#end").innerText()).toContain("The race is won by 2 : 0.");
+    expect(await last.locator("#end").innerText()).toContain("The race ends 2 : 0.");
     await act(last, "#play-again");
     expect(await racksOf(last)).toEqual([0, 0]);
   });
@@ -229,7 +229,7 @@ describePages("by level", () => {
     expect(await valueOf(page, "new-which")).toBe("nineball");
     await act(page, "#new-which=snooker", "#new-against=person");
     expect(await page.locator("#menu .card[aria-pressed=true] b").allTextContents()).toEqual([
-      "a person at this page",
+      "A friend on this device",
       "Snooker",
     ]);
     const drills = await page.locator("#drill option").allTextContents();

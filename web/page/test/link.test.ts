@@ -111,7 +111,7 @@ describePages("a game by link", () => {
       }
       await act(plays, "#shoot");
       await hears.bringToFront();
-      await comesToSay(hears, "said", `Stroke ${strokes + 1} was repeated; every bit agrees.`);
+      await comesToSay(hears, "said", `Shot ${strokes + 1} replayed: every bit agrees.`);
       heard++;
       // Then somebody may play, or has won.
       await expect
@@ -158,17 +158,13 @@ describePages("a game by link", () => {
     await act(page, "#new-game", "#rate=1000", "#menu .close", "#shoot");
     await comesToSay(page, "turn", /^Your turn/);
     const secondPage = await open(desk, new URL(await link(page)).hash);
-    await says(page, "said", /You are still at the table: send it again after your turn/);
-    await says(
-      secondPage,
-      "turn",
-      "The other player plays: wait for the link that comes after this turn.",
-    );
+    await says(page, "said", /It is still your turn: send the link again after it/);
+    await says(secondPage, "turn", "The other player plays: wait for their link.");
     await secondPage.locator("#shoot").evaluate((button: HTMLElement) => button.click());
     await says(
       secondPage,
       "said",
-      "The other player is at the table: open the link that comes after his turn.",
+      "It is the other player's turn: open the link that they send after it.",
     );
     await phone.close();
     await desk.close();
@@ -183,16 +179,16 @@ describePages("a game by link", () => {
     await comesToShow(page, "#skip", false);
     const url = await link(page);
     const secondPage = await open(phone, new URL(url).hash);
-    await says(secondPage, "said", "1 stroke was repeated; every bit agrees.");
+    await says(secondPage, "said", "1 shot replayed: every bit agrees.");
     // It shows the last stroke before it tells whose turn it is.
-    await expect.poll(() => turn(secondPage)).not.toContain("plays …");
+    await expect.poll(() => turn(secondPage)).not.toContain("shoots …");
     expect(url.length).toBeLessThan(address.length + 330);
     const game = JSON.parse(unpacked(url)) as { lines: [string, string][] };
     expect(game.lines.filter(([name]) => name === "stroke")).toHaveLength(1);
     // Older pages sent all lines, which are still read.
     const kept = await keptGame(page);
     const older = await open(await contextOf(sizes[0][1]), `#view=play&seat=1&g=${packed(kept)}`);
-    await says(older, "said", "1 stroke was repeated; every bit agrees.");
+    await says(older, "said", "1 shot replayed: every bit agrees.");
     expect(unpacked(older.url())).toBe(unpacked(secondPage.url()));
     await older.context().close();
     // The speed; a hash; a missing line; a link that was cut off.
@@ -207,20 +203,20 @@ describePages("a game by link", () => {
     for (const [g, why] of [
       [
         forged((line) => line.replace(/"speed":("[^"]*"|[\d.]+)/, '"speed":7.5')),
-        "stroke 1 is not as it was played",
+        "shot 1 is not as it was played",
       ],
       [
         forged((line) =>
           line.replace(/"hash":"(.)/, (_, first: string) => `"hash":"${first === "a" ? "b" : "a"}`),
         ),
-        "stroke 1 is not as it was played",
+        "shot 1 is not as it was played",
       ],
-      [forged(() => []), "stroke 1 is not as it was played"],
-      [packed(JSON.stringify({ ...game, lines: otherHash })), "stroke 1 is not as it was played"],
-      [packed(JSON.stringify(game)).slice(0, -40), "the link is cut off or damaged"],
+      [forged(() => []), "shot 1 is not as it was played"],
+      [packed(JSON.stringify({ ...game, lines: otherHash })), "shot 1 is not as it was played"],
+      [packed(JSON.stringify(game)).slice(0, -40), "the link is incomplete or damaged"],
       [
         packed(JSON.stringify({ game: "eightball", against: "link", entries: [{ line: "" }] })),
-        "an older version of this page has kept it",
+        "an older version of this page saved it",
       ],
     ] as const) {
       const damaged = await open(phone, `#view=play&seat=1&g=${g}`);
@@ -243,7 +239,7 @@ describePages("a game by link", () => {
     );
     await comesToShow(ownPage, "#skip", false);
     await act(ownPage, "#new-game", "#copy-game");
-    await comesToSay(ownPage, "said", "The link to this game is copied.");
+    await comesToSay(ownPage, "said", "Link to this game copied.");
     const reopened = await open(
       phone,
       new URL(await ownPage.evaluate(() => navigator.clipboard.readText())).hash,
@@ -270,7 +266,7 @@ describePages("a game by link", () => {
     for (const watcher of [page, other]) {
       await act(watcher, "#watch-forth");
       await says(watcher, "watched", "1 of 1");
-      await comesToSay(watcher, "said", /pocketed/);
+      await comesToSay(watcher, "said", /potted/);
       expect(await watcher.locator("#watch-forth").isDisabled()).toBe(true);
       await act(watcher, "#watch-back");
       await says(watcher, "watched", "0 of 1");

@@ -128,9 +128,9 @@ describePages("a game", () => {
     expect(speed).not.toBe(1.5);
     expect(Math.abs(speed - 1.5)).toBeLessThan(0.3);
     await act(page, "#skip");
-    await comesToSay(page, "turn", /thinks/);
+    await comesToSay(page, "turn", /is thinking/);
     await page.locator("#shoot").evaluate((button: HTMLElement) => button.click());
-    await says(page, "said", "The other player thinks: your turn comes after his stroke.");
+    await says(page, "said", "The other player is thinking: wait for your turn.");
     await reload(page);
     await begin(page, "nineball", "person");
     const scene = page.locator("#table-scene");
@@ -253,22 +253,22 @@ describePages("a game", () => {
           (words) =>
             (words.textContent =
               words.id === "turn"
-                ? "The 300 fouls: the break drove fewer than four balls to cushions. Your turn. Cue ball in hand: drag it."
+                ? "The 300 fouls: no pot on the break, and too few balls hit a cushion. Your turn. Ball in hand: drag the cue ball."
                 : "Words of two lines. ".repeat(5)),
         );
       expect(await seen(), id).toEqual(first);
     }
     const phases = new Set<string>();
-    while (!phases.has("thinks")) {
+    while (!phases.has("thinking")) {
       // A weak stroke passes the turn.
       if (await page.locator(SHOOT).isVisible()) {
         await act(page, "#power=0.3", "#shoot");
       }
-      phases.add((await turn(page)).match(/play|thinks|Your turn|fouls/)?.[0] ?? "");
+      phases.add((await turn(page)).match(/shoot|thinking|Your turn|fouls/)?.[0] ?? "");
       expect(await seen(), await turn(page)).toEqual(first);
       await frames(page);
     }
-    expect([...phases]).toEqual(expect.arrayContaining(["play", "thinks"]));
+    expect([...phases]).toEqual(expect.arrayContaining(["shoot", "thinking"]));
   });
 
   test("whoever comes to the table has his own power, the tip in the middle, and the aim at the nearest ball that is on", async () => {
@@ -294,7 +294,7 @@ describePages("a game", () => {
       seen.sticks = 0;
       const canvas = document.getElementById("table-scene") as HTMLCanvasElement;
       const look = () => {
-        if (document.getElementById("said")!.textContent!.startsWith("The 300 plays")) {
+        if (document.getElementById("said")!.textContent!.startsWith("The 300: ")) {
           const copy = document.createElement("canvas");
           [copy.width, copy.height] = [canvas.width, canvas.height];
           const g = copy.getContext("2d")!;
@@ -323,7 +323,7 @@ describePages("a game", () => {
     for (let stroke = 0; stroke < 8 && (await sticks()) <= 40; stroke++) {
       // The break of full power may keep the turn, and so may a slow stroke after it.
       for (;;) {
-        await comesToSay(page, "turn", /^[^…]*Your turn|The 300 (thinks|plays)/);
+        await comesToSay(page, "turn", /^[^…]*Your turn|The 300 (is thinking|shoots)/);
         await act(page, "#power=1");
         if (!/Your turn/.test(await turn(page))) break;
         await act(page, "#shoot");
@@ -356,7 +356,7 @@ describePages("a game", () => {
       // nothing that is not on.
       const aims = phi(page);
       await click(page, 0.3, 1.9, touch);
-      await comesToSay(page, "turn", /Nothing is called: aim at a ball, or tap a pocket\.$/);
+      await comesToSay(page, "turn", /No call yet: aim at a ball, or tap a pocket\.$/);
       await click(page, -0.03, 1.27, touch);
       await comesToSay(page, "turn", /Call: the 8, side-left pocket\.$/);
       await turnTo(page, await aims);
@@ -441,9 +441,9 @@ describePages("a game", () => {
     await says(page, "turn", /Call: the 1, side-left pocket\./);
     // A safety is a call, too, which a second press takes back.
     for (const [call, is] of [
-      ["a safety.", "true"],
+      ["safety.", "true"],
       ["the 1, foot-right pocket.", "false"],
-      ["a safety.", "true"],
+      ["safety.", "true"],
     ] as const) {
       await act(page, "#push");
       await expect.poll(() => turn(page)).toContain(`Call: ${call}`);
@@ -471,9 +471,9 @@ describePages("a game", () => {
     );
     await pace(secondPage, "1000");
     await click(secondPage, 0.1, 0.1);
-    await comesToSay(secondPage, "turn", /Nothing is called/);
+    await comesToSay(secondPage, "turn", /No call yet/);
     await act(secondPage, "#push");
-    await comesToSay(secondPage, "turn", /Call: a safety\./);
+    await comesToSay(secondPage, "turn", /Call: safety\./);
     await act(secondPage, "#shoot");
     await comesToSay(secondPage, "turn", /Player 2/);
   });
@@ -563,8 +563,8 @@ describePages("a game", () => {
     await click(page, 0.05, 0.05);
     await turnTo(page, 225);
     await act(page, "#power=2", "#shoot");
-    await comesToSay(page, "turn", /^Player 1 fouls: .*Player 2's turn.* Cue ball in hand/);
-    await says(page, "said", "Player 1 pocketed no ball.");
+    await comesToSay(page, "turn", /^Player 1 fouls: .*Player 2's turn.* Ball in hand/);
+    await says(page, "said", "Player 1 potted nothing.");
   });
 
   test("a game hides the way of the balls, practice shows it; undo is of practice", async () => {
@@ -668,7 +668,7 @@ describePages("a game", () => {
           await says(
             page,
             "turn",
-            "Player 1 breaks, into the foot-right pocket. Cue ball in hand behind the line: drag it.",
+            "Player 1 breaks, into the foot-right pocket. Ball in hand behind the line: drag the cue ball.",
           );
         let played = 0;
         for (; played < 3; played++) {
@@ -686,7 +686,7 @@ describePages("a game", () => {
         const saved = await keptGame(page);
         expect((JSON.parse(saved) as { game: string }).game).toBe(game);
         expect(linesOf(saved, "shot")).toHaveLength(against === "practice" ? 0 : played);
-        await says(page, "said", /^$|Drag|^(Player \d|You|That stroke) /);
+        await says(page, "said", /^$|Drag|^(Player \d|You|That shot) /);
         await reload(page);
         expect(await keptGame(page)).toBe(saved);
       }

@@ -33,14 +33,14 @@ describePages("practice", () => {
     await says(page, "turn", "Short straight pot");
     await turnTo(page, 151.2);
     await act(page, "#shoot");
-    await comesToSay(page, "said", "Missed: 0 of 1. The cue ball fell or left the table.");
+    await comesToSay(page, "said", "Missed: 0 of 1. The cue ball was potted or left the table.");
     // So little off its pocket that the page tells by how much.
     await turnTo(page, 48);
     await act(page, "#power=1.5", "#shoot");
     await comesToSay(
       page,
       "said",
-      /^Missed: 0 of 2\. The 1 did not fall\. Turn the aim [23]\.\d\d° to the right\.$/,
+      /^Missed: 0 of 2\. The 1 was not potted\. Aim [23]\.\d\d° more to the right\.$/,
     );
     await turnTo(page, 45);
     await act(page, "#power=1.5", "#shoot");
@@ -57,7 +57,7 @@ describePages("practice", () => {
     await comesToSay(
       page,
       "said",
-      /The cue ball came back \d+ cm of 40 cm: strike it lower or faster\.$/,
+      /The cue ball came back \d+ cm instead of 40 cm: hit it lower or harder\.$/,
     );
     await act(page, "#new-game", "#open-log");
     await counts(page, "#log tbody tr", 4);
@@ -135,7 +135,7 @@ describePages("practice", () => {
         mimeType: "image/png",
         buffer: Buffer.from(picture, "base64"),
       });
-      await comesToSay(page, "photo-said", /Mark the corner head left/);
+      await comesToSay(page, "photo-said", /Mark the head left corner/);
       const box = await boxOf(page, "#photo");
       const draws = new Draws(5n);
       const tap = async (x: number, y: number, z: number) => {
@@ -153,7 +153,7 @@ describePages("practice", () => {
         [0, L],
       ] as const)
         await tap(x, y, NOSE);
-      await comesToSay(page, "photo-said", /Tap the middle of each ball/);
+      await comesToSay(page, "photo-said", /Tap the centre of each ball/);
       for (const [ball, x, y] of balls) {
         await tap(x, y, R);
         // Where the colour does not tell the ball, the page asks.

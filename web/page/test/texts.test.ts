@@ -1,5 +1,6 @@
 // The texts of the page: each language has each text, with the same parts, and no sentence stands
 // outside of the files of texts.
+import { words } from "carom";
 import { readdirSync, readFileSync } from "node:fs";
 import ts from "typescript";
 import { describe, expect, test } from "vitest";
@@ -89,8 +90,8 @@ describe("the texts of the page", () => {
     const [english, german] = LANGUAGE_CODES.map(textsOf);
     expect(english!.ballsCounted(1)).toBe("1 ball");
     expect(english!.ballsCounted(2)).toBe("2 balls");
-    expect(english!.bestStrokeOf(true, "Ann", "a break")).toBe("Your best stroke: a break.");
-    expect(english!.bestStrokeOf(false, "Ann", "a {name}")).toBe("Ann's best stroke: a {name}.");
+    expect(english!.bestStrokeOf(true, "Ann", "a break")).toBe("Your best shot: a break.");
+    expect(english!.bestStrokeOf(false, "Ann", "a {name}")).toBe("Ann's best shot: a {name}.");
     expect(german!.bestStrokeOf(false, "Ann", "ein Anstoß")).toBe(
       "Bester Stoß von Ann: ein Anstoß.",
     );
@@ -162,6 +163,12 @@ describe("the texts of the page", () => {
         });
       }
     expect(labelsOf(["red 3", "7"], {})).toEqual(["", "7"]);
+  });
+
+  test("each foul of the library is told in plain words", () => {
+    for (const [foul, text] of words.foul)
+      for (const { known } of [LANGUAGES.en, LANGUAGES.de] as { known: Record<string, string> }[])
+        if (text !== "") expect(known[text], foul).toMatch(/^\D{5,60}$/);
   });
 
   test("German has words for all drills", () => {

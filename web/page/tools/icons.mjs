@@ -1,6 +1,6 @@
-// icons.mjs: the icons of the page as it is installed, public/icon-192.png and icon-512.png, drawn
-// from public/icon.svg by Chromium. All that the picture shows lies within the circle of 80 % that
-// every shape of an icon keeps, so the large one is also the maskable one.
+// icons.mjs: the icons of the installed page, public/icon-192.png and icon-512.png, drawn from
+// public/icon.svg by Chromium. The drawing is inside the circle of 80 % that every icon shape
+// keeps, so the large icon is also the maskable one.
 import { readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";

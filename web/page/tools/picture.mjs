@@ -1,6 +1,6 @@
-// picture.mjs OUT.png [WIDTH HEIGHT]: a picture of the page for docs/figures/, 1300 by 800 or as large
-// as a phone; after `npm run page`. The first of these sizes shows the scene, and also writes the words that are seen to
-// OUT.txt, by which page/test/smoke.test.ts finds pictures that are old.
+// picture.mjs OUT.png [WIDTH HEIGHT]: a screenshot of the page for docs/figures/, 1300 by 800
+// pixels or the size of a phone; run it after `npm run page`. The default size shows the scene, and
+// also writes the visible text to OUT.txt, by which page/test/smoke.test.ts finds old screenshots.
 import { writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
@@ -41,7 +41,7 @@ export async function scene(browser, width, height, view = "device") {
   await page.evaluate(() => document.activeElement?.blur());
   await page.waitForTimeout(300);
   const words = await page.evaluate(() => document.body.innerText);
-  // not the version, which is no matter of a picture
+  // the version does not matter for a screenshot
   return {
     page,
     words: `${words
@@ -60,7 +60,7 @@ if (process.argv[1] === fileURLToPath(import.meta.url)) {
   const isWide = Number(width) === 1300;
   const view = isWide ? "scene" : "device";
   const { page, words } = await scene(browser, Number(width), Number(height), view);
-  if (isWide) await page.waitForTimeout(5000); // its picture is drawn by the processor
+  if (isWide) await page.waitForTimeout(5000); // the processor draws the scene
   await page.screenshot({ path: out });
   if (isWide) writeFileSync(out.replace(/\.png$/, ".txt"), words);
   await browser.close();

@@ -1,20 +1,11 @@
-//! Billiards by the C library carom: tables, racks, whole shots, plans and recordings. `calls` has
-//! the other functions that need no pointers, and `sys` has all functions as C declares them.
-//!
-//! ```
-//! use carom::{Error, Game, RackKind, TableKind};
-//! # fn main() -> Result<(), Error> {
-//! let table = carom::table(TableKind::Pool9ft)?;
-//! let balls = carom::rack(RackKind::Nineball, &table, 1e-4, 1)?;
-//! let cue = carom::Cue { speed: 8.0, ..carom::cue(Game::Pool) };
-//! let shot = carom::shoot(&table, &balls, &cue, &carom::Options::default())?;
-//! assert_eq!(shot.at(shot.time())?.len(), 10);
-//! # Ok(())
-//! # }
-//! ```
-//!
-//! Units are SI; directions of a cue are in degrees. A shot has the same bits on all machines,
-//! unless `fast` is set.
+//! Billiards with the C library carom: tables, racks, complete shots, plans and recordings. `calls`
+//has ! the other functions that need no pointers, and `sys` has all functions as C declares them. !
+//! ``` ! use carom::{Error, Game, RackKind, TableKind}; ! # fn main() -> Result<(), Error> { ! let
+//table = carom::table(TableKind::Pool9ft)?; ! let balls = carom::rack(RackKind::Nineball, &table,
+//1e-4, 1)?; ! let cue = carom::Cue { speed: 8.0, ..carom::cue(Game::Pool) }; ! let shot =
+//carom::shoot(&table, &balls, &cue, &carom::Options::default())?; !
+//assert_eq!(shot.at(shot.time())?.len(), 10); ! # Ok(()) ! # } ! ``` ! ! Units are SI; directions
+//of a cue are in degrees. A shot has the same bits on all machines, ! unless `fast` is set.
 #[rustfmt::skip] // written by bindings/write.py
 pub mod calls;
 mod match_game;
@@ -43,11 +34,11 @@ use std::ffi::CStr;
 use std::fmt;
 use std::os::raw::c_char;
 
-/// A call that could not be served.
+/// The error of a call.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
     pub status: Status,
-    /// What is wrong with the line of a recording, or the number of a shot.
+    /// The fault of the line of a recording, or of the number of a shot.
     pub fault: String,
 }
 
@@ -76,15 +67,15 @@ fn optional_text(from: *const c_char) -> Option<String> {
     (!from.is_null()).then(|| text(from))
 }
 
-/// What a function writes that returns the length of the whole text.
+/// The text of a function that returns the length of the complete text.
 fn written(write: impl Fn(*mut c_char, usize) -> usize) -> String {
     let mut bytes = vec![0u8; write(std::ptr::null_mut(), 0) + 1];
     write(bytes.as_mut_ptr().cast(), bytes.len());
     text(bytes.as_ptr().cast())
 }
 
-/// A number of a ball, a cue or a table, or an option: its names, unit, range in words, default,
-/// and what it is.
+/// A number of a ball, a cue or a table, or an option: its names, unit, range as a text, default,
+/// and description.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     pub name: String,
@@ -94,7 +85,7 @@ pub struct Row {
     pub text: String,
     pub low: f64,
     pub high: f64,
-    /// A value beside the range: 0, which is a default, or -1; NaN: none.
+    /// An allowed value outside the range: 0, for a default, or -1; NaN: none.
     pub other: f64,
 }
 
@@ -119,7 +110,7 @@ pub fn rows(part: PartKind) -> Vec<Row> {
     (0..).map_while(row).map(told).collect()
 }
 
-/// The error of a shot, with the number at fault where there is one.
+/// The error of a shot, with the invalid number if there is one.
 fn refused(
     status: sys::carom_status,
     table: &Table,
@@ -164,8 +155,8 @@ fn status_of(code: sys::carom_status) -> Status {
     Status::try_from(code).expect("the library is of the version of carom-sys")
 }
 
-/// A table by its measures, checked for balls of a radius, m. The error names the measure that is
-/// wrong.
+/// A table from its measures, checked for balls of a radius, m. The error names the invalid
+/// measure.
 pub fn table_measured(measures: &Measures, radius: f64) -> Result<Table, Error> {
     let (mut table, mut at) = (Table::default(), sys::carom_table_fault::default());
     let status = unsafe { sys::carom_table_measured(measures, radius, &mut table, &mut at) };
@@ -180,7 +171,8 @@ pub fn table_measured(measures: &Measures, radius: f64) -> Result<Table, Error> 
     Ok(table)
 }
 
-/// A rack, with the cue ball first. `gap`, m, is left between neighbours; `seed` draws the rest.
+/// A rack, with the cue ball first. `gap`, m, is between neighbours; `seed` draws the
+/// displacements.
 pub fn rack(kind: RackKind, table: &Table, gap: f64, seed: u64) -> Result<Vec<ShotBall>, Error> {
     let size = unsafe { sys::carom_rack_size(kind.into()) };
     let mut balls = vec![ShotBall::default(); size as usize];
@@ -188,8 +180,8 @@ pub fn rack(kind: RackKind, table: &Table, gap: f64, seed: u64) -> Result<Vec<Sh
     Ok(balls)
 }
 
-/// Ball in hand: puts a ball at rest at x, y (m). `Ok(Err(part))` where that place is not free: the
-/// part is there, and the ball stays.
+/// Ball in hand: puts a ball at rest at x, y (m). `Ok(Err(part))` if that position is not free: the
+/// part is in the way, and the ball does not move.
 pub fn place(
     table: &Table,
     balls: &mut [ShotBall],
@@ -209,7 +201,8 @@ pub fn place(
 }
 
 /// Aims a pot: `cue.phi` becomes the direction in which `pot.ball` goes to the middle of
-/// `pot.pocket`, by way of `pot.via`. `pot.outcome` tells what the other balls and the jaws make of it.
+/// `pot.pocket`, by way of `pot.via`. `pot.outcome` is the result with the other balls and the
+/// jaws.
 pub fn aim(
     table: &Table,
     balls: &[ShotBall],
@@ -226,7 +219,7 @@ pub fn aim(
     Ok(())
 }
 
-/// Number of balls, as the library takes it; it refuses numbers that are too large.
+/// The number of balls in the type of the library, which rejects numbers that are too large.
 fn count_of(balls: &[ShotBall]) -> i32 {
     balls.len().min(i32::MAX as usize) as i32
 }
@@ -241,7 +234,7 @@ pub struct Shot {
     time: f64,
     table: Table,
     balls: Vec<ShotBall>,
-    /// Where it was stopped, of a shot whose options may stop it.
+    /// The state at the stop, for a shot whose options may stop it.
     state: Option<Box<sys::carom_shot_state>>,
 }
 
@@ -291,18 +284,18 @@ impl Shot {
         &self.last
     }
 
-    /// Up to when the shot was followed, s.
+    /// The time up to which the shot was followed, s.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// What rules ask about.
+    /// The facts for rules.
     pub fn facts(&self) -> &Facts {
         &self.facts
     }
 
-    /// Goes on with a shot that its options stopped, with the bits of the unbroken one; `options`
-    /// say when to stop again. After an error the shot is as before.
+    /// Continues a shot that its options stopped, with the bits of the uninterrupted shot;
+    /// `options` set when to stop again. After an error the shot is as before.
     pub fn resume(&mut self, table: &Table, options: &Options) -> Result<Status, Error> {
         if self.state.is_none() {
             return check(sys::CAROM_ERROR_STATE);
@@ -320,7 +313,7 @@ impl Shot {
         })
     }
 
-    /// Plays from where the shot is, with room for so many events; once more from there where there
+    /// Plays from the current state of the shot, with room for `room` events; plays again if there
     /// were more.
     fn follow(
         &mut self,
@@ -384,7 +377,7 @@ impl Shot {
         played.map_or_else(|error| error, i32::from)
     }
 
-    /// The layout that it leaves.
+    /// The layout after the shot.
     pub fn layout(&self) -> Vec<ShotBall> {
         let after = |(ball, state): (&ShotBall, &BallState)| ShotBall {
             kind: ball.kind,
@@ -402,12 +395,13 @@ impl Shot {
         Ok(states)
     }
 
-    /// How fast surfaces pass each other in an event, m/s: with its impulse, how it sounds.
+    /// The slip between the surfaces in an event, m/s. Together with the impulse it determines the
+    /// sound.
     pub fn slip(&self, of: &Event) -> f64 {
         calls::event_slip(&self.table, &self.balls, of)
     }
 
-    /// What the shot comes to by the rules, with the state of the game before it.
+    /// The ruling of the shot; the rules have the state of the game before it.
     pub fn referee(&self, rules: &Rules, call: Call, cue_ball: i32) -> Result<Ruling, Error> {
         let (mut facts, mut last, mut made) = (self.facts, self.last.clone(), Ruling::default());
         let (balls, count) = (self.balls.as_ptr(), count_of(&self.balls));
@@ -449,8 +443,8 @@ impl Shot {
     }
 }
 
-/// A film of shots, for drawing, in which pocketed balls fall: each frame goes on from the one
-/// before, where that was of the same shot and earlier.
+/// The frames of shots, for drawing, in which pocketed balls fall: each frame continues from the
+/// previous one if that was earlier in the same shot.
 #[derive(Default)]
 pub struct Film {
     onward: Box<sys::carom_frames>,
@@ -521,7 +515,7 @@ mod tests {
         assert_eq!(all.len() * 8, std::mem::size_of_val(&balls[0].kind));
         for (k, row) in all.iter().enumerate() {
             let mut bad = balls.clone();
-            // A kind is numbers alone, in the order of the rows.
+            // A kind contains only numbers, in the order of the rows.
             unsafe {
                 *(&mut bad[2].kind as *mut sys::carom_ball_kind as *mut f64).add(k) = f64::NAN
             };

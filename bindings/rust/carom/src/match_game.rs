@@ -5,11 +5,12 @@ use crate::{
 };
 use std::os::raw::c_char;
 
-/// A match, as `carom_match.h` has it. An act that the rules forbid is an error that says what
-/// would be right; then nothing has changed.
+/// A match of `carom_match.h`. An act that the rules forbid returns an error that describes what
+/// would be right, and changes nothing.
 pub struct Match {
     pub(crate) of: Box<sys::carom_match>,
     scratch: Box<sys::carom_record>,
+    room: Box<sys::carom_match>,
     lines: String,
     undone: Vec<String>,
     last: Option<Shot>,
@@ -26,7 +27,8 @@ impl Match {
         Match::begin_to(rules, 0, false, table, seed, player)
     }
 
-    /// The same to `target` points, 0: those of the game; with `equal_innings` the match may be drawn.
+    /// The same to `target` points, 0: the usual target of the game; with `equal_innings` the match
+    /// may be drawn.
     pub fn begin_to(
         rules: RulesKind,
         target: i32,
@@ -48,8 +50,8 @@ impl Match {
         Ok(made)
     }
 
-    /// The same from any layout, by the rules of this kind; the cue ball is in hand where `leave`
-    /// says so.
+    /// The same from any layout, by the rules of this kind; the cue ball is in hand if `leave` says
+    /// so.
     pub fn begin_at(
         rules: RulesKind,
         table: &Table,
@@ -82,8 +84,8 @@ impl Match {
         Ok(made)
     }
 
-    /// The same of any seats, which `seating_make` begins: with names, sides, handicaps, cues and
-    /// limits; and of a set, where there is one. The side `player` breaks.
+    /// The same with any seats, which `seating_make` initializes: names, sides, handicaps, cues and
+    /// limits; and optionally with a set. The side `player` breaks.
     pub fn begin_seats(
         rules: RulesKind,
         table: &Table,
@@ -107,8 +109,8 @@ impl Match {
         Ok(made)
     }
 
-    /// Reads and judges the lines of a match. Its last shot has all its events, also where it still
-    /// moves and goes on.
+    /// Reads and judges the lines of a match. The last shot has all its events, also if balls are
+    /// still moving.
     pub fn load(lines: &str) -> Result<Match, Error> {
         if lines.is_empty() {
             let fault = "the text is empty: a match begins with a recording line".to_string();
@@ -124,34 +126,57 @@ impl Match {
         *self.of = Default::default();
         self.lines.clear();
         for line in lines.split_inclusive('\n') {
-            self.read_line(line, None)?;
+            self.read_line(line)?;
         }
         self.lines += &self.pending();
         self.replay()
     }
 
-    fn read_line(&mut self, line: &str, sender: Option<usize>) -> Result<(), Error> {
-        let (at, sender) = (
-            line.as_ptr() as *const c_char,
-            sender.map_or(-1, |seat| seat as i32),
-        );
-        let status = unsafe {
-            sys::carom_match_read_from(&mut *self.of, &mut *self.scratch, at, line.len(), sender)
-        };
+    fn read_line(&mut self, line: &str) -> Result<(), Error> {
+        let at = line.as_ptr() as *const c_char;
+        let status =
+            unsafe { sys::carom_match_read(&mut *self.of, &mut *self.scratch, at, line.len()) };
         self.refused(status)?;
         self.lines += line.trim_end_matches('\n');
         self.lines.push('\n');
         Ok(())
     }
 
-    /// Reads a line that a seat has sent, as `carom_match_read_from` does; `None`: anyone.
-    pub fn read(&mut self, line: &str, sender: Option<usize>) -> Result<(), Error> {
+    /// Reads the next line of a file. Nothing is read behind a line that is not by the rules.
+    pub fn read(&mut self, line: &str) -> Result<(), Error> {
         let shots = self.shots();
-        self.read_line(line, sender)?;
+        self.read_line(line)?;
         if self.shots() == shots {
             return Ok(());
         }
         self.replay()
+    }
+
+    /// Judges a line that a peer of this seat has sent, as `carom_match_receive` does; `None`: a
+    /// sender that may send every line. An error leaves the match as it was. Returns whether the
+    /// match has changed; `lines` then has new ones.
+    pub fn receive(&mut self, line: &str, seat: Option<usize>) -> Result<bool, Error> {
+        let (shots, line_count) = (self.shots(), self.of.record.line);
+        let at = line.as_ptr() as *const c_char;
+        let seat = seat.map_or(-1, |seat| seat as i32);
+        let status = unsafe {
+            sys::carom_match_receive(&mut *self.of, &mut *self.room, at, line.len(), seat)
+        };
+        self.refused(status)?;
+        if self.of.record.line == line_count {
+            return Ok(false);
+        }
+        self.undone.clear();
+        if self.of.size > 0 {
+            self.lines += &self.pending();
+        } else {
+            self.lines += line.trim();
+            self.lines.push('\n');
+        }
+        if self.shots() != shots {
+            self.replay()?;
+        }
+        Ok(true)
     }
 
     /// The last shot of a match that was read, with all its events.
@@ -173,7 +198,7 @@ impl Match {
         check(status).map(|_| ())
     }
 
-    /// Undoes the last act. False: there is none.
+    /// Undoes the last act. False: there is nothing to undo.
     pub fn undo(&mut self) -> Result<bool, Error> {
         let (at, length) = (self.lines.as_ptr() as *const c_char, self.lines.len());
         let size = unsafe { sys::carom_match_undone(at, length) };
@@ -186,7 +211,7 @@ impl Match {
         Ok(true)
     }
 
-    /// Does the act again that was undone last. False: there is none.
+    /// Repeats the act that was undone last. False: there is nothing to repeat.
     pub fn redo(&mut self) -> Result<bool, Error> {
         let Some(act) = self.undone.pop() else {
             return Ok(false);
@@ -196,7 +221,7 @@ impl Match {
         Ok(true)
     }
 
-    /// The same match, which goes on alone.
+    /// A copy of the match, independent of this one.
     pub fn copy(&self) -> Result<Match, Error> {
         let mut made = Match::empty();
         made.of = self.of.clone();
@@ -209,13 +234,14 @@ impl Match {
         Match {
             of: Box::default(),
             scratch: Box::default(),
+            room: Box::default(),
             lines: String::new(),
             undone: Vec::new(),
             last: None,
         }
     }
 
-    /// Keeps the lines of an act; an error is what was refused.
+    /// Keeps the lines of an act; returns an error for a rejected act.
     pub(crate) fn told(&mut self, status: sys::carom_status) -> Result<(), Error> {
         if self.of.size > 0 {
             self.undone.clear();
@@ -238,7 +264,7 @@ impl Match {
         check(status).map(|_| ())
     }
 
-    /// All that is known of the match: its phase, choices, bounds and record.
+    /// The complete state of the match: phase, choices, bounds and record.
     pub fn state(&self) -> &sys::carom_match {
         &self.of
     }
@@ -253,8 +279,8 @@ impl Match {
         self.last.as_ref()
     }
 
-    /// The position of the player at the table, of a rating, for plans; in hand, with the bounds
-    /// of the match.
+    /// The position of the player at the table, for plans of a player with a rating; in hand, with
+    /// the bounds of the match.
     pub fn position(&self, cue: &Cue, rating: f64) -> Position {
         let (of, ball) = (&self.of.record, self.of.cue_ball.into());
         let balls = &of.balls[..of.count as usize];
@@ -276,8 +302,8 @@ impl Match {
         &self.of.ruling
     }
 
-    /// Plays a stroke; `stop` says when to stop its shot. Returns whether the shot has ended, and
-    /// is ruled.
+    /// Plays a stroke; `stop` sets when its shot is stopped. Returns whether the shot has ended,
+    /// and was judged.
     pub fn stroke(&mut self, cue: &Cue, stop: &Options) -> Result<bool, Error> {
         let player = self.at_table();
         self.play(false, |of, to| unsafe {
@@ -285,7 +311,7 @@ impl Match {
         })
     }
 
-    /// Goes on with a stopped shot, likewise.
+    /// Continues a stopped shot in the same way.
     pub fn go_on(&mut self, stop: &Options) -> Result<bool, Error> {
         self.play(true, |of, to| unsafe {
             sys::carom_match_continue(of, stop, to)
@@ -309,15 +335,15 @@ impl Match {
         Ok(status == sys::CAROM_OK)
     }
 
-    /// A player gives the game to the other.
+    /// A player concedes the game.
     pub fn concede(&mut self, player: usize) -> Result<(), Error> {
         let player = player.min(sys::CAROM_SEATS_MOST as usize) as i32;
         let status = unsafe { sys::carom_match_concede(&mut *self.of, player) };
         self.told(status)
     }
 
-    /// Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the
-    /// stroke as the player makes it. `prepare` and `stroke` can stop its shot.
+    /// Plays a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the stroke
+    /// as the player makes it. `prepare` and `stroke` can stop its shot.
     pub fn take(&mut self, best: &PlanStroke, cue: &Cue) -> Result<(), Error> {
         self.prepare(best)?;
         if best.kind != sys::CAROM_PLAN_PASS {
@@ -326,7 +352,7 @@ impl Match {
         Ok(())
     }
 
-    /// The last ruling in words.
+    /// The text of the last ruling.
     pub fn words(&self) -> String {
         words(&self.of.ruling)
     }

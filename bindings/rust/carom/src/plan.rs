@@ -1,4 +1,4 @@
-//! Plans: which stroke to play, by built-in rules or by those of the caller.
+//! Plans: which stroke to play, by built-in or custom rules.
 use crate::{
     calls, check, count_of, sys, BallState, Bounds, Call, Cue, Error, Facts, Leave, Options,
     PlanOptions, PlanStroke, Player, RackKind, Rules, RulesKind, RulesState, ShotBall, Status,
@@ -10,33 +10,33 @@ use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Rules of a game. Sets of balls have bit k for ball k. The functions may be called from several
-/// threads at once, and depend on their arguments only; `user` are the eight words of the state
-/// that are theirs, as the player at the table has them. A function that panics makes the call that
-/// uses the rules an error, at its end; where panics abort, it ends the program. `carom_plan.h`
-/// describes the functions; the library has its own of those that are None.
+/// threads at once, and must depend only on their arguments; `user` has eight integers of the state
+/// for the rules, from the view of the player at the table. If a function panics, the call that
+/// uses the rules returns an error at its end; if panics abort, the program ends. `carom_plan.h`
+/// describes the functions; the library has defaults for functions that are None.
 pub trait GameRules: 'static {
     /// The balls that may be met first, and potted.
     fn on(user: &[u64; 8], in_play: u32) -> u32;
-    /// The outcome of a shot; it leaves `user` as the next player has it.
+    /// The outcome of a shot; it leaves `user` from the view of the next player.
     fn judge(user: &mut [u64; 8], in_play: u32, cue_ball: usize, facts: &Facts, call: Call)
         -> Turn;
-    /// How many balls the player at the table and the other one have to pot to win; in a race for
+    /// How many balls the player at the table and the opponent have to pot to win; in a race for
     /// points, how many points.
     fn left(user: &[u64; 8], in_play: u32) -> [i32; 2];
     /// The pockets in which balls count for the player at the table, as a set.
     const POCKETS: Option<fn(user: &[u64; 8]) -> u32> = None;
-    /// The chance that the player at the table wins, 0 to 1; without an opponent, how many balls
-    /// this player is still going to pot.
+    /// The chance that the player at the table wins, 0 to 1; without an opponent, the expected
+    /// number of balls that this player still pots.
     const VALUE: Option<fn(user: &[u64; 8], layout: &[BallState], in_hand: bool) -> f64> = None;
-    /// In a race for points, those of a ball that falls in the next stroke; without a ball, the
-    /// mean of a later pot.
+    /// In a race for points, the points of a ball that falls in the next stroke; without a ball,
+    /// the mean of a later pot.
     const POINTS: Option<fn(user: &[u64; 8], in_play: u32, ball: Option<usize>) -> f64> = None;
-    /// Does what depends on the places of the balls after a stroke that was judged, and puts back
-    /// the balls of `turn.spot`, as by `spot`.
+    /// Applies the rules that depend on the positions of the balls after a stroke was judged, and
+    /// spots the balls of `turn.spot`, as `spot` does.
     const SETTLE: Option<fn(user: &mut [u64; 8], &Table, balls: &mut [ShotBall], &mut Turn)> = None;
 }
 
-/// The rules of a game, with a state that is all 0; `calls`, `race` and the like can be set.
+/// The rules of a game, with a state that is all 0; `calls`, `race` and other members can be set.
 pub fn rules<G: GameRules>() -> Rules {
     unsafe extern "C" fn on<G: GameRules>(game: *const RulesState, in_play: u32) -> u32 {
         guarded::<G, _>(0, || G::on(unsafe { &(*game).user }, in_play))
@@ -109,7 +109,7 @@ pub fn rules<G: GameRules>() -> Rules {
     made
 }
 
-/// The panics of a caller's rules, and the functions by which plans know these.
+/// The panics of custom rules, and the functions by which plans identify the rules.
 struct Panics {
     of: TypeId,
     on: Vec<usize>,
@@ -150,7 +150,7 @@ fn guarded<G: GameRules, T>(otherwise: T, call: impl FnOnce() -> T) -> T {
     })
 }
 
-/// Whether rules of a caller's have panicked since it was made.
+/// Whether custom rules have panicked since it was made.
 pub(crate) struct Watch {
     on: usize,
     before: u64,
@@ -163,7 +163,7 @@ impl Watch {
         Watch { on, before }
     }
 
-    /// How many panics there were, and the words of one of them.
+    /// The number of panics, and the message of one of them.
     fn seen(on: usize) -> (u64, String) {
         panics().iter().filter(|one| one.on.contains(&on)).fold(
             (0, String::new()),
@@ -184,7 +184,7 @@ impl Watch {
     }
 }
 
-/// Puts a ball back as the rules of a rack's game ask.
+/// Spots a ball by the rules of a rack's game.
 pub fn spot(
     kind: RackKind,
     table: &Table,
@@ -195,8 +195,8 @@ pub fn spot(
     calls::spot_ball_of(kind, table, balls, ball).map(|_| ())
 }
 
-/// The stroke that a player makes who means `cue`: with errors drawn from `seed` and the number of
-/// the stroke.
+/// The stroke of a player who intends `cue`, with errors drawn from `seed` and the number of the
+/// stroke.
 pub fn strike(player: &Player, seed: u64, number: u64, cue: &Cue) -> Cue {
     let mut made = *cue;
     calls::player_strike(player, seed, number, &mut made);
@@ -212,24 +212,24 @@ pub struct Position {
     /// Its ball, masses and tip; the stroke itself is not read.
     pub cue: Cue,
     pub player: Player,
-    /// None: the opponent errs as the player does.
+    /// None: an opponent with the errors of the player.
     pub opponent: Option<Player>,
     pub rules: Rules,
     /// Models and space.
     pub shot: Options,
     /// `opponent` and `stop` of it are not read.
     pub options: PlanOptions,
-    /// Where the cue ball may be put in hand, as in a match. None: where the game lets it be put
-    /// after a foul, if a plan is made in hand. After a scratch on the break of eight-ball give
-    /// those of the ruling, because the rules do not know of the stroke before.
+    /// The bounds of a cue ball in hand, as in a match. None: the bounds of the game after a foul,
+    /// if a plan is made in hand. After a scratch on the break of eight-ball, set the bounds of the
+    /// ruling, because the rules do not know the previous stroke.
     pub bounds: Option<Bounds>,
-    /// Within which bounds the cue ball was placed for this stroke: from behind the head string it
-    /// may not first meet balls that lie there too.
+    /// The bounds within which the cue ball was placed for this stroke: from behind the head string
+    /// it may not first meet balls that are there too.
     pub leave: Leave,
 }
 
 impl Position {
-    /// Of two players of the same rating in this game, 200 to 850, as by `calls::player_rated`.
+    /// For two players of the same rating in this game, 200 to 850, as by `calls::player_rated`.
     pub fn new(table: &Table, balls: &[ShotBall], cue: &Cue, rules: &Rules, rating: f64) -> Self {
         let game = RulesKind::try_from(rules.learned - 1).unwrap_or(RulesKind::Eightball);
         Position {
@@ -246,15 +246,15 @@ impl Position {
         }
     }
 
-    /// The best strokes, best first, at most `most`; in hand, with the places of the cue ball.
+    /// The best strokes, best first, at most `most`; in hand, with the positions of the cue ball.
     pub fn plan(&self, most: usize, in_hand: bool) -> Result<Vec<PlanStroke>, Error> {
         let mut all = self.clone().think(0, most, in_hand)?;
         all.go_on()?;
         Ok(all.choices)
     }
 
-    /// A plan that is made in slices of so many events, about (500 take 1 ms), between the frames
-    /// of a game.
+    /// A plan that is made in slices of about `slice` events (500 take 1 ms), between the frames of
+    /// a game.
     pub fn think(self, slice: i64, most: usize, in_hand: bool) -> Result<Thinking, Error> {
         let mut of = Box::new(self);
         of.options.slice = slice;
@@ -281,7 +281,7 @@ impl Position {
         })
     }
 
-    /// The chances of strokes of the caller's, in their order.
+    /// The chances of the caller's strokes, in their order.
     pub fn chances(&self, cues: &[Cue]) -> Result<Vec<PlanStroke>, Error> {
         let mut told = vec![PlanStroke::default(); cues.len()];
         let bytes = self.with_job(&mut [], |job| unsafe {
@@ -336,7 +336,8 @@ impl Position {
     }
 }
 
-// The pointers in PlanOptions are not read; those in the memory are to boxes of the same object.
+// The pointers in PlanOptions are not read; the pointers in the memory are to boxes of the same
+// object.
 unsafe impl Send for Position {}
 unsafe impl Sync for Position {}
 unsafe impl Send for Thinking {}
@@ -349,9 +350,9 @@ fn leave_in_hand(of: &Position) -> Leave {
     leave.unwrap_or(Leave::Anywhere)
 }
 
-/// A plan on its way.
+/// A plan in progress.
 pub struct Thinking {
-    // Boxed, as the memory points to it and to the options.
+    // Boxed, because the memory points to it and to the options.
     of: Box<Position>,
     wanted: Box<PlanOptions>,
     watch: Watch,
@@ -413,7 +414,7 @@ mod tests {
         TableKind, TurnOutcome,
     };
 
-    /// A drill: any ball counts, until one misses.
+    /// A drill: any ball counts, until a miss.
     struct Drill;
 
     impl GameRules for Drill {
@@ -531,7 +532,7 @@ mod tests {
         let mut of = Position::new(&table, &balls, &cue, &rules::<Every>(), 600.0);
         assert_eq!(of.value(false).unwrap(), 0.25);
         let by_value = of.clone();
-        of.rules.value = None; // the library's, which asks for points
+        of.rules.value = None; // the library's function, which requests points
         of.rules.race = Race::Points.into();
         of.options.shots = 100;
         let mut pot = Pot {

@@ -13,7 +13,7 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Begins a game, and returns its lines up to that of the balls.
+    /// Begins a game, and returns its lines up to the line of the balls.
     pub fn begin(
         &mut self,
         table: &Table,
@@ -55,14 +55,15 @@ impl Recording {
         self.line(sys::CAROM_RECORD_PLACE)
     }
 
-    /// A ball comes in hand, and is out of play until it is placed. Returns the line.
+    /// Takes a ball in hand; it is out of play until it is placed. Returns the line.
     pub fn hand(&mut self, ball: usize) -> Result<String, Error> {
         let ball = ball.min(i32::MAX as usize) as i32;
         check(unsafe { sys::carom_record_hand(&mut *self.record, ball) })?;
         self.line(sys::CAROM_RECORD_PLACE)
     }
 
-    /// The last shot that was played or read, with its events; of one that went on, from its start.
+    /// The last shot that was played or read, with its events; for a continued shot, from its
+    /// start.
     pub fn last(&self) -> Option<&Shot> {
         self.last.as_ref()
     }
@@ -78,7 +79,7 @@ impl Recording {
         Ok(&self.record.balls[..self.record.count as usize])
     }
 
-    /// The facts of the last shot, which rules ask about.
+    /// The facts of the last shot, for rules.
     pub fn facts(&self) -> &Facts {
         &self.record.facts
     }
@@ -118,7 +119,7 @@ impl Recording {
         if size == 0 {
             return Err(Error {
                 status: Status::ErrorRecord,
-                fault: "this line cannot stand here".to_string(),
+                fault: "this line is not allowed here".to_string(),
             });
         }
         line.truncate(size);
@@ -154,7 +155,7 @@ impl Recording {
     }
 
     /// Reads lines up to a shot with other bits than were recorded, and returns false there. A game
-    /// that was saved without its end goes on.
+    /// that was saved without its end can be continued.
     pub fn load(&mut self, lines: &str) -> Result<bool, Error> {
         let mut all = lines.lines();
         all.try_fold(true, |same, line| Ok(same && self.read(line)?))

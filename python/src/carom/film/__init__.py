@@ -1,13 +1,14 @@
-"""From the film of a fixed camera to tracks: `python -m carom.film CLIP --table snooker -o
-tracks.csv`, or in Python `carom.film.track("clip.mp4", "snooker")`.
+"""Tracks of balls from the film of a fixed camera.
 
-The steps are a module each: `_cloth` finds the table, `_camera` where the camera is, `_clock` which
-pictures are new and when they were taken, `_balls` the balls of a picture, `_paths` which ball is
-which through time, `_names` their names. It needs OpenCV: `pip install opencv-python-headless`.
+Use `python -m carom.film CLIP --table snooker -o tracks.csv`, or in Python
+`carom.film.track("clip.mp4", "snooker")`. Each step is a module: `_cloth` finds the table,
+`_camera` the camera's position, `_clock` the new frames and their times, `_balls` the balls in a
+frame, `_paths` their identities over time, and `_names` their names. Needs OpenCV: `pip install
+opencv-python-headless`.
 
-What it cannot do: a camera that moves, a table of which no three sides are seen, a cloth without a
-colour, a rolling shutter. Which of several balls of one colour is which is told by continuity
-alone. A number of pool is told by the colour, so that in bad light balls may have each other's.
+Not supported are moving cameras, tables with fewer than three visible sides, grey cloths and
+rolling shutters. Balls of the same colour are distinguished only by the continuity of their paths.
+Numbers of pool balls are inferred from colours, so poor light can exchange them.
 """
 
 from __future__ import annotations
@@ -41,37 +42,37 @@ from carom.tracks._constants import ground
 __all__ = ["Camera", "Film", "FilmError", "track"]
 __dir__ = listing(__name__)
 
-_FIRST = 3.0  # s from which the table is learned
-_AWAY = 0.5  # s: a table that is not seen for longer is gone
-_PART = 0.8  # of its usual area: a ball that shows less is hidden in part
-_SPOT = 0.09  # m: a ball of snooker that rests nearer to its spot lies on it
-_ODD = 0.015  # m: by which a cushion's depth may differ from that of its kind
-_PLACED = 0.004  # m: deviation of a ball from its spot
-_TURNED = 0.003  # m: of a ball that turns from its radius off the noses
-_JAWS = 0.09  # m around a pocket in which a ball may meet a jaw
-_FALLEN = 0.15  # m around a pocket from which a ball that is not seen again has fallen
-_FAR = 0.02  # m: and one that turns farther from there was hit by another
+_FIRST = 3.0  # s at the beginning, from which the table is found
+_AWAY = 0.5  # s: longest time without a visible table
+_PART = 0.8  # fraction of the usual area below which a ball is partly hidden
+_SPOT = 0.09  # m: largest distance of a snooker ball on its spot
+_ODD = 0.015  # m: largest deviation of a cushion's depth from the kind of table
+_PLACED = 0.004  # m: standard deviation of a ball from its spot
+_TURNED = 0.003  # m: standard deviation of a turning point at a cushion
+_JAWS = 0.09  # m around a pocket within which a ball may hit a jaw
+_FALLEN = 0.15  # m around a pocket within which a ball that disappears has fallen
+_FAR = 0.02  # m: a ball that turns farther from a cushion was hit by another
 
 Progress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True, eq=False)
 class Film:
-    """What was found in a film."""
+    """The result of tracking a film."""
 
     recordings: list[Recording]
-    """A shot each, "s1", "s2", ...: `carom.fit.fit` takes them."""
+    """One recording per shot, "s1", "s2", ..., for `carom.fit.fit`."""
     camera: Camera
     bed: Bed
     notes: list[str]
-    """What was found and what was not, a sentence each."""
+    """Sentences on what was found and what was not."""
     picture: Picture
-    """The picture before the first shot, or the first."""
+    """The frame before the first shot, or the first frame."""
     begins: list[float]
-    """When each shot's clock begins, s of the film."""
+    """Start of each shot's clock in the film, s."""
 
     def write(self, file: str | FilePath | TextIO) -> None:
-        """Writes the tracks as the CSV that `carom.tracks.read` takes."""
+        """Write the tracks as CSV for `carom.tracks.read`."""
         if isinstance(file, (str, FilePath)):
             with open(file, "w", newline="", encoding="utf-8") as opened:
                 self.write(opened)
@@ -102,27 +103,31 @@ def track(
     Parameters
     ----------
     clip : path
-        A film that OpenCV reads.
+        A film in a format that OpenCV reads.
     table : str
-        Its kind: "9ft", "snooker" and others, as `carom --table` has them, whose size, noses and
-        balls are taken.
+        The kind of table, such as "9ft" or "snooker", as for the command's `--table`. It determines
+        the size, the noses and the balls.
     corners : four (x, y), optional
-        Pixels of the corners of the noses, at the places (0, 0), (W, 0), (W, L), (0, L) of the
-        table, counterclockwise in the picture; found by the cloth's colour otherwise.
+        Pixels of the corners of the noses at (0, 0), (W, 0), (W, L), (0, L) on the table,
+        counterclockwise in the frame. Default: found from the cloth's colour.
     focal, lens : float, optional
-        Focal length, pixels, and k1 of the lens (negative: barrel); fitted otherwise.
+        Focal length, pixels, and k1 of the lens (negative: barrel). Default: fitted.
     turned : bool, optional
-        Whether y begins at the other end than the lower or the left one. Colours on the spots of
-        snooker tell it; without them it is False.
+        Whether y begins at the upper or right end instead of the lower or left one. Default:
+        detected from snooker's colours on their spots, otherwise False.
     start, end : float
-        The part of the film, s.
+        The interval of the film to track, s.
     progress : callable, optional
-        Called with what is done and the share that is done, 0 to 1.
+        Called with the name of the step and its completed fraction, 0 to 1.
+
+    Returns
+    -------
+    Film
 
     Raises
     ------
     FilmError
-        The message says what is wrong in the film, and what would help.
+        The film cannot be tracked; the message states the reason and a remedy.
     OSError
         The file cannot be read.
     """
@@ -142,7 +147,9 @@ def track(
     paths = [path for path in paths if np.mean(bed.near_pocket(path.places)) < 0.8]
     if not paths:
         where = "" if known is None else " whose noses meet at the given corners"
-        raise FilmError(f"{clip}: no ball is found; is there a {table} table{where}, with balls?")
+        raise FilmError(
+            f"{clip}: no ball was found{where}; the film must show a {table} table with balls"
+        )
 
     _name(table, paths)
     # turns at cushions and balls on spots measure the camera better than edges of the cloth
@@ -178,16 +185,18 @@ def bed_of(table: str) -> Bed:
 def _corners(corners: Sequence[Sequence[float]]) -> Doubles:
     found = as_array(corners, "corners", np.float64)
     if found.shape != (4, 2) or not np.isfinite(found).all():
-        raise ValueError(f"corners: four pixels x,y are needed, not an array {found.shape}")
+        raise ValueError(
+            f"corners: the shape is {found.shape}, but must be (4, 2): four finite pixels x,y"
+        )
     if area(found) < 1000.0:
         raise ValueError(
-            "corners: they must be those of (0, 0), (W, 0), (W, L), (0, L), counterclockwise in the picture"
+            "corners: not counterclockwise in the frame, or too close together; pass the pixels of (0, 0), (W, 0), (W, L), (0, L)"
         )
     return np.asarray(found, np.float64)
 
 
 def _first(clip: FilePath, start: float, end: float) -> Picture:
-    """The table without what moves before it: the median of pictures of the first seconds."""
+    """The table without moving objects: the median of frames of the first seconds."""
     chosen: list[Picture] = []
     begin = math.nan
     for t, _, picture in pictures(clip, start, min(end, start + _FIRST)):
@@ -195,12 +204,14 @@ def _first(clip: FilePath, start: float, end: float) -> Picture:
         if t >= begin + 0.2 * len(chosen):
             chosen.append(picture)
     if not chosen:
-        raise FilmError(f"{clip}: no picture lies between {start:g} and {end:g} s")
+        raise FilmError(
+            f"{clip}: no frame between {start:g} and {end:g} s; check --start and --end"
+        )
     return np.asarray(np.median(np.array(chosen), axis=0), np.uint8)
 
 
 class _Seen:
-    """The pictures of a film: when each is, how it differs from the one before, its balls."""
+    """The frames of a film: their times, their differences from the frame before, and their balls."""
 
     def __init__(self, cloth: Cloth) -> None:
         self.cloth, self.finder = cloth, Finder(cloth)
@@ -211,7 +222,7 @@ class _Seen:
         self.foreign: list[float] = []
 
     def read(self, clip: FilePath, start: float, end: float, progress: Progress | None) -> None:
-        """Reads until the film ends, or the table is gone."""
+        """Read until the film ends or the table disappears."""
         previous, hidden, seen, away = None, list[float](), math.nan, 0
         for t, share, picture in pictures(clip, start, end):
             part = picture[self.cloth.part]
@@ -236,8 +247,8 @@ class _Seen:
                 progress("tracking", min(share, 0.999))
         if math.isnan(seen):
             raise FilmError(
-                f"{clip}: the table is not where the first {_FIRST:g} s show it; "
-                "--start may begin after a cut to another camera"
+                f"{clip}: the table is not where it was in the first {_FIRST:g} s; "
+                "use --start to begin after a cut to another camera"
             )
         if progress:
             progress("tracking", 1.0)
@@ -255,7 +266,7 @@ class _Seen:
             )
 
     def _end(self, t: float, count: int) -> None:
-        """The table is gone: its last pictures are left out."""
+        """Drop the last frames after the table disappeared."""
         for rows in (self.times, self.changes, self.blobs, self.foreign):
             del rows[-count:]
         self.notes.append(
@@ -265,7 +276,7 @@ class _Seen:
 
 
 def _turns_round(camera: Camera, bed: Bed) -> bool:
-    """Whether y = 0 is neither the lower nor, of a table that lies across, the left end."""
+    """Whether y = 0 is not the lower end, or for a table seen lengthwise not the left end."""
     ends = np.array([[0.5 * bed.width, 0.0, 0.0], [0.5 * bed.width, bed.length, 0.0]])
     way = np.diff(camera.project(ends), axis=0)[0]
     return bool(way[1] > 0.0 if abs(way[1]) > abs(way[0]) else way[0] < 0.0)
@@ -279,7 +290,7 @@ def _spots() -> dict[str, Doubles]:
 
 
 def _spots_turned(first: Picture, camera: Camera, bed: Bed, depths: Doubles) -> bool:
-    """Whether more colours lie on the spots of a table that lies the other way round."""
+    """Whether more colours are on the spots of the table turned by 180 degrees."""
     cloth = Cloth(first, camera, bed, depths)
     rows, _ = Finder(cloth).find(first, cloth.distance(first))
     names = names_of("snooker", rows["colour"], rows["white"], np.zeros(len(rows)))
@@ -290,14 +301,14 @@ def _spots_turned(first: Picture, camera: Camera, bed: Bed, depths: Doubles) -> 
             here = np.hypot(*(place - spot)) < 2.0 * _SPOT
             there = np.hypot(*(np.array([bed.width, bed.length]) - place - spot)) < 2.0 * _SPOT
             votes += int(there) - int(here)
-    # asked as `turned` is: against the lower or left end
+    # relative to the lower or left end, as for `turned`
     return _turns_round(camera, bed) != (votes > 0)
 
 
 def _marks(
     table: str, paths: list[Path], times: Doubles, camera: Camera, bed: Bed
 ) -> list[Evidence]:
-    """Evidence of turns at cushions, and of balls on their spots."""
+    """Evidence from turns at cushions and from balls on their spots."""
     marks = []
     size = (bed.width, bed.length)
     for side, place in turns(paths, times, size):
@@ -306,7 +317,7 @@ def _marks(
         jaws = bool(bed.near_pocket(place[None], _JAWS)[0])
         if jaws or abs(place @ normal - nose + bed.radius) > _FAR:
             continue
-        # a cushion on the camera's side hides a part of the ball
+        # a cushion on the camera's side partly hides the ball
         deviation = _TURNED * (2.0 if camera.eye[:2] @ normal > nose else 1.0)
         pixel = camera.project(np.array([[*place, bed.radius]]))
         target = np.array([nose - bed.radius])
@@ -328,7 +339,7 @@ def _marks(
 
 
 def _name(table: str, paths: list[Path]) -> None:
-    """Names the paths by what they look like over all their rows."""
+    """Name the paths by their appearance over all their rows."""
     colours = np.array([np.median([b["colour"] for b in path.blobs], axis=0) for path in paths])
     whites = np.array([np.median([b["white"] for b in path.blobs]) for path in paths])
     lengths = np.array([float(len(path.numbers)) for path in paths])
@@ -339,7 +350,7 @@ def _name(table: str, paths: list[Path]) -> None:
 def _told(
     camera: Camera, depths: Doubles, evidence: list[Evidence], marks: list[Evidence], bed: Bed
 ) -> list[str]:
-    """The calibration in sentences."""
+    """Sentences on the calibration."""
     edges = [rows for rows in evidence if rows.sides[0] >= 0.0]
     sentences = []
     misfits = [np.abs(rows.residuals(camera, depths)) for rows in edges]
@@ -376,8 +387,8 @@ def _told(
 
 
 def _rows(path: Path, times: Doubles, bed: Bed) -> tuple[Doubles, int]:
-    """(t, x, y) of the rows in which a ball is seen as a whole and is not about to fall, and how
-    many others there were.
+    """(t, x, y) of the rows in which a ball is completely visible and not about to fall, and the
+    number of other rows.
     """
     shares = np.array([row["share"] for row in path.blobs])
     usual = float(np.median(shares))
@@ -390,7 +401,7 @@ def _rows(path: Path, times: Doubles, bed: Bed) -> tuple[Doubles, int]:
 def _shots(
     paths: list[Path], clock: Clock, bed: Bed, notes: list[str]
 ) -> tuple[list[Recording], list[float]]:
-    """The shots of the paths; notes get what each lacks."""
+    """The shots of the paths; defects are added to the notes."""
     times = clock.times
     rest = [np.diff(path.places, axis=0) for path in paths]
     noise = float(np.median(np.concatenate([np.abs(step).ravel() for step in rest])))
@@ -412,10 +423,10 @@ def _shots(
                 continue
             least = 0.012 + 6.0 * noise
             if np.hypot(*np.ptp(rows[:, 1:], axis=0)) < least:
-                # a ball that lies has one row: its mean place
+                # a ball at rest has one row, its mean position
                 rows = np.concatenate([[rows[0, 0]], rows[:, 1:].mean(axis=0)])[None]
             elif rows[0, 0] > begin + 0.1 and len(earlier):
-                # a ball that is hidden when it is struck lay where it was seen last
+                # a ball that is hidden when it is hit was at its last visible position
                 rows = np.vstack([[begin, *earlier[:, 1:].mean(axis=0)], rows])
             elif rows[0, 0] > begin + 0.3:
                 late.append(name)

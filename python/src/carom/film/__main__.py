@@ -29,7 +29,7 @@ def _pixel(text: str) -> tuple[float, float]:
         return float(x), float(y)
     except ValueError:
         raise argparse.ArgumentTypeError(
-            f"{text}: a pixel x,y is needed, such as 212,640"
+            f"{text!r} is not a pixel; use x,y, such as 212,640"
         ) from None
 
 
@@ -40,8 +40,9 @@ def _show(what: str, share: float) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command; its exit status is 0, 2 for bad usage or a film that cannot be tracked, or 130
-    if it was interrupted.
+    """Run the command.
+
+    The exit status is 0; 2 for wrong usage or a film that cannot be tracked; or 130 if interrupted.
     """
     parser = argparse.ArgumentParser(
         prog="python -m carom.film",

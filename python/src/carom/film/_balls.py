@@ -1,8 +1,8 @@
-"""The balls of a picture: blobs of another colour than the cloth's, as large as a ball is there.
+"""The balls in a frame: blobs that differ from the cloth's colour and have the size of a ball.
 
-A centre is where the disc of a ball, as far as it is seen past cushions and pockets, has the
-middle of the blob. Blobs of several balls are split into discs, where discs explain them; what
-discs do not explain is a hand or a cue, and what it touches has no place.
+A centre is the position at which the visible part of a ball's disc, outside cushions and pockets,
+has the same middle as the blob. Blobs of several balls are split into discs if discs explain them.
+The rest is a hand or a cue, and balls that touch it have no position.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ blob = np.dtype(
     [
         ("pixel", np.float64, 2),
         ("place", np.float64, 2),  # m
-        ("share", np.float64),  # of the area that a whole ball has there
+        ("share", np.float64),  # fraction of the area of a complete ball there
         (
             "colour",
             np.float64,
             3,
-        ),  # blue, green, red of its middle, without white where it has more
-        ("white", np.float64),  # share of its middle
-        ("whole", np.bool_),  # nothing hides it, and no other ball
+        ),  # blue, green, red of its middle, excluding white if there is another colour
+        ("white", np.float64),  # fraction of its middle
+        ("whole", np.bool_),  # fully visible, and a single ball
     ]
 )
 """A ball that is seen."""
@@ -39,7 +39,7 @@ _LEFT = 0.16  # of a blob that discs do not explain: a hand or a cue
 
 
 class Finder:
-    """Finds the balls of pictures of one table."""
+    """Finds the balls in frames of one table."""
 
     def __init__(self, cloth: Cloth) -> None:
         self.cloth = cloth
@@ -51,13 +51,13 @@ class Finder:
         self.kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (thick, thick))
 
     def radius(self, pixel: Doubles) -> float:
-        """Of a ball seen at a pixel of the part, pixels."""
+        """The radius, in pixels, of a ball at a pixel of the cropped frame."""
         camera, radius = self.cloth.camera, self.cloth.bed.radius
         place = camera.places(pixel[None] + self.cloth.low, radius)
         return float(camera.radii(place, radius)[0])
 
     def find(self, picture: Picture, distance: Doubles) -> tuple[np.ndarray, float]:
-        """The balls, and the area of what is no ball, in areas of a ball."""
+        """The balls, and the area of other objects in units of a ball's area."""
         mask = ((distance > self.cloth.threshold) & (self.cloth.mask > 0)).astype(np.uint8)
         mask = cv2.morphologyEx(mask, cv2.MORPH_OPEN, self.kernel)
         count, labels, boxes, centres = cv2.connectedComponentsWithStats(mask, connectivity=4)
@@ -85,7 +85,7 @@ class Finder:
                     found.append(self._described(part, centre, radius, share, seen > 0.4 * ball))
             elif share < _LONG and self._is_long(labels[box] == label, radius):
                 middle = self._middle(cover, box)
-                # a blurred ball is as long as it moved: its area says nothing
+                # motion blur lengthens a ball, so its area is meaningless
                 found.append(self._described(part, middle, radius, 1.0, True))
             else:
                 discs = self._discs(cover, box, radius, share)
@@ -97,8 +97,11 @@ class Finder:
         return rows[inside.all(axis=1)], foreign
 
     def _cover(self, distance: Doubles, own: np.ndarray) -> Doubles:
-        """How much of each pixel a ball covers: by its colour against that of the ball's middle.
-        A highlight or a number differs from both, so all that differs as much is covered.
+        """The fraction of each pixel that a ball covers, from its colour relative to the ball's
+        middle.
+
+        A highlight or a number differs from both cloth and ball, so every pixel that differs as
+        much from the cloth counts as covered.
         """
         middle = max(float(np.quantile(distance[own], 0.6)), self.cloth.threshold)
         return np.asarray(np.clip((distance / middle - 0.15) / 0.35, 0.0, 1.0))
@@ -108,14 +111,14 @@ class Finder:
         return np.array([(weights * self.x[box]).sum(), (weights * self.y[box]).sum()])
 
     def _disc(self, centre: Doubles, radius: float, box: tuple[slice, slice]) -> Doubles:
-        """How much of each pixel of a box the disc of a ball covers."""
+        """The fraction of each pixel of a box that the disc of a ball covers."""
         away = np.hypot(self.x[box] - centre[0], self.y[box] - centre[1])
         return np.asarray(np.clip(radius + 0.5 - away, 0.0, 1.0))
 
     def _centre(
         self, cover: Doubles, box: tuple[slice, slice], start: Doubles, radius: float
     ) -> tuple[Doubles, float]:
-        """The disc whose part that is seen has the blob's middle, and the area of that part."""
+        """The disc whose visible part has the blob's middle, and the area of this part."""
         middle, centre, seen = self._middle(cover, box), np.array(start), 0.0
         wide = (
             slice(max(box[0].start - 8, 0), box[0].stop + 8),
@@ -143,7 +146,7 @@ class Finder:
     def _discs(
         self, cover: Doubles, box: tuple[slice, slice], radius: float, share: float
     ) -> list[tuple[Doubles, bool]]:
-        """Discs that explain a blob, and whether each is whole; none if they do not."""
+        """Discs that explain a blob, and whether each is complete; none if discs do not explain it."""
         if share > 1.3 * _PARTS:
             return []
         reach = int(np.ceil(radius))
@@ -153,7 +156,7 @@ class Finder:
         score = cv2.filter2D(
             image, -1, (kernel / kernel.sum()).astype(np.float32), borderType=cv2.BORDER_CONSTANT
         )
-        # the best places, each a ball's width from the others
+        # the best positions, at least a ball's width apart
         centres: list[Doubles] = []
         free = score.copy()
         corner = np.array([box[1].start, box[0].start], np.float64)

@@ -1,14 +1,14 @@
-"""A camera over a table: pinhole, square pixels, the principal point in the middle of the picture,
-and one coefficient of the lens.
+"""A pinhole camera over a table: square pixels, the principal point in the middle of the frame, and
+one lens coefficient.
 
-With q = rotation r + translation, a point r of the table (m; z up from the slate) is seen at
-middle + f (1 + k1 |p|^2) p, p = (q_x, q_y) / q_z. A pixel and a height give back a place, so noses
-and the centres of balls, which lie lower, are told apart.
+With q = rotation r + translation, a point r of the table (m; z up from the slate) appears at middle
++ f (1 + k1 |p|^2) p, p = (q_x, q_y) / q_z. A pixel and a height determine a position, which
+separates noses from the lower centres of balls.
 
-All evidence about a camera has one form: a pixel, the height of what is seen there, and what one
-coordinate of its place should be. The edge of the cloth lies outside the noses by the depth of a
-cushion, which is fitted for each side with the camera: where balls turned, and balls on their
-spots, measure it.
+All evidence about a camera has the same form: a pixel, the height of the object there, and the
+expected value of one coordinate. The edge of the cloth is outside the noses by the depth of a
+cushion. This depth is fitted for each side together with the camera, from turns of balls at
+cushions and from balls on their spots.
 """
 
 from __future__ import annotations
@@ -21,23 +21,25 @@ import numpy as np
 
 from carom.dtypes import Doubles
 
-_FOCAL = 1.3, 0.7  # of the picture's width, and its deviation as a logarithm: 25 to 110 degrees
+_FOCAL = 1.3, 0.7  # in frame widths, and its logarithmic deviation: 25 to 110 degrees
 _LENS = 0.12  # deviation of k1
 _DEPTH = 0.008, 0.006  # m: deviations of a cushion's depth, and of one side from the others
-_HEIGHT = 0.008  # m: of the edge of the cloth from the noses, which a low camera sees aside
+_HEIGHT = (
+    0.008  # m: deviation of the cloth's edge from the noses, which a low camera sees displaced
+)
 _ROUNDS = 30
 
 
 @dataclass(frozen=True)
 class Camera:
-    """Where a camera is and how it sees; the calls take and give arrays (n, 2) and (n, 3)."""
+    """The position and the projection of a camera; methods use arrays (n, 2) and (n, 3)."""
 
     numbers: Doubles  # log f (pixels), rotation vector, translation (m), k1
-    size: tuple[int, int]  # width and height of the picture, pixels
+    size: tuple[int, int]  # width and height of the frame, pixels
 
     @property
     def focal(self) -> float:
-        """Pixels."""
+        """Focal length, pixels."""
         return float(np.exp(self.numbers[0]))
 
     @functools.cached_property
@@ -46,7 +48,7 @@ class Camera:
 
     @functools.cached_property
     def eye(self) -> Doubles:
-        """The camera's place, m."""
+        """The camera's position, m."""
         return -self.rotation.T @ self.numbers[4:7]
 
     def depths(self, points: Doubles) -> Doubles:
@@ -61,7 +63,7 @@ class Camera:
         return np.asarray(self.focal * lens * p + 0.5 * np.array(self.size))
 
     def places(self, pixels: Doubles, heights: Doubles | float) -> Doubles:
-        """Where the rays through pixels are at heights above the slate, m, (n, 2)."""
+        """The positions of rays through pixels at heights above the slate, m, (n, 2)."""
         bent = (pixels - 0.5 * np.array(self.size)) / self.focal
         p = bent
         for _ in range(6):  # the lens is weak, so the iteration contracts fast
@@ -71,21 +73,21 @@ class Camera:
         return np.asarray(self.eye[:2] + rays[:, :2] * share[:, None])
 
     def radii(self, places: Doubles, radius: float) -> Doubles:
-        """The radii in pixels of balls at places, (n,)."""
+        """The radii, in pixels, of balls at positions, (n,)."""
         centres = np.column_stack([places, np.full(len(places), radius)])
         return self.focal * radius / self.depths(centres)
 
 
 @dataclass(frozen=True)
 class Evidence:
-    """Rows about a camera: at `pixels`, at a height, normal . place should be the target."""
+    """Rows of evidence: at `pixels`, at a height, normal . position should equal the target."""
 
     pixels: Doubles  # (n, 2)
     heights: Doubles  # m, (n,)
     normals: Doubles  # (n, 2)
     targets: Doubles  # m, (n,)
     deviations: Doubles  # pixels and m, (n, 2)
-    sides: Doubles  # (n,): the side whose cushion's depth is added to the place, or -1
+    sides: Doubles  # (n,): the side whose cushion depth is added to the position, or -1
 
     @classmethod
     def uniform(
@@ -110,13 +112,13 @@ class Evidence:
         )
 
     def residuals(self, camera: Camera, depths: Doubles) -> Doubles:
-        """Place less target, m, (n,)."""
+        """Position minus target, m, (n,)."""
         along = (camera.places(self.pixels, self.heights) * self.normals).sum(axis=1)
         depth = np.where(self.sides >= 0.0, depths[self.sides.astype(int)], 0.0)
         return np.asarray(along - depth - self.targets)
 
     def spreads(self, camera: Camera) -> Doubles:
-        """The deviation of each row, m: a pixel is as long as it is there."""
+        """The standard deviation of each row, m, from the size of a pixel there."""
         steps = [
             camera.places(self.pixels + step, self.heights)
             - camera.places(self.pixels - step, self.heights)
@@ -127,8 +129,9 @@ class Evidence:
 
 
 def begin(corners: Doubles, rectangle: Doubles, height: float, size: tuple[int, int]) -> Camera:
-    """A camera that sees the corners of a rectangle, m, at these pixels, (4, 2) each: the best of
-    several focal lengths.
+    """A camera that projects the corners of a rectangle, m, to these pixels, (4, 2) each.
+
+    Returns the best of several focal lengths.
     """
     middle = 0.5 * np.array(size)
     best: tuple[float, Camera] | None = None
@@ -154,10 +157,10 @@ def begin(corners: Doubles, rectangle: Doubles, height: float, size: tuple[int, 
 def fit(
     camera: Camera, evidence: Evidence, depth: float, focal: float | None, lens: float | None
 ) -> tuple[Camera, Doubles, float]:
-    """The camera and the depths of the four cushions, m, that the evidence wants, and the sum of
-    squares: Gauss-Newton with weights that fall beyond 2 deviations, damped.
+    """Fit the camera and the depths of the four cushions, m; also returns the sum of squares.
 
-    A focal length (pixels) and a k1 that are given stay.
+    Damped Gauss-Newton with weights that decrease beyond 2 deviations. A given focal length
+    (pixels) or k1 is kept.
     """
     wanted = np.log(focal or _FOCAL[0] * camera.size[0])
     x = np.concatenate([camera.numbers, np.full(4, depth)])
@@ -174,7 +177,7 @@ def fit(
         found = evidence.residuals(Camera(x[:8], camera.size), x[8:]) / spreads
         return np.concatenate([found, *prior, (x[8:] - mean) / sides])
 
-    # what is known before the film keeps its weight
+    # prior knowledge keeps its weight
     limits = np.full(len(evidence.targets) + 7, 1e9)
     limits[:-7] = 2.0
 

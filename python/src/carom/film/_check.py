@@ -1,5 +1,5 @@
-"""A picture of a film to check by eye: the noses and pockets as the camera is thought to see them,
-the balls with their names, and the ways of the first shot.
+"""An annotated frame for checking by eye: the projected noses and pockets, the balls with their
+names, and the paths of the first shot.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _FINE = 3  # bits of a pixel's fraction that are drawn
 
 
 def picture_of(film: Film) -> Picture:
-    """The picture before the first shot, with what was found."""
+    """The frame before the first shot, with the results."""
     image, camera, bed = film.picture.copy(), film.camera, film.bed
 
     def draw(points: Doubles, ink: tuple[int, int, int], thick: int) -> None:
@@ -50,18 +50,18 @@ def picture_of(film: Film) -> Picture:
 
 
 def _write(image: Picture, text: str, pixel: Doubles, ink: tuple[int, int, int]) -> None:
-    """A text on a dark edge."""
+    """A text with a dark outline."""
     for shade, thick in (((0, 0, 0), 3), (ink, 1)):
         place = np.round(pixel).astype(int).tolist()
         cv2.putText(image, text, place, cv2.FONT_HERSHEY_SIMPLEX, 0.42, shade, thick, cv2.LINE_AA)
 
 
 def save(film: Film, path: Path) -> None:
-    """Writes the picture, in the format of its name's ending."""
-    path.open("ab").close()  # whose error says why it cannot be written
+    """Write the image in the format of its file name's ending."""
+    path.open("ab").close()  # open() raises the error with its reason
     try:
         done = cv2.imwrite(str(path), picture_of(film))
     except cv2.error:
         done = False
     if not done:
-        raise ValueError(f"{path}: no format of pictures has this ending; .png and .jpg do")
+        raise ValueError(f"{path}: unknown image format; use the ending .png or .jpg")

@@ -1,9 +1,9 @@
-"""The pictures of a film, and when they were taken.
+"""The frames of a film, and their times.
 
-A file of 30 pictures a second may hold 25 new ones: some repeat the picture before. Where balls
-move, a repeated picture differs from the one before by the compression alone. If the repeats are
-those that a usual rate gives, picture number n was taken at n over this rate; otherwise the file's
-times stand, without the repeats.
+A file with 30 frames per second may contain only 25 new ones; the others repeat the frame before.
+While balls move, a repeated frame differs from the one before only by compression. If the repeats
+match a common rate, the time of frame number n is n divided by this rate; otherwise the file's
+times are used, without the repeats.
 """
 
 from __future__ import annotations
@@ -20,18 +20,21 @@ from carom.dtypes import Doubles
 from carom.film._cloth import FilmError, Picture
 
 _RATES = np.array([12.0, 12.5, 15.0, 24.0, 25.0, 30.0, 48.0, 50.0, 60.0])
-_SLOWER = 1.001  # by which television of 30 a second is slower
-_NEAR = 5  # pictures to each side among which the largest change is looked for
-_SAME, _NEW = 0.3, 0.5  # of that change: a picture below repeats the one before, one above is new
+_SLOWER = 1.001  # by which 30 frames per second of television are slower
+_NEAR = 5  # frames to each side among which the largest change is sought
+_SAME, _NEW = (
+    0.3,
+    0.5,
+)  # fractions of that change: a frame below repeats the one before, one above is new
 _PHASES = 60
-_TIES = 4.0  # pictures, as at the ends of a motion
-_AGREE = 0.93  # of the pictures that are clear: a rate that explains fewer is none
-_CHANGED = 400  # pixels: about those that a moving ball changes
+_TIES = 4.0  # frames, as at the ends of a motion
+_AGREE = 0.93  # smallest fraction of the clear frames that a rate must explain
+_CHANGED = 400  # pixels: about as many as a moving ball changes
 
 
 def pictures(path: Path, start: float, end: float) -> Iterator[tuple[float, float, Picture]]:
-    """Time (s), share of the file, and picture, of the pictures from start to end, s."""
-    path.open("rb").close()  # whose error says why
+    """Yield time (s), fraction of the file, and image of the frames from start to end, s."""
+    path.open("rb").close()  # open() raises the error with its reason
     film = cv2.VideoCapture(str(path))
     rate, count = film.get(cv2.CAP_PROP_FPS), film.get(cv2.CAP_PROP_FRAME_COUNT)
     number, last = 0, -1.0
@@ -50,13 +53,11 @@ def pictures(path: Path, start: float, end: float) -> Iterator[tuple[float, floa
             yield t, min(number / max(count, 1.0), 1.0), np.asarray(picture, np.uint8)
     film.release()
     if not number:
-        raise FilmError(
-            f"{path}: no picture can be read; a film is needed, such as an .mp4 or .avi"
-        )
+        raise FilmError(f"{path}: no frame can be read; use a film, such as an .mp4 or .avi file")
 
 
 def change(before: Picture, after: Picture) -> float:
-    """How much two pictures of a table differ, levels: the mean of the pixels that differ most."""
+    """The difference of two frames of a table, levels: the mean over the pixels that differ most."""
     away = cv2.absdiff(before[::2, ::2, 1], after[::2, ::2, 1]).ravel()
     most = min(_CHANGED // 4, len(away))
     return float(np.partition(away, -most)[-most:].mean())
@@ -64,7 +65,7 @@ def change(before: Picture, after: Picture) -> float:
 
 @dataclass(frozen=True)
 class Clock:
-    """Which pictures of a film are new, and when they were taken."""
+    """The new frames of a film, and their times."""
 
     new: NDArray[np.bool_]  # (pictures,)
     times: Doubles  # s, of the new ones
@@ -72,7 +73,7 @@ class Clock:
 
 
 def clock_of(times: Doubles, changes: Doubles) -> Clock:
-    """The clock of pictures with these times in the file, s, and changes from the one before."""
+    """The clock of frames with given times in the file, s, and differences from the frame before."""
     n, steps = len(times), np.diff(times)
     usual = float(np.median(steps)) if n > 1 else 0.04
     file_rate = (n - 1) / max(times[-1] - times[0], 1e-9)
@@ -92,8 +93,8 @@ def clock_of(times: Doubles, changes: Doubles) -> Clock:
     if same.sum() < 3 or same.sum() < 0.02 * clear.sum():
         return Clock(np.ones(n, bool), times, notes)
 
-    # every usual rate below the file's, at every phase; of rates that explain about as many
-    # pictures the first, which is slower if the file's is
+    # all common rates below the file's, at all phases; of rates that explain about as many frames,
+    # the first, which is slower if the file's is
     rates = [*_RATES, *_RATES / _SLOWER]
     if abs(file_rate * _SLOWER - round(file_rate * _SLOWER)) < abs(file_rate - round(file_rate)):
         rates = [*_RATES / _SLOWER, *_RATES]

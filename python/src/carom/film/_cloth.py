@@ -1,7 +1,7 @@
-"""The cloth of a picture: its colour, its four edges, and what lies on it.
+"""The cloth in a frame: its colour, its four edges, and the objects on it.
 
-Colours are compared as logarithms of ratios, log r/g and log b/g, which a shadow hardly changes.
-The cloth's own are quadratics of the pixel, fitted with weights that leave out balls and marks.
+Colours are compared by log r/g and log b/g, which shadows hardly change. The cloth's values are
+quadratic functions of the pixel, fitted with weights that exclude balls and marks.
 """
 
 from __future__ import annotations
@@ -19,21 +19,21 @@ from carom.tracks import TrackError
 _DARK = 8.0  # levels added to colours, so that noise in the dark does not count
 # changes of the logarithm of the brightness up to which cloth is cloth: darker and brighter
 _SHADOW, _LIGHT = 0.6, 0.15
-_LEAST = 0.06  # of the picture: a smaller piece of one colour is no table
+_LEAST = 0.06  # smallest fraction of the frame that a table covers
 # outward normals of the sides x = 0, y = 0, x = W, y = L
 NORMALS = np.array([[-1.0, 0.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0]])
-_STRAIGHT = 0.2  # rad: edges that turn by less are one side
+_STRAIGHT = 0.2  # rad: edges that bend less are one side
 _POINTS = 60  # along each edge
-_REACH = 12  # pixels to each side of where an edge is expected
-_SEEN = 0.3  # of the points of an edge: where fewer are found, the side is not in the picture
-_MOUTH = 0.04  # m around a pocket in which a ball is about to fall
-_NEAR = 1.5  # pixels: an edge that is farther from where it was has moved
+_REACH = 12  # pixels to each side of the expected edge
+_SEEN = 0.3  # fraction of the points of an edge that must be found, or the side is not in the frame
+_MOUTH = 0.04  # m around a pocket within which a ball is about to fall
+_NEAR = 1.5  # pixels: displacement above which an edge has moved
 
 Picture = np.ndarray[tuple[int, ...], np.dtype[np.uint8]]
 
 
 class FilmError(TrackError):
-    """A film cannot be tracked. The message says why, and what would help."""
+    """A film cannot be tracked; the message states the reason and a remedy."""
 
 
 def ratios(picture: Picture) -> Doubles:
@@ -44,14 +44,14 @@ def ratios(picture: Picture) -> Doubles:
 
 
 def quadrilateral(picture: Picture) -> Doubles:
-    """The corners of the cloth, counterclockwise from the lower left one as seen, (4, 2)."""
+    """The corners of the cloth, counterclockwise in the frame from the lower left one, (4, 2)."""
     lab = cv2.cvtColor(cv2.GaussianBlur(picture, (5, 5), 0), cv2.COLOR_BGR2LAB)
     height, width = lab.shape[:2]
     # the cloth is the commonest colour of the middle that is no grey
     middle = lab[height // 5 : -height // 5, width // 5 : -width // 5, 1:].reshape(-1, 2)
     vivid = middle[np.hypot(*(middle.astype(np.float64) - 128.0).T) > 12.0]
     if len(vivid) < 0.1 * len(middle):
-        raise FilmError("no cloth is found: the middle of the picture is grey; --corners helps")
+        raise FilmError("no cloth found: the middle of the frame is grey; pass --corners")
     bins = np.arange(0.0, 257.0, 4.0)
     a, b = vivid.T.astype(np.float64)
     counts, _, _ = np.histogram2d(a, b, bins=[bins, bins])
@@ -66,8 +66,8 @@ def quadrilateral(picture: Picture) -> Doubles:
     largest = 1 + int(sizes[1:, cv2.CC_STAT_AREA].argmax()) if len(sizes) > 1 else 0
     if not largest or sizes[largest, cv2.CC_STAT_AREA] < _LEAST * height * width:
         raise FilmError(
-            f"no cloth is found: no piece of one colour covers {100 * _LEAST:.0f} % of the picture; "
-            "--corners helps"
+            f"no cloth found: no area of one colour covers {100 * _LEAST:.0f} % of the frame; "
+            "pass --corners"
         )
     outlines, _ = cv2.findContours(
         (labels == largest).astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
@@ -97,13 +97,13 @@ def quadrilateral(picture: Picture) -> Doubles:
     quad = np.abs(area(corners)) if len(corners) else np.inf
     if not 0.95 * cv2.contourArea(hull) < quad < 1.2 * cv2.contourArea(hull):
         raise FilmError(
-            "the cloth has not four straight sides: is all of the table in the picture? --corners helps"
+            "the cloth does not have four straight sides; the complete table must be in the frame, or pass --corners"
         )
     middles = ends.mean(axis=1)
     border = np.array([width, height]) - 1.0
     if (np.minimum(middles, border - middles) < 3.0).any():
         raise FilmError(
-            "the cloth reaches the border of the picture: all of the table must be in it, or --corners given"
+            "the cloth reaches the border of the frame; the complete table must be in it, or pass --corners"
         )
     corners = corners if area(corners) > 0.0 else corners[::-1]
     lower_left = int(np.argmin(corners[:, 0] - corners[:, 1]))
@@ -111,7 +111,10 @@ def quadrilateral(picture: Picture) -> Doubles:
 
 
 def _crossings(sides: Doubles, outline: Doubles) -> Doubles:
-    """Where lines through the outline near each side, (4, 2, 2), meet those of the side before."""
+    """The intersections of lines through the outline near each side with those of the side before.
+
+    Of shape (4, 2, 2).
+    """
     lines = []
     for a, b in sides:
         length = float(np.linalg.norm(b - a))
@@ -131,21 +134,23 @@ def _crossings(sides: Doubles, outline: Doubles) -> Doubles:
 
 
 def area(corners: Doubles) -> float:
-    """Positive if they are counterclockwise as seen, where y of the picture goes down."""
+    """The signed area: positive if the corners are counterclockwise in the frame, whose y axis
+    points down.
+    """
     x, y = corners.T
     return 0.5 * float(y @ np.roll(x, -1) - x @ np.roll(y, -1))
 
 
 @dataclass(frozen=True)
 class Bed:
-    """A table as a camera sees it: the noses run from (0, 0) to (width, length)."""
+    """A table for the camera: the noses extend from (0, 0) to (width, length)."""
 
     width: float  # m
     length: float
     nose: float  # m above the slate
-    depth: float  # m: of the cushions, from the noses to the edge of the cloth
+    depth: float  # m: depth of the cushions, from the noses to the edge of the cloth
     radius: float  # m: of the balls
-    pockets: Doubles  # (n, 3): places and radii, m
+    pockets: Doubles  # (n, 3): positions and radii, m
 
     @property
     def corners(self) -> Doubles:
@@ -154,7 +159,7 @@ class Bed:
         )
 
     def nose_of(self, side: int) -> float:
-        """How far out the noses of a side are along its normal, m."""
+        """The position of the noses of a side along its outward normal, m."""
         return float(self.corners[side] @ NORMALS[side])
 
     def edge(self, side: int, pixels: Doubles, deviation: tuple[float, float]) -> Evidence:
@@ -164,14 +169,14 @@ class Bed:
         return Evidence.uniform(pixels, self.nose, normals, targets, deviation, side)
 
     def near_pocket(self, places: Doubles, mouth: float = _MOUTH) -> NDArray[np.bool_]:
-        """Whether balls at places, (n, 2), are in a pocket or about to fall; or meet its jaws, for
-        a wider mouth, m.
+        """Whether balls at positions (n, 2) are in a pocket or about to fall; with a wider mouth,
+        m, also whether they hit its jaws.
         """
         away = np.hypot(*(places[:, None] - self.pockets[:, :2]).transpose(2, 0, 1))
         return np.asarray((away < self.pockets[:, 2] + mouth).any(axis=1))
 
     def side(self, number: int, offset: float, shares: Doubles) -> Doubles:
-        """Points of a side moved outwards, at shares of its length, at the height of the noses."""
+        """Points at fractions of a side's length, moved outwards, at the height of the noses."""
         a, b = self.corners[[number - 1, number]]
         line = a + shares[:, None] * (b - a) + offset * NORMALS[number]
         return np.column_stack([line, np.full(len(shares), self.nose)])
@@ -182,7 +187,7 @@ class Bed:
 
 
 class Cloth:
-    """What a camera sees of a table, prepared for many pictures."""
+    """A table in the view of a camera, prepared for many frames."""
 
     def __init__(self, picture: Picture, camera: Camera, bed: Bed, depths: Doubles) -> None:
         self.camera, self.bed = camera, bed
@@ -190,11 +195,11 @@ class Cloth:
         outline = np.concatenate(
             [bed.project(camera, side, depths[side], shares) for side in range(4)]
         )
-        # the part of the picture that is looked at
+        # the cropped frame
         low = np.maximum(np.floor(outline.min(axis=0)).astype(int) - _REACH - 2, 0)
         high = np.minimum(np.ceil(outline.max(axis=0)).astype(int) + _REACH + 3, camera.size)
         if (high - low < 50).any():
-            raise FilmError("the table is not in the picture: --corners must be pixels on it")
+            raise FilmError("the table is not in the frame; --corners must be pixels of the frame")
         self.low = low.astype(np.float64)
         self.part = slice(low[1], high[1]), slice(low[0], high[0])
         self.shape = int(high[1] - low[1]), int(high[0] - low[0])
@@ -219,7 +224,7 @@ class Cloth:
         return mask
 
     def _learn(self, picture: Picture) -> None:
-        """The cloth's own ratios at each pixel, and how much they scatter."""
+        """The cloth's colour ratios at each pixel, and their scatter."""
         found = ratios(picture[self.part])
         y, x = np.mgrid[: self.shape[0], : self.shape[1]].astype(np.float32)
         y, x = 2.0 * y / self.shape[0] - 1.0, 2.0 * x / self.shape[1] - 1.0
@@ -234,8 +239,8 @@ class Cloth:
             good = (np.abs(b - A @ model) < limits).all(axis=1)
             if good.sum() < 0.3 * len(b):
                 raise FilmError(
-                    "most of the table has not one colour: are the --corners those of the noses, "
-                    "in the order that --help says?"
+                    "most of the table does not have one colour; --corners must be the corners of the noses, "
+                    "in the order that --help shows"
                 )
             model = np.linalg.lstsq(A[good], b[good], rcond=None)[0].astype(np.float32)
             limits = np.maximum(4.0 * 1.4826 * np.median(np.abs(b - A @ model), axis=0), 0.02)
@@ -244,13 +249,13 @@ class Cloth:
         self.threshold = max(5.0 * self.noise, 0.15)
 
     def distance(self, picture: Picture) -> Doubles:
-        """How far each pixel's colour is from the cloth's, of the part that is looked at."""
+        """The distance of each pixel's colour from the cloth's, in the cropped frame."""
         blue, red, bright = cv2.split(ratios(picture[self.part]) - self.own)
         dark = np.maximum(np.maximum(-bright - _SHADOW, bright - _LIGHT), 0.0)
         return np.asarray(np.sqrt(blue * blue + red * red + dark * dark))
 
     def _find_edges(self, picture: Picture, depths: Doubles) -> None:
-        """Where the cloth ends along each side, in this picture."""
+        """The edge of the cloth along each side in this frame."""
         # away from the pockets, where cushions are cut or curved
         shares = np.concatenate([np.linspace(0.1, 0.44, _POINTS // 2)] * 2)
         shares[_POINTS // 2 :] = 1.0 - shares[_POINTS // 2 :]
@@ -282,8 +287,9 @@ class Cloth:
                 edge[np.abs(edge - terms @ model) > limit] = np.nan
 
     def edge_offsets(self, picture: Picture, distance: Doubles) -> Doubles:
-        """How far outwards the cloth ends from where it is expected, pixels, (4, points); nan where
-        it is not found.
+        """The outward distance of the cloth's edge from its expected position, pixels, (4, points).
+
+        nan where no edge is found.
         """
         x, y = np.ascontiguousarray(self.grid[..., 0]), np.ascontiguousarray(self.grid[..., 1])
         profile = cv2.remap(distance.astype(np.float32), x, y, cv2.INTER_LINEAR)
@@ -308,7 +314,7 @@ class Cloth:
         return found.reshape(4, -1)
 
     def is_seen(self, picture: Picture, distance: Doubles) -> bool:
-        """Whether at least three edges are where they were."""
+        """Whether at least three edges have not moved."""
         moved = np.abs(self.edge_offsets(picture, distance) - self.edges)
         close = (moved < _NEAR).sum(axis=1)
         return int((close >= _SEEN * np.isfinite(self.edges).sum(axis=1)).sum()) >= 3
@@ -321,7 +327,7 @@ class Cloth:
             if good.sum() < _POINTS // 4:
                 continue
             pixels = (middle + self.edges[side][:, None] * outward)[good]
-            # neighbours share what disturbs them, so 60 points tell less than 60 times one
+            # neighbouring points have common errors, so 60 points are worth less than 60 independent ones
             parts.append(self.bed.edge(side, pixels, (1.0, 0.001)))
         return parts
 
@@ -334,8 +340,10 @@ def calibrated(
     lens: float | None,
     half_turn: bool = False,
 ) -> tuple[Camera, Doubles, list[Evidence]]:
-    """A camera from the corners of the noses, if they are given, and from the edges of the cloth;
-    the depths of the cushions, and the evidence. A table that is found may lie either way.
+    """Calibrate a camera from the edges of the cloth, and from the corners of the noses if given.
+
+    Returns the camera, the depths of the cushions, and the evidence. A table that was detected may
+    have either orientation.
     """
     size = picture.shape[1], picture.shape[0]
     known: list[Evidence] = []
@@ -348,7 +356,7 @@ def calibrated(
         for axis in np.eye(2):
             normals, target = np.tile(axis, (4, 1)), bed.corners @ axis
             known.append(Evidence.uniform(corners, bed.nose, normals, target, (1.5, 0.0)))
-    # which side of the picture is which of the table: the way that fits better
+    # the orientation of the table in the frame that fits better
     for start in range(2 if corners is None else 1):
         camera = begin(np.roll(outer, -start, axis=0), bed.corners + away, bed.nose, size)
         evidence = list(known)
@@ -363,8 +371,8 @@ def calibrated(
             best = cost, camera, depths, evidence[len(known) :]
     assert best is not None
     _, camera, depths, rough = best
-    # the edges are found anew where the better camera expects them; of one that is not, the rough
-    # line stands
+    # the edges are located again where the better camera expects them; otherwise the rough line is
+    # kept
     evidence = known
     for _ in range(4):
         fine = Cloth(picture, camera, bed, depths).evidence()

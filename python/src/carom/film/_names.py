@@ -1,7 +1,8 @@
-"""Names of balls by their colours.
+"""Names of balls from their colours.
 
-The colours of a film are compared with those of the balls of a game after its cue ball, the
-brightest without a colour, is made white. Each name is given once, nearest first.
+The colours in a film are first scaled so that the cue ball, the brightest ball without a colour, is
+white, and then compared with the colours of a game's balls. Each name is assigned once, to the
+nearest colour first.
 """
 
 from __future__ import annotations
@@ -10,7 +11,6 @@ import cv2
 import numpy as np
 
 from carom.dtypes import Doubles
-from carom.pictures import colour
 
 _SNOOKER = {
     "yellow": "#e6c828",
@@ -34,7 +34,9 @@ _KINDS: dict[str, dict[str, tuple[str, int]]] = {
     "fourball": {"white": (_WHITE, 1), "yellow": ("#e6c828", 1), "red": (_RED, 2)},
     "pyramid": {"cue": ("#e6c828", 1), "white": (_WHITE, 15)},
 }
-_POOL = {"cue": (_WHITE, 1)} | {str(k): (colour(k), 1) for k in range(1, 9)}
+# 1 to 8 of pool, as cameras see them
+_NUMBERED = ["#f2c200", "#1f4fd8", "#d32f2f", "#6a1b9a", "#ef6c00", "#2e9b3a", "#7b1c1c", "#222222"]
+_POOL = {"cue": (_WHITE, 1)} | {str(k): (seen, 1) for k, seen in enumerate(_NUMBERED, start=1)}
 _STRIPED = 0.2, 0.9  # share of white of a ball of pool between which it is striped
 _STRANGE = 75.0  # a colour that is farther from all is named "ball"
 
@@ -50,8 +52,10 @@ def _ink(text: str) -> Doubles:
 
 
 def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) -> list[str]:
-    """The names of balls that are there at one time, by their colours (n, 3), shares of white, and
-    how long each was seen: of two that look alike, the one that is seen longer has the name.
+    """Name the balls that are visible at one time.
+
+    Uses their colours (n, 3), fractions of white, and for how long each was seen: of two similar
+    balls, the one seen longer receives the name.
     """
     if not len(colours):
         return []
@@ -82,7 +86,7 @@ def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) ->
 
 
 def _pool(costs: Doubles, keys: list[str], whites: Doubles, short: Doubles) -> list[str]:
-    """Numbers of pool: a stripe has white, and the colour of the number 8 less."""
+    """Numbers of pool balls: a stripe contains white and has the colour of the number minus 8."""
     names = [""] * len(costs)
     striped = (whites > _STRIPED[0]) & (whites < _STRIPED[1])
     for flat in np.argsort(costs + short[:, None], axis=None):

@@ -1,7 +1,7 @@
-"""Balls through time: which blob of a picture is which ball, and when a shot is played.
+"""Balls over time: which blob of a frame is which ball, and when a shot is played.
 
-A ball goes on as it went, or stays where it lay; a struck ball leaves at up to 9 m/s, and then its
-colour tells which it is. A ball that is hidden has no row until it is seen again.
+A ball continues its motion or stays at rest. A struck ball leaves at up to 9 m/s, and is then
+identified by its colour. A hidden ball has no rows until it is visible again.
 """
 
 from __future__ import annotations
@@ -14,23 +14,26 @@ from numpy.typing import NDArray
 from carom.dtypes import Doubles
 
 _FASTEST = 9.0  # m/s
-_RESTING = 0.03  # m/s: below, a ball lies, however long it is hidden
-_HIDDEN = 0.5  # s: a moving ball that is hidden for longer is another
-_LOST = 3.0  # s: for so long a ball may be lost, and found as another path
-_ALIKE = 60.0  # levels of one colour between which a ball is the same
-_MOMENT = 0.25  # s: a path that is shorter is no ball's
-_WHOLE = 0.72  # of a ball's area: a path of less is a shadow's or a mark's
-_STRAIGHT = 0.006  # m: second differences of rows that no event parts
-_PAUSE = 0.7  # s: balls that rest for longer separate two shots
-_LEAST = 0.03  # m: the longest way of a shot
-_PUT = 0.05  # m: a ball that is so much farther than it could have gone was put there
-_LIES, _CARRIED = 5, 1.0  # rows in which a ball lies; s in which none comes to rest 5 cm farther
-_BEFORE, _AFTER = 0.4, 0.2  # s of a shot before the first motion and after the last
+_RESTING = 0.03  # m/s: below, a ball is at rest, however long it is hidden
+_HIDDEN = 0.5  # s: longest time for which a moving ball may be hidden
+_LOST = 3.0  # s: longest gap between two paths of one ball
+_ALIKE = 60.0  # largest difference of colours of the same ball, levels
+_MOMENT = 0.25  # s: shortest path of a ball
+_WHOLE = 0.72  # fraction of a ball's area below which a path belongs to a shadow or a mark
+_STRAIGHT = 0.006  # m: largest second difference of rows without an event
+_PAUSE = 0.7  # s: rest that separates two shots
+_LEAST = 0.03  # m: length that the longest path of a shot has at least
+_PUT = 0.05  # m: excess distance above which a ball was placed by hand
+_LIES, _CARRIED = (
+    5,
+    1.0,
+)  # rows of a ball at rest; s within which no stroke brings a ball to rest 5 cm away
+_BEFORE, _AFTER = 0.4, 0.2  # s of a shot before the first and after the last motion
 
 
 @dataclass
 class Path:
-    """A ball's rows: the number of the picture, and its blob there."""
+    """A ball's rows: the index of the frame, and the blob in it."""
 
     numbers: list[int] = field(default_factory=list[int])
     blobs: list[np.void] = field(default_factory=list[np.void])
@@ -41,7 +44,7 @@ class Path:
         return np.array([blob["place"] for blob in self.blobs])
 
     def velocity(self, times: Doubles) -> Doubles:
-        """m/s, by the last two rows; of a ball that lies, 0."""
+        """The velocity from the last two rows, m/s; 0 for a ball at rest."""
         if len(self.numbers) < 2:
             return np.zeros(2)
         first = -2 if len(self.numbers) < 5 else -5
@@ -55,7 +58,7 @@ class Path:
 
 
 def linked(found: list[NDArray[np.void]], times: Doubles, radius: float) -> list[Path]:
-    """The paths of the blobs of each picture, longer than a moment."""
+    """The paths of the blobs of all frames, except very short ones."""
     live: list[Path] = []
     done: list[Path] = []
     for k, blobs in enumerate(found):
@@ -79,8 +82,10 @@ def linked(found: list[NDArray[np.void]], times: Doubles, radius: float) -> list
 
 
 def _joined(paths: list[Path], times: Doubles) -> list[Path]:
-    """The paths that are longer than a moment. One that begins where another of its colour, which
-    something hid, may have come to is the same ball's.
+    """The paths, except very short ones.
+
+    A path that begins where a hidden ball of the same colour may have moved to continues that
+    ball's path.
     """
     paths = [
         path
@@ -115,7 +120,7 @@ def _joined(paths: list[Path], times: Doubles) -> list[Path]:
 def _pairs(
     live: list[Path], blobs: NDArray[np.void], times: Doubles, k: int, radius: float
 ) -> list[tuple[float, int, int]]:
-    """(cost, path, blob) of each blob that may be the next of a path."""
+    """(cost, path, blob) of each blob that may continue a path."""
     pairs = []
     for i, path in enumerate(live):
         gap = float(times[k] - times[path.numbers[-1]])
@@ -133,13 +138,13 @@ def _pairs(
             if miss < reach:
                 pairs.append((miss + 2e-4 * colour, i, j))
             elif gap < 0.3:
-                # a ball that was struck, or turned: after all that go on as they went
+                # a ball that was hit or turned, after all balls that continue their motion
                 pairs.append((10.0 + way + 0.004 * colour, i, j))
     return pairs
 
 
 def _difference(blob: np.void, second: np.void) -> float:
-    """Of two colours, levels. A ball that rolls shows more or less of its white."""
+    """The difference of two colours, levels. The visible white of a rolling ball varies."""
     levels = float(np.abs(blob["colour"] - second["colour"]).max())
     plain = 1.0 - max(float(blob["white"]), float(second["white"]))
     turned = abs(float(blob["white"] - second["white"]))
@@ -147,8 +152,10 @@ def _difference(blob: np.void, second: np.void) -> float:
 
 
 def _layouts(paths: list[Path], times: Doubles) -> Doubles:
-    """When balls are put up anew, s: one is farther from its last place than any could go, or lies
-    elsewhere after a moment, without a stroke that it takes longer to come to rest from.
+    """The times at which balls were set up again, s.
+
+    A ball is then farther from its last position than it could move, or at rest elsewhere sooner
+    than after a stroke.
     """
     found = set[float]()
     for path in paths:
@@ -163,7 +170,7 @@ def _layouts(paths: list[Path], times: Doubles) -> Doubles:
 
 
 def spans(paths: list[Path], times: Doubles, noise: float) -> list[tuple[float, float]]:
-    """Begin and end of each shot, s: of the times when balls move, between new layouts."""
+    """Beginning and end of each shot, s: the times of motion between new layouts."""
     moving = np.zeros(len(times), bool)
     window, least = 0.2, 0.004 + 4.0 * noise
     layouts = _layouts(paths, times)
@@ -210,8 +217,10 @@ def _way(path: Path, times: Doubles, begin: float, end: float) -> float:
 def turns(
     paths: list[Path], times: Doubles, size: tuple[float, float]
 ) -> list[tuple[int, Doubles]]:
-    """(side, place) of each turn at a cushion, m: where the lines through rows before it and after
-    it meet, three of which are straight on either side.
+    """(side, position) of each turn at a cushion, m.
+
+    The position is the intersection of the lines through the rows before and after it, of which
+    three must be straight on each side.
     """
     found = []
     step = float(np.median(np.diff(times)))

@@ -1,4 +1,4 @@
-"""Games: their rules and plans, and environments for agents. `carom.plan` is `carom.games.plan`."""
+"""Rules of games, plans, and environments for agents. `carom.plan` is `carom.games.plan`."""
 
 from carom.games.advice import Breaks, Practice, Reviewed, Ways, Why
 from carom.games.advice import breaks, practice, ways, why

@@ -1,4 +1,4 @@
-"""Enumerations of games, acts of a match, and how it stands. Written by bindings/match.py:
+"""Enumerations of games, acts of a match, and its state. Written by bindings/match.py:
 UPDATE=1 ctest -R bindings/rows.
 """
 
@@ -22,8 +22,8 @@ BreakOrder = Literal["alternate", "winner", "loser"]
 
 
 class Foul(enum.IntEnum):
-    """Why a shot is a foul. The first of these that holds counts, except that DOUBLE_HIT comes
-    before CUSHION and BREAK.
+    """Why a shot is a foul. The first value that applies is reported, except that DOUBLE_HIT
+    precedes CUSHION and BREAK.
     """
 
     NONE = 0
@@ -40,13 +40,13 @@ class Foul(enum.IntEnum):
 
     @property
     def text(self) -> str:
-        """A foul in words, such as "the cue ball met no ball"."""
+        """The description of a foul, such as "the cue ball met no ball"."""
         return text_of(lib.carom_foul_string(self))
 
 
 class Kind(enum.IntEnum):
-    """The kind of a choice, which follows from what happens in the shot. A pot has the first of the
-    kinds combination, carom, kiss, kick, rail first, bank and pot that holds, by approach and
+    """The kind of a choice, which follows from what happens in the shot. The kind of a pot is the
+    first of combination, carom, kiss, kick, rail first, bank and pot that applies, by approach and
     banked of carom_facts.
     """
 
@@ -67,7 +67,7 @@ class Kind(enum.IntEnum):
 
     @property
     def text(self) -> str:
-        """The word for a kind, such as "bank"."""
+        """The name of a kind, such as "bank"."""
         return text_of(lib.carom_plan_kind_name(self))
 
 
@@ -77,8 +77,9 @@ _BITS: dict[str, int] = {word: 1 << k for k, word in enumerate(_CHOICES)}
 
 
 class MatchActs:
-    """The acts of a match, and how it stands, as carom_match.h has them. The seat that acts is by
-    default the one at the table.
+    """The acts and the state of a match, as in carom_match.h.
+
+    The seat that acts defaults to the one at the table.
     """
 
     _c: Any
@@ -96,13 +97,18 @@ class MatchActs:
 
     @property
     def player(self) -> int:
-        """The side at the table: 0 or 1, or the seat in games that each plays for itself."""
+        """The side at the table: 0 or 1, or the seat in games where each seat plays for itself."""
         return int(self._c.record.player)
 
     @property
     def seat(self) -> int:
         """The seat at the table."""
         return int(self._c.seat)
+
+    @property
+    def actor(self) -> int | None:
+        """The seat that acted last."""
+        return int(self._c.record.actor) if self._c.record.actor >= 0 else None
 
     @property
     def winner(self) -> int | None:
@@ -156,15 +162,16 @@ class MatchActs:
         )
 
     def choose(self, what: str, *, seat: int | None = None) -> None:
-        """Take one of the choices `may`: "push" for the next stroke, the others instead of it."""
+        """Make one of the choices `may`. "push" applies to the next stroke; the others replace it.
+        """
         self._act(
             lambda: lib.carom_match_choose(self._c, self._seat(seat), choice(_BITS, what, "what")),
             "choose",
         )
 
     def place(self, x: float, y: float, *, seat: int | None = None) -> None:
-        """Put the cue ball in hand to a place within `bounds`, m. Until the stroke it may be put
-        elsewhere. The choice to leave it where it lies is then gone.
+        """Place the cue ball in hand at a position within `bounds`, m. Until the stroke it may be
+        placed again. The choice to leave it where it was is then no longer available.
         """
         self._act(
             lambda: lib.carom_match_place(self._c, self._seat(seat), number(x, "x"), number(y, "y")),
@@ -190,8 +197,8 @@ class MatchActs:
         )
 
     def concede(self, seat: int | None = None) -> None:
-        """Give the game to the other side. A seat that plays for itself leaves the game. Any seat
-        may do this at any time.
+        """Concede the game to the other side. A seat that plays for itself leaves the game. Any
+        seat may do this at any time.
         """
         self._act(
             lambda: lib.carom_match_concede(self._c, self._seat(seat)),

@@ -1,8 +1,8 @@
-"""Random numbers of many games at once, each game with its own: the same whatever games are beside
-it.
+"""Random numbers for many games at once.
 
-Draw i of a game is SplitMix64 at key + i steps (Steele, Lea, Flood, OOPSLA 2014): all games are
-drawn in a few array operations.
+Each game has a separate stream, which does not depend on the other games. Draw i of a game is
+SplitMix64 at key + i steps (Steele, Lea, Flood, OOPSLA 2014), so a few array operations draw for
+all games.
 """
 
 from __future__ import annotations
@@ -29,33 +29,33 @@ def _steps(many: int) -> NDArray[np.uint64]:
 
 
 class Draws:
-    """The random numbers of `games` games, each begun with a key from 0 to 2**64 - 1."""
+    """The random numbers of several games, each started from a key from 0 to 2**64 - 1."""
 
     def __init__(self, keys: ArrayLike) -> None:
         self.keys = np.array(keys, np.uint64)
 
     def begin(self, games: Games, keys: ArrayLike) -> None:
-        """Begins some games anew."""
+        """Restart some games."""
         self.keys[games] = np.asarray(keys, np.uint64)
 
     def single(self, game: int) -> Draws:
-        """The numbers of one game, as those of a game alone."""
+        """The stream of one game."""
         return Draws(self.keys[game : game + 1])
 
     def keep(self, game: int, drawn: Draws) -> None:
-        """Go on in one game where `drawn`, of a game alone, stands."""
+        """Set the stream of one game to the position of `drawn`, a stream from `single`."""
         self.keys[game] = drawn.keys[0]
 
     def key(self, game: int) -> int:
-        """A seed for what draws its own numbers, from 0 to 2**53 - 1."""
+        """A seed for another generator, from 0 to 2**53 - 1."""
         return int(self.uniform(np.array([game]), 1)[0, 0] * 2.0**53)
 
     def copy(self) -> Draws:
-        """The same numbers once more."""
+        """A copy, which draws the same numbers."""
         return Draws(self.keys)
 
     def uniform(self, games: Games, *shape: int) -> dtypes.Doubles:
-        """Numbers from 0 to 1, without 1, of shape (len(games), *shape)."""
+        """Uniform numbers in [0, 1), of shape (len(games), *shape)."""
         z = self.keys[games][:, np.newaxis] + _steps(math.prod(shape))
         self.keys[games] = z[:, -1]
         for shift, factor in _MIX:
@@ -67,7 +67,7 @@ class Draws:
         return numbers.reshape(len(games), *shape)
 
     def seeds(self, games: Games) -> NDArray[np.uint64]:
-        """A seed of each game, for what draws its own numbers."""
+        """One seed per game, for other generators."""
         seeds: NDArray[np.uint64] = self.keys[games]
         self.keys[games] = seeds + _steps(1)
         return seeds

@@ -1,21 +1,21 @@
-"""A stroke of pool found by geometry and a few shots: an opponent that costs a millisecond.
+"""A stroke of pool found by geometry and a few shots: an opponent that takes a millisecond.
 
-The candidates are strokes at ghost balls, the places where the cue ball must be when it drives a
-ball straight into a pocket. Each pair of a ball that the player may meet and a pocket gives a cut c,
-a way d of the cue ball to the ghost ball, and a way p of the ball to the pocket. An error of the
-direction grows with d p / cos(c) until it reaches the pocket, so that pairs are taken by
+The candidates are strokes at ghost balls, the positions of the cue ball at which it drives a ball
+straight into a pocket. Each pair of a legal object ball and a pocket has a cut c, a path d of the
+cue ball to the ghost ball, and a path p of the object ball to the pocket. On the way to the pocket
+an error of the direction grows with d p / cos(c), so the pairs are ranked by
 
     ease = cos(c) / (d p).
 
-A ball is thrown by friction towards the way of the cue ball, 2 degrees or so for cuts of 20 to 60
-degrees [understanding/physics.md]. So each pair is aimed at without that and with it, softly and
-harder: four candidates. With the cue ball in hand it lies DISTANCE behind the ghost ball, on the
-line to the pocket, where that is free.
+Friction throws a ball towards the cue ball's path by about 2 degrees for cuts of 20 to 60 degrees
+(docs/understanding/physics.md). Each pair is therefore aimed at with and without this throw, at two
+speeds: four candidates. A cue ball in hand is placed DISTANCE behind the ghost ball, on the line to
+the pocket, if that position is free.
 
-Each candidate is played once, without errors, and judged by the rules. The best one is the stroke,
-the first of equal ones: it neither looks at the next layout nor knows how strokes err.
+Each candidate is played once without errors and judged by the rules. The best one is the stroke, or
+the first of several equal ones. Neither the next layout nor errors are considered.
 
-`carom.games.pool` imports this module, so its `Pool` and `Position` have no types here.
+`carom.games.pool` imports this module, so `Pool` and `Position` have no types here.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _LEAST_COS = np.cos(np.radians(75.0))  # of a cut
 
 
 def quick_stroke(pool: Any, position: Any, shots: int) -> tuple[Records, Records, tuple[int, int]]:
-    """The layout, with the cue ball where it is put, the cue, and the call of eight-ball."""
+    """The layout with the placed cue ball, the cue, and the call for eight-ball."""
     game = Made(pool.game, position.state)
     layouts, cues = _candidates(pool, position, game, max(shots // OF_PAIR, 1))
     played = pool.played(layouts, cues)
@@ -50,7 +50,7 @@ def quick_stroke(pool: Any, position: Any, shots: int) -> tuple[Records, Records
 
 
 def _candidates(pool: Any, position: Any, game: Made, pairs: int) -> tuple[Records, Records]:
-    """Layouts (n, balls) and cues (n,) of the easiest pairs of a ball and a pocket."""
+    """Layouts (n, balls) and cues (n,) for the easiest pairs of a ball and a pocket."""
     balls, radius = position.balls, pool.base.radius
     centres = balls["state"]["r"][:, :2]
     targets = np.array(on_of(game, balls))
@@ -71,14 +71,14 @@ def _candidates(pool: Any, position: Any, game: Made, pairs: int) -> tuple[Recor
     cosine = np.einsum("ij,ij->i", line, way) / distances
     ease = np.where(cosine > _LEAST_COS, cosine, 1e-3 * (2.0 + cosine)) / (distances * far)
 
-    # the easiest of them, from places that are free
+    # the easiest of them, from free positions
     chosen = np.argsort(-ease, kind="stable")[:pairs]
     way, ghost, far = way[chosen], ghost[chosen], far[chosen]
     places = _free(pool, position, places[chosen])
     line = ghost - places
     distances = np.linalg.norm(line, axis=-1)
 
-    # thrown to the side of the cue ball's way, the ball needs a ghost ball beside that
+    # to compensate for throw, the ghost ball moves to the side
     side = np.sign(line[:, 0] * way[:, 1] - line[:, 1] * way[:, 0])
     cos, sin = np.cos(THROWN), side[:, np.newaxis] * np.sin(THROWN)
     x, y = way[:, :1], way[:, 1:]
@@ -92,7 +92,7 @@ def _candidates(pool: Any, position: Any, game: Made, pairs: int) -> tuple[Recor
 
 
 def _break(pool: Any, position: Any, targets: Doubles) -> tuple[Records, Records]:
-    """A stroke at the first ball of the rack, from behind the head string."""
+    """A break at the first ball of the rack, from behind the head string."""
     low, high = pool.area(position.hand)
     place = np.array([(low[0] + high[0]) / 2.0, high[1]])
     line = targets[np.argmin(targets[:, 1])] - place
@@ -102,9 +102,7 @@ def _break(pool: Any, position: Any, targets: Doubles) -> tuple[Records, Records
 
 
 def _free(pool: Any, position: Any, point: Doubles) -> Doubles:
-    """The places that are free, where the cue ball is in hand, and others in place of those that
-    are not.
-    """
+    """The positions for a cue ball in hand, with occupied ones replaced."""
     if not position.hand:
         return point
     tried: Array = position.balls.copy()
@@ -118,7 +116,7 @@ def _free(pool: Any, position: Any, point: Doubles) -> Doubles:
 
 
 def _laid(pool: Any, position: Any, places: Doubles) -> Records:
-    """The layout with the cue ball at each of some places, if it is in hand."""
+    """The layout with the cue ball at each of several positions, if it is in hand."""
     layouts: Array = np.repeat(raw(position.balls)[np.newaxis], len(places), axis=0)
     layouts = layouts.view(dtypes.shot_ball)
     if position.hand:

@@ -394,7 +394,7 @@ def breaks(
             "shot": shot,
             "rack": kind,
             "aim": choice(_BREAK_AIMS, aim, "aim"),
-            "gap": number(gap, "gap", "a distance in m is needed"),
+            "gap": number(gap, "gap", "a distance in m"),
             "seed": seed_of(seed),
             "memory": pointer("double[]", memory),
             "memory_size": memory.nbytes,

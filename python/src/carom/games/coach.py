@@ -1,6 +1,4 @@
-"""Advice for a player by `carom_coach.h`: odds of matches, what strokes of a match cost, and breaks
-that win most often.
-"""
+"""Advice for players: odds of matches, the cost of strokes in a match, and the best breaks."""
 
 from __future__ import annotations
 
@@ -48,22 +46,24 @@ _USUAL = Options()
 
 
 class Odds(NamedTuple):
-    """The chances of a match. Those of the second side are 1 less these."""
+    """The chances of the first side in a match; the second side has 1 minus these."""
 
-    game: float  # That the first side wins a game in which nobody has the break
-    set: float  # That it wins the first set
-    match: float  # That it wins the match
-    games: float  # The mean number of games
-    score: dict[tuple[int, int], float]  # Of final scores: sets, or games where one set decides
-    fair: tuple[int, int]  # The games of both sides with which the match is fairest
+    game: float  # Chance to win a game without an advantage of the break
+    set: float  # Chance to win the first set
+    match: float  # Chance to win the match
+    games: float  # Mean number of games
+    score: dict[
+        tuple[int, int], float
+    ]  # Chance of each final score: in sets, or in games of a single set
+    fair: tuple[int, int]  # The race (games of each side) that makes the match most even
 
 
 def _pair(given: int | Iterable[int], name: str) -> list[int]:
-    """How many each side needs; one number is for both."""
+    """How many each side needs; a single number applies to both."""
     words = "a number, or one for each side"
     pair = [given, given] if isinstance(given, int) else several(given, name, words)
     if len(pair) != 2:
-        raise ValueError(f"{name}: {words} is needed, not {given!r}")
+        raise ValueError(f"{name}: {given!r} is not {words}")
     return [whole(one, name, least=1, most=lib.CAROM_SERIES_MOST) for one in pair]
 
 
@@ -76,31 +76,36 @@ def odds(
     side: int | None = None,
     break_points: float = 0.0,
 ) -> Odds:
-    """The odds of a match of two players by their Fargo ratings, 0 to 1000.
+    """Compute the odds of a match between two players from their Fargo ratings.
 
     Parameters
     ----------
     ratings : (float, float)
-        A player who is rated 100 points higher wins two games for each one of the other.
-    games : int, or one for each side
-        How many win a set, 1 to 100.
-    sets : int, or one for each side
-        How many win the match.
+        The ratings, 0 to 1000. A player rated 100 points higher wins two games for each one that
+        the other wins.
+    games : int or (int, int)
+        Games that win a set, 1 to 100, for both sides or for each.
+    sets : int or (int, int)
+        Sets that win the match, 1 to 100.
     order : {"alternate", "winner", "loser"}
-        Who breaks within a set. Sets are begun in turn.
+        Who breaks in the next game of a set. The first break of each set alternates.
     side : int, optional
-        Which side breaks first. Default: either, by lot.
+        The side that breaks first. Default: random.
     break_points : float
-        How many points of rating a player has more in a game that he breaks, -1000 to 1000.
+        Rating points that the player who breaks gains in that game, -1000 to 1000.
+
+    Returns
+    -------
+    Odds
 
     Examples
     --------
     >>> carom.odds((600, 500), (9, 7)).match
     0.7968...
     """
-    pair = several(ratings, "ratings", "the ratings of both players")
+    pair = several(ratings, "ratings", "a list of the ratings of both players")
     if len(pair) != 2:
-        raise ValueError(f"ratings: those of both players are needed, not {pair}")
+        raise ValueError(f"ratings: {pair} are not two ratings; pass one for each player")
     series = ffi.new(
         "carom_series *",
         {
@@ -115,8 +120,8 @@ def odds(
     found, fair = ffi.new("carom_odds *"), ffi.new("carom_series *")
     if lib.carom_odds_of(series, found) < 0:
         raise ValueError(
-            f"ratings, break_points: 0 to 1000 and -1000 to 1000 are needed, not {pair}, "
-            f"{break_points}"
+            f"ratings, break_points: {pair}, {break_points} is out of range; ratings are 0 to 1000 and "
+            "break_points -1000 to 1000"
         )
     lib.carom_fair_series(series, fair)
     needed = list(series.sets if max(series.sets) > 1 else series.games)
@@ -126,29 +131,29 @@ def odds(
 
 
 class Drill(NamedTuple):
-    """A layout to practise a stroke: that of the review."""
+    """A drill for the stroke of a review."""
 
-    place: tuple[float, float]  # m: where the stroke without errors leaves the cue ball
-    radius: float  # m: how near to it the cue ball has to come; 0: the pot alone counts
-    rating: float  # Of a player who makes it in half of the tries
+    place: tuple[float, float]  # Final position of the cue ball after a stroke without errors, m
+    radius: float  # Largest distance from it, m; 0: only the pot counts
+    rating: float  # Fargo rating of a player who succeeds in half of the attempts
 
 
 class Review(NamedTuple):
-    """What a stroke of a match meant, and what came of it. Costs are chances to win."""
+    """The intention and the result of a stroke in a match. Costs are losses of the chance to win."""
 
     group: str  # Such as "long thin cut"
-    ball: int | None  # That was meant to fall; None: no direct pot was found
+    ball: int | None  # Intended ball; None: no direct pot was found
     pocket: int | None
-    aim: Records  # The stroke that was meant
-    off: float  # Degrees: how far the stroke was played to the left of it
+    aim: Records  # The intended stroke
+    off: float  # How far to the left of it the stroke was played, degrees
     cut: float  # Degrees
-    distance: float  # m: of both ways
-    told: float  # The chance that the meant stroke keeps the turn
+    distance: float  # Total length of both paths, m
+    told: float  # Chance that the intended stroke keeps the turn
     kept: bool  # Whether the stroke kept it
-    value: float  # The chance to win of the meant stroke, and
-    came: float  # after the stroke
-    miss_cost: float  # What the miss cost; its mean is 0 by the errors of the player
-    place_cost: float  # What the places of the balls cost
+    value: float  # Chance to win with the intended stroke
+    came: float  # Chance to win after the stroke
+    miss_cost: float  # Cost of the miss; its mean over the player's errors is 0
+    place_cost: float  # Cost of the positions of the balls
     drill: Drill | None
 
 
@@ -166,14 +171,25 @@ def review(
     options: Options = _USUAL,
     **changes: Unpack[Changes],
 ) -> Review:
-    """What a stroke of a game of two sides with pockets cost its player.
+    """Compute what a stroke cost its player, in a game of two sides with pockets.
 
-    `balls`, `state` and `call` are those before the stroke; the others are those of `carom.plan`.
+    Parameters
+    ----------
+    table, rules, player, opponent, seed, options, **changes
+        As for `carom.plan`.
+    balls, state, call
+        The layout, the state of the game and the call before the stroke.
+    cue : ndarray of `carom.dtypes.cue`, shape ()
+        The stroke that was played.
+
+    Returns
+    -------
+    Review
 
     Raises
     ------
     CaromError
-        The layout or an option is in error, or the game cannot be reviewed.
+        The layout or an option is invalid, or the game cannot be reviewed.
     """
     made = Made(rules, state)
     job = Job(
@@ -215,33 +231,36 @@ def best_breaks(
     options: Options = _USUAL,
     **changes: Unpack[Changes],
 ) -> Records:
-    """The breaks that win most often: place of the cue ball, speed, height of the tip, and cut.
+    """Find the breaks that win most often: position of the cue ball, speed, tip height, and cut.
 
     Parameters
     ----------
     rack : str
-        The rack of a game with a break, such as "nineball"; `balls` are one, the cue ball first.
+        The rack of a game with a break, such as "nineball".
+    table : Table
+    balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
+        A rack from `carom.racks`, the cue ball first.
     cue : ndarray of `carom.dtypes.cue`, optional
-        The stroke to compare with; no break is faster. Default: 9 m/s.
+        The stroke to compare with, which also limits the speed. Default: 9 m/s.
     player, opponent, seed, options
         As for `carom.plan`.
     breaks : int
-        How many breaks are played of each break that is proposed, at least 16.
+        Number of times that each proposed break is played, at least 16.
     best : int
-        How many are proposed, 1 to 8.
+        Number of proposed breaks, 1 to 8.
     gap : float
-        m, between the balls of the racks.
+        Gap between the balls of the racks, m.
 
     Returns
     -------
     ndarray of `carom.dtypes.break_choice`, shape (best,)
-        The best one first; `counts` has the results of its breaks, and the costs of the first one
-        say how much more often it would win without the player's errors.
+        The best one first. `counts` contains the results of its breaks. The costs of the first one
+        are the gain in its chance to win without each of the player's errors.
 
     Raises
     ------
     CaromError
-        The layout, the cue or an option is in error.
+        The layout, the cue or an option is invalid.
     """
     check_table(table)
     kind = choice(worded("RACK"), rack, "rack")
@@ -266,7 +285,7 @@ def best_breaks(
             "opponent": rival,
             "shot": shot,
             "rack": kind,
-            "gap": number(gap, "gap", "a distance in m is needed"),
+            "gap": number(gap, "gap", "a distance in m"),
             "seed": seed_of(seed),
             "memory": pointer("double[]", memory),
             "memory_size": memory.nbytes,

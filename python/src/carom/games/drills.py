@@ -1,4 +1,4 @@
-"""Games for agents of the same form as `carom.potting.Potting`: points of three-cushion, and the
+"""Games for agents with the interface of `carom.potting.Potting`: scoring in three-cushion, and the
 break of nine-ball.
 """
 
@@ -23,14 +23,12 @@ __dir__ = listing(__name__)
 
 
 class ThreeCushion(Potting):
-    """Points of three-cushion: three balls lie at random on a table without pockets, and a number
-    of strokes is to score.
+    """Three-cushion: score as often as possible from a random layout of three balls.
 
-    Actions, observations and options are those of `Potting` with two balls besides the cue ball. A
-    stroke earns 1 where the cue ball meets three cushions before it meets the second ball, whether
-    it scored before or not; the balls then stay where they came to rest. A stroke in which a ball
-    leaves the table earns nothing and is taken back. `Strokes.potted` is 0. The game ends with the
-    last stroke.
+    Actions, observations and options are those for `Potting` with two object balls. A stroke earns
+    1 if the cue ball hits three cushions before it hits the second ball; earlier scores do not
+    matter. The balls stay where they came to rest. A stroke in which a ball leaves the table earns
+    nothing and is undone. `Strokes.potted` is 0. The game ends after the last stroke.
     """
 
     _game: ClassVar[RulesGame] = "threecushion"
@@ -40,13 +38,12 @@ class ThreeCushion(Potting):
 
 
 class Break(Potting):
-    """The break of nine-ball, one stroke: each game draws its rack, of which balls lie 0.1 mm apart
-    in the mean.
+    """The break of nine-ball, one stroke. Each game draws a rack with mean gaps of 0.1 mm.
 
-    An action has two numbers more than that of `Potting`: where the cue ball lies, along the width
-    and along the length of the part behind the head string. A break earns the balls that it pots,
-    less 1 for a foul by the rules of nine-ball: the cue ball falls, a ball leaves the table, or
-    nothing falls and fewer than four balls meet cushions. Options are those of `Potting`.
+    An action has two numbers in addition to those for `Potting`: the position of the cue ball along
+    the width and the length of the area behind the head string. A break earns the number of potted
+    balls, minus 1 for a foul by the rules of nine-ball: the cue ball falls, a ball leaves the
+    table, or no ball falls and fewer than four balls hit cushions. Options are as for `Potting`.
     """
 
     acts: ClassVar[int] = 6
@@ -57,7 +54,7 @@ class Break(Potting):
         super().__init__(9, 1, speeds=speeds, **options)
 
     def corners(self) -> tuple[Doubles, Doubles]:
-        """The lower and the upper corner, m, of the rectangle in which the cue ball is put."""
+        """The lower and the upper corner, m, of the rectangle in which the cue ball is placed."""
         low = np.full(2, self.radius + 1e-3)
         return low, np.array([self.table.width - low[0], self.table.length / 4.0])
 
@@ -71,9 +68,7 @@ class Break(Potting):
         return layouts
 
     def placed(self, balls: Records, actions: ArrayLike) -> Records:
-        """The layouts, broadcast against the actions, with the cue balls where the actions put
-        them.
-        """
+        """The layouts, broadcast against the actions, with the cue balls placed by the actions."""
         values = np.asarray(actions, np.float64)
         low, high = self.corners()
         laid = copied(
@@ -87,8 +82,8 @@ class Break(Potting):
         return laid
 
     def best(self, balls: Records, *, shots: int = 500, seed: Seed = 0) -> Doubles:
-        """The action, of shape (6,), of the planner, which wants to win the game of nine-ball
-        against a player with the same errors.
+        """The planner's action, shape (6,), for winning nine-ball against a player with equal
+        errors.
         """
         low, high = self.corners()
         found = plans.plan(

@@ -6,12 +6,12 @@
     game = gymnasium.make("carom/RunOutSix-v1", render_mode="svg")
     games = gymnasium.make_vec("carom/Potting-v1", num_envs=64, cushion_model="han", threads=-1)
 
-`GAMES` has the ids. What an id with a version gives for an action and a seed changes only with
-`carom.physics_revision()`; other rules get another version.
+`GAMES` lists the ids. For an id with a version, results for a given action and seed change only
+with `carom.physics_revision()`; other rules have another version.
 
-Actions, observations, rewards and ends are those of the rules, `RULES`, whose arguments both take;
-`rules` is that object. Game k of many with the seed s is the game alone with the seed s + k, to the
-bit. Needs gymnasium 1.1 or later.
+The classes in `RULES` define actions, observations, rewards and the end of a game. Both
+environments accept their arguments, and `rules` is the object. Game k of many games with seed s has
+the same bits as a single game with seed s + k. Needs gymnasium 1.1 or later.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes, pictures
-from carom._rows import listing, raw
+from carom._rows import choice, listing, raw, unknown_name, unknown_value
 from carom.dtypes import Doubles, Records
 from carom.games._draws import Draws, Games
 from carom.games.drills import Break, ThreeCushion
@@ -39,7 +39,7 @@ try:
     from gymnasium.vector import AutoresetMode, VectorEnv
     from gymnasium.vector.utils import batch_space
 except ImportError as missing:
-    message = "carom.gymnasium needs gymnasium 1.1 or later, which is not installed here: pip install gymnasium"
+    message = "carom.gymnasium needs gymnasium 1.1 or later, which is not installed: pip install gymnasium"
     raise ImportError(message, name=missing.name) from missing
 
 __all__ = ["GAMES", "RULES", "GameEnv", "GameVectorEnv"]
@@ -55,8 +55,8 @@ RULES: dict[str, Callable[..., Rules]] = {
     "eightball": functools.partial(Match, "eightball"),
     "match": TableGame,
 }
-"""The rules of an environment by the word `game`: classes, and `Match` of both games of pool. The
-word "match" stands for any game of two sides: GameEnv("match", rules="snooker").
+"""The rules of an environment by the name `game`: classes, and `Match` for both games of pool. The
+name "match" stands for any game of two sides: GameEnv("match", rules="snooker").
 """
 _OPTIONS = {"layout", "strokes"}
 _Bools = NDArray[np.bool_]
@@ -64,10 +64,7 @@ _ONE: Games = np.zeros(1, np.int64)
 
 
 class _Games:
-    """The state of games, and what both environments do with it.
-
-    Each game has random numbers of its own.
-    """
+    """The state of games, for both environments. Each game has a separate random stream."""
 
     def __init__(self, rules: Rules, games: int, render_mode: str | None) -> None:
         pictures.check_render_mode(render_mode)
@@ -78,7 +75,7 @@ class _Games:
         self.ended: _Bools = np.ones(games, np.bool_)
         self.begun = False
         self.draws = Draws(np.random.SeedSequence().generate_state(games, np.uint64))
-        # The last stroke, where it may be drawn.
+        # The last stroke, for rendering.
         self.render_mode = render_mode
         self.drawn = render_mode is not None
         self.previous = self.balls.copy()
@@ -88,12 +85,10 @@ class _Games:
     def begin(
         self, games: Games, layouts: Sequence[Any] | None = None, strokes: int | None = None
     ) -> None:
-        """Begin some games, at random or with the centres of balls; each goes on with its own
-        random numbers.
-        """
+        """Begin some games, at random or with given centres, in their random streams."""
         if strokes is not None and not 1 <= strokes <= self.rules.strokes:
             raise ValueError(
-                f"strokes: must be 1 to {self.rules.strokes}, that of the environment, not {strokes}"
+                f"strokes: {strokes} is not 1 to {self.rules.strokes}, the number of the environment"
             )
         chosen_layouts = (
             None if layouts is None else np.stack([self.rules.layout(layout) for layout in layouts])
@@ -111,7 +106,7 @@ class _Games:
         self.struck[games] = False
 
     def play(self, games: Games, actions: Doubles) -> Strokes:
-        """One stroke of each of some games."""
+        """Play one stroke in each of some games."""
         # Where all games play, nothing is copied but by the stroke itself.
         everyone = len(games) == len(self.balls)
         rows: Any = slice(None) if everyone else games
@@ -134,7 +129,7 @@ class _Games:
         return self.rules.observe(self.balls, self.left, self.words)
 
     def render(self, game: int) -> Any:
-        """The picture of one game: its balls and the paths of its last stroke."""
+        """Draw one game: its balls and the paths of its last stroke."""
         if self.render_mode is None:
             return None
         return pictures.rendered(
@@ -144,8 +139,9 @@ class _Games:
 
 
 def _spaces(rules: Rules) -> tuple[Any, Any]:
-    """Of one game: that of observations, and that of actions in single precision, as libraries of
-    policies want them.
+    """The spaces of observations and actions of one game.
+
+    Actions are in single precision, which libraries of policies expect.
     """
     low, high = rules.bounds()
     return spaces.Box(low, high, dtype=np.float64), spaces.Box(
@@ -154,31 +150,32 @@ def _spaces(rules: Rules) -> tuple[Any, Any]:
 
 
 def _rules(game: str, rules: dict[str, Any]) -> Rules:
-    if game not in RULES:
-        raise ValueError(f"game: must be one of {', '.join(map(repr, RULES))}, not {game!r}")
-    return RULES[game](**rules)
+    return choice(RULES, game, "game")(**rules)
 
 
 def _checked(options: dict[str, Any] | None) -> dict[str, Any]:
-    """The options of a reset, none of them unknown."""
+    """The options of a reset; raises ValueError for an unknown one."""
     settings = {} if options is None else options
     if not settings.keys() <= _OPTIONS:
         raise ValueError(
-            f"options: 'layout' and 'strokes' are known, not {', '.join(map(repr, sorted(settings.keys() - _OPTIONS)))}"
+            unknown_name("options", "option", min(settings.keys() - _OPTIONS), sorted(_OPTIONS))
         )
     return settings
 
 
 class GameEnv(gymnasium.Env[Doubles, Doubles]):
-    """One game: `game` names the rules, of `RULES`, and **rules are their arguments.
+    """One game.
 
-    `render` gives a picture of the last stroke, from where the balls lay (faint) to where they came
-    to rest: with `render_mode="svg"` its text, with "rgb_array" an image of shape (height, width,
-    3), of which `gymnasium.wrappers.RecordVideo` makes a film. `info` after a stroke: potted (int),
-    scratch (bool), foul (int, as `carom.Foul`), status (int, as `carom.Status`), time (s). Options
-    of `reset`: layout, the centres (m) of shape (balls + 1, 2), the cue ball first, which matches
-    refuse; strokes, at most those of the environment. There is no truncation: the observation
-    contains the number of strokes left.
+    `game` is a name in `RULES`, and **rules are the arguments of that class.
+
+    `render` draws the last stroke, from the initial positions (faint) to the final ones. It returns
+    SVG with `render_mode="svg"`, and an image of shape (height, width, 3) with "rgb_array", which
+    `gymnasium.wrappers.RecordVideo` can record. After a stroke `info` contains potted (int),
+    scratch (bool), foul (int, a `carom.Foul`), status (int, a `carom.Status`) and time (s).
+
+    `reset` accepts the options layout, centres (m) of shape (balls + 1, 2), the cue ball first (not
+    for matches), and strokes, at most the number of the environment. There is no truncation,
+    because the observation contains the number of strokes left.
     """
 
     metadata: dict[str, Any] = {"render_modes": list(pictures.RENDER_MODES), "render_fps": 1}
@@ -194,9 +191,7 @@ class GameEnv(gymnasium.Env[Doubles, Doubles]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Doubles, dict[str, Any]]:
-        """Begin a game: a layout drawn from the seed, or from the game's random numbers as they
-        stand.
-        """
+        """Begin a game with a layout drawn from the seed, or from the current random stream."""
         super().reset(seed=seed)
         settings = _checked(options)
         layout = settings.get("layout")
@@ -206,9 +201,9 @@ class GameEnv(gymnasium.Env[Doubles, Doubles]):
         return self._games.observe()[0], {}
 
     def step(self, action: ArrayLike) -> tuple[Doubles, float, bool, bool, dict[str, Any]]:
-        """Play a stroke: observation, reward, terminated, truncated, info."""
+        """Play a stroke; returns observation, reward, terminated, truncated, info."""
         if self._games.ended[0]:
-            raise gymnasium.error.ResetNeeded("the game has ended, or has not begun: call reset()")
+            raise gymnasium.error.ResetNeeded("the game has not begun or has ended; call reset()")
         values = in_space(action, (self.rules.acts,), "action")
         strokes = self._games.play(_ONE, values[np.newaxis])
         info = {
@@ -227,25 +222,25 @@ class GameEnv(gymnasium.Env[Doubles, Doubles]):
         )
 
     def render(self) -> Any:
-        """The picture, as `render_mode` says."""
+        """Draw the last stroke in the form of `render_mode`."""
         return self._games.render(0)
 
 
 class GameVectorEnv(VectorEnv[Doubles, Doubles, NDArray[Any]]):
-    """Many games, all strokes of a step in one `carom.simulate_batch`, except matches, which are
-    played one after another.
+    """Many games. All strokes of a step are one `carom.simulate_batch`; matches are played
+    sequentially.
 
-    Arguments are those of `GameEnv`, after the number of games; `threads` plays the strokes of a
-    step side by side, and `render` gives a tuple of pictures. Seeds are as for gymnasium's
-    SyncVectorEnv: s is s, s + 1, ...; a list has one for each game. Options of `reset` are as for
-    `GameEnv`; layout may be of shape (num_envs, balls + 1, 2), and reset_mask, an array of bool of
-    shape (num_envs,), says which games begin anew. `infos` has arrays, and under "_" + name where
-    they are set.
+    The arguments are the number of games and then those for `GameEnv`. `threads` plays the strokes
+    of a step in parallel, and `render` returns a tuple of images. Seeds are as for gymnasium's
+    SyncVectorEnv: s stands for s, s + 1, ...; a list contains one seed per game. Options of `reset`
+    are as for `GameEnv`; layout may have shape (num_envs, balls + 1, 2), and reset_mask, bool of
+    shape (num_envs,), selects the games to restart. `infos` contains arrays, and masks of valid
+    entries under "_" + name.
 
-    `autoreset_mode` says what becomes of a game that has ended, as in gymnasium 1.1 and later:
-    "NextStep", where the next step begins it anew and does not play its action; "SameStep", where
-    the step that ends it begins it anew, and `infos` has "final_obs" and "final_info"; "Disabled",
-    where reset(options={"reset_mask": ended}) does before the next step.
+    `autoreset_mode` defines how a game that has ended is restarted, as in gymnasium 1.1 and later.
+    "NextStep": the next step restarts it and ignores its action. "SameStep": the step that ends it
+    restarts it, and `infos` contains "final_obs" and "final_info". "Disabled": the caller restarts
+    it with reset(options={"reset_mask": ended}) before the next step.
     """
 
     metadata: dict[str, Any] = {
@@ -264,12 +259,10 @@ class GameVectorEnv(VectorEnv[Doubles, Doubles, NDArray[Any]]):
         **rules: Any,
     ) -> None:
         if num_envs < 1:
-            raise ValueError(f"num_envs: must be at least 1, not {num_envs}")
+            raise ValueError(f"num_envs: {num_envs} is not at least 1")
         modes = {mode.value: mode for mode in AutoresetMode}
         if autoreset_mode not in (*modes, *modes.values()):
-            raise ValueError(
-                f"autoreset_mode: must be one of {', '.join(map(repr, modes))}, not {autoreset_mode!r}"
-            )
+            raise ValueError(unknown_value("autoreset_mode", autoreset_mode, modes))
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         self.metadata = {**self.metadata, "autoreset_mode": self.autoreset_mode}
         self.rules = _rules(game, rules)
@@ -289,12 +282,14 @@ class GameVectorEnv(VectorEnv[Doubles, Doubles, NDArray[Any]]):
         seed: int | Sequence[int | None] | None = None,
         options: dict[str, Any] | None = None,
     ) -> tuple[Doubles, dict[str, Any]]:
-        """Begin all games anew, or those of the mask."""
+        """Restart all games, or the ones in the mask."""
         seeds = [None] * self.num_envs if seed is None else seed
         if isinstance(seeds, int):
             seeds = [seeds + k for k in range(self.num_envs)]
         if len(seeds) != self.num_envs:
-            raise ValueError(f"seed: one number or {self.num_envs} are needed, not {len(seeds)}")
+            raise ValueError(
+                f"seed: there are {len(seeds)} seeds for {self.num_envs} games; pass one integer, or one per game"
+            )
         settings = dict({} if options is None else options)
         chosen = np.flatnonzero(self._mask(settings.pop("reset_mask", None)))
         settings = _checked(settings)
@@ -303,7 +298,9 @@ class GameVectorEnv(VectorEnv[Doubles, Doubles, NDArray[Any]]):
             centres = np.asarray(settings["layout"], dtype=np.float64)
             layouts = list(centres) if centres.ndim == 3 else [centres] * self.num_envs
             if len(layouts) != self.num_envs:
-                raise ValueError(f"layout: one or {self.num_envs} are needed, not {len(layouts)}")
+                raise ValueError(
+                    f"layout: there are {len(layouts)} layouts for {self.num_envs} games; pass one, or one per game"
+                )
             layouts = [layouts[game] for game in chosen]
         for game in chosen:
             if (game_seed := seeds[int(game)]) is not None:
@@ -319,32 +316,33 @@ class GameVectorEnv(VectorEnv[Doubles, Doubles, NDArray[Any]]):
         flags: NDArray[Any] = np.asarray(mask)
         if flags.dtype != np.bool_ or flags.shape != (self.num_envs,) or not flags.any():
             raise ValueError(
-                f"options: reset_mask: an array of bool of shape ({self.num_envs},) with a True in it is needed, "
-                f"not of {flags.dtype} and shape {flags.shape}"
+                f"options: reset_mask: the array has dtype {flags.dtype} and shape {flags.shape}, "
+                f"but must be bool of shape ({self.num_envs},) with at least one True"
             )
         if not (self._games.begun or flags.all()):
             raise gymnasium.error.ResetNeeded(
-                "no game has begun: the first reset() is of all games"
+                "no game has begun; the first reset() must be without reset_mask"
             )
         return flags
 
     def step(
         self, actions: ArrayLike
     ) -> tuple[Doubles, NDArray[Any], NDArray[Any], NDArray[Any], dict[str, Any]]:
-        """Play a stroke of each game, or begin it anew: observations (num_envs, ...); rewards,
-        terminated, truncated (num_envs,); infos.
+        """Play a stroke in each game, or restart it.
+
+        Returns observations (num_envs, ...); rewards, terminated, truncated (num_envs,); and infos.
         """
         values = in_space(actions, (self.num_envs, self.rules.acts), "actions")
         if not self._games.begun:
             raise gymnasium.error.ResetNeeded(
-                "no game has begun: call reset() before the first step()"
+                "no game has begun; call reset() before the first step()"
             )
         playing = ~self._games.ended
         if not playing.all():
             over = np.flatnonzero(~playing)
             if self.autoreset_mode is AutoresetMode.DISABLED:
                 raise gymnasium.error.ResetNeeded(
-                    f"games {over.tolist()} have ended: reset(options={{'reset_mask': ended}}) begins them anew"
+                    f"games {over.tolist()} have ended; call reset(options={{'reset_mask': ended}}) to restart them"
                 )
             self._games.begin(over)
         rewards = np.zeros(self.num_envs)
@@ -359,7 +357,7 @@ class GameVectorEnv(VectorEnv[Doubles, Doubles, NDArray[Any]]):
         return self._games.observe(), rewards, ended, np.zeros(self.num_envs, np.bool_), infos
 
     def _infos(self, strokes: Strokes, playing: NDArray[np.bool_]) -> dict[str, Any]:
-        """What the strokes of some games were."""
+        """The infos of the strokes of some games."""
         details: dict[str, NDArray[Any]] = {
             "potted": strokes.potted,
             "scratch": strokes.scratch,
@@ -375,7 +373,7 @@ class GameVectorEnv(VectorEnv[Doubles, Doubles, NDArray[Any]]):
         return infos
 
     def _begun_at_once(self, infos: dict[str, Any], ended: NDArray[np.bool_]) -> dict[str, Any]:
-        """Begins the games anew that have ended; what was theirs is final."""
+        """Restart the games that have ended, and store their final observations and infos."""
         last, final = self._games.observe(), dict[str, Any]()
         final_obs = np.full(self.num_envs, None, dtype=object)
         for game in np.flatnonzero(ended):
@@ -390,13 +388,13 @@ class GameVectorEnv(VectorEnv[Doubles, Doubles, NDArray[Any]]):
         return {**infos, "final_obs": final_obs, "final_info": final, **whose}
 
     def render(self) -> tuple[Any, ...] | None:
-        """The pictures of all games, as `render_mode` says."""
+        """Draw all games in the form of `render_mode`."""
         if self.render_mode is None:
             return None
         return tuple(self._games.render(game) for game in range(self.num_envs))
 
 
-_ERRORS = (0.2, 0.2, 0.006)  # degrees, m/s and radii: those of carom.player(2) at 2 m/s
+_ERRORS = (0.2, 0.2, 0.006)  # degrees, m/s and radii: the errors of carom.player(2) at 2 m/s
 GAMES: dict[str, dict[str, Any]] = {
     "carom/Potting-v1": {},
     "carom/PotOne-v1": {"balls": 1, "strokes": 1, "noise": _ERRORS},

@@ -1,4 +1,4 @@
-"""A match of 2 to 8 seats, as `carom_match.h` has it."""
+"""A match of 2 to 8 seats, as defined in `carom_match.h`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Seed, choice, copied, listing, pointer, seed_of, several, whole
+from carom._rows import Seed, choice, copied, listing, pointer, seed_of, several, unknown_name
+from carom._rows import whole
 from carom._shot_options import Options, StopAt, chosen, options_of, shot_options
 from carom.dtypes import Records
 from carom.games._described import BreakOrder, Kind, MatchActs
@@ -49,8 +50,10 @@ ORDERS = {word: k for k, word in enumerate(get_args(BreakOrder))}
 
 
 class Bounds(NamedTuple):
-    """Where a cue ball in hand may be put, m: within `low` and `high`, and where `radius` is above
-    0 also in the half circle around `centre`, the D.
+    """Where a cue ball in hand may be placed, m.
+
+    The rectangle from `low` to `high`; if `radius` is above 0, only the D within it, the half
+    circle around `centre`.
     """
 
     low: tuple[float, float]
@@ -60,22 +63,22 @@ class Bounds(NamedTuple):
 
 
 class Seat(NamedTuple):
-    """A seat of a match: who sits there, and with what. A `rating` of 0 is unknown."""
+    """A seat of a match: its player and cue. A `rating` of 0 means unknown."""
 
     name: str
-    side: int  # Seats of one side play together
-    handicap: int  # Of a side, which its first seat has: points, or as the game has it
+    side: int  # Seats on the same side are partners
+    handicap: int  # Of the side, stored in its first seat: points, or as the game defines it
     rating: float  # A Fargo rating
-    cue: Records  # Its stick and tip, `carom.dtypes.cue`; of the stroke itself nothing is read
+    cue: Records  # Stick and tip, `carom.dtypes.cue`; the stroke itself is ignored
 
 
 class Standing(NamedTuple):
-    """How a match stands, by sides, whoever is at the table."""
+    """The score of a match by sides, regardless of who is at the table."""
 
     sides: tuple[int, ...]  # The side of each seat
-    points: tuple[int, ...]  # With the handicap; or what each seat has left, such as lives
-    won: tuple[int, ...]  # Matches of the set, with this one
-    set_winner: int | None  # The side that has won the set
+    points: tuple[int, ...]  # Including the handicap; or what each seat has left, such as lives
+    won: tuple[int, ...]  # Matches won in the set, including this one
+    set_winner: int | None  # The side that won the set
 
 
 def _members(struct: Any) -> dict[str, Any]:
@@ -87,11 +90,11 @@ def _members(struct: Any) -> dict[str, Any]:
 
 
 def _fill(struct: Any, values: Mapping[str, Any], name: str) -> None:
-    """Sets members of a struct of C, by their names."""
+    """Set members of a struct of C by name."""
     known = [member for member, _ in ffi.typeof(struct).fields]
     for member, value in values.items():
         if member not in known:
-            raise TypeError(f"{name}: there is no {member!r}; there are {', '.join(known)}")
+            raise TypeError(unknown_name(name, "member", member, known))
         try:
             if member == "cue":
                 stick = copied(one_cue(value))
@@ -113,10 +116,12 @@ def _seating(
     alternate: bool,
     limits: Mapping[str, Any] | None,
 ) -> Any:
-    """The seats of a match for C; NULL: the usual two. `partners`: two sides of own rules."""
+    """The seats of a match for C; NULL: the usual two. `partners`: custom rules with two sides."""
     if seats is None and not alternate and limits is None:
         return ffi.NULL
-    needed = "a number is needed, or names, or mappings with name, side, handicap, rating, cue"
+    needed = (
+        "a number of seats, or a list of names or mappings with name, side, handicap, rating, cue"
+    )
     each: list[Any] = []
     if isinstance(seats, int):
         each = [{}] * seats
@@ -124,7 +129,9 @@ def _seating(
         each = several(seats, "seats", needed)
     seating = ffi.new("carom_seating *")
     if lib.carom_seating_make(game, len(each), seating) < 0:
-        raise ValueError(f"seats: this game is not played by {len(each)}")
+        raise ValueError(
+            f"seats: this game is not played with {len(each)} seats; help(carom.Match) describes seats"
+        )
     each = each or [{}] * int(seating.count)
     for k, given in enumerate(each):
         if partners:
@@ -132,7 +139,9 @@ def _seating(
         one = {"name": given} if isinstance(given, str) else given
         one = one._asdict() if isinstance(one, Seat) else one
         if not isinstance(one, Mapping):
-            raise TypeError(f"seats[{k}]: {needed}, not {given!r}")
+            raise TypeError(
+                f"seats[{k}]: {given!r} is not a name or a mapping with name, side, handicap, rating, cue"
+            )
         _fill(seating.seat[k], one, f"seats[{k}]")
     seating.alternate = bool(alternate)
     _fill(seating.limits, limits or {}, "limits")
@@ -140,11 +149,11 @@ def _seating(
 
 
 class Match(MatchVerbs, MatchActs):
-    """A game of 2 to 8 seats: the table, the balls, the rules, the players with their cues, the last
-    shot and the recording in one object, which takes one act after another.
+    """A game for 2 to 8 seats, which is played act by act.
 
-    An act that the rules forbid raises `CaromError`, whose text says what would be right, and
-    changes nothing. `lines` is the recording so far, which `carom verify` judges again.
+    The object contains the table, the balls, the rules, the players with their cues, the last shot
+    and the recording. An act that the rules forbid raises `CaromError` with an explanation, and
+    changes nothing. `lines` is the recording so far, which the command `carom verify` checks.
 
     >>> match = carom.Match("eightball", carom.tables.pool_9ft(), seed=7)
     >>> while match.phase != "over":
@@ -169,44 +178,45 @@ class Match(MatchVerbs, MatchActs):
         options: Options = _USUAL,
         **changes: Unpack[Changes],
     ) -> None:
-        """Begin a match with the rack of a game, or with another layout.
+        """Begin a match with the rack of a game, or with a custom layout.
 
         Parameters
         ----------
         rules : str or Rules
-            The game, as for `carom.plan`; one of your own needs `balls`.
+            The game, as for `carom.plan`. Custom rules require `balls`.
         table : Table
         seed : int
-            Of the gaps of the rack, 0.1 mm at most.
+            Seed of the gaps in the rack, at most 0.1 mm.
         player : int
             The side that plays first.
         seats : int, or list of str, dict or Seat
-            Who plays: how many, or their names, or what differs from the usual of `name`, `side`,
-            `handicap`, `rating` and `cue`. Two sides play in turn: of four seats, 0 and 2 are
+            The players: a number, a list of names, or a list of mappings with any of `name`,
+            `side`, `handicap`, `rating` and `cue`. Two sides alternate: of four seats, 0 and 2 are
             partners. Default: two seats.
         alternate : bool
-            Whether partners take turns by strokes, as in Scotch doubles, and not by visits.
+            Whether partners alternate after each stroke, as in Scotch doubles, instead of after
+            each visit.
         limits : dict
-            Bounds of strokes, of which None is no bound: `speed` (15 m/s), `theta` (90 degrees),
-            `tip` (0.75 radii), `mass_least`, `mass_most`, `end_mass_least` (0.2, 1.2, 0.001 kg),
-            `tip_restitution_most`, and `own_cue`: whether the stick must be that of the seat.
+            Limits of strokes; None removes one. `speed` (15 m/s), `theta` (90 degrees), `tip` (0.75
+            radii), `mass_least`, `mass_most`, `end_mass_least` (0.2, 1.2, 0.001 kg),
+            `tip_restitution_most`, and `own_cue`: whether a stroke must use the seat's cue.
         set : dict
-            The match is one of a set: `race`, how many a side needs; `order`, whether the next
-            break is "alternate", or that of the "winner" or the "loser"; `clock` and `extension`, s,
-            which you measure; `extensions` of a side in a match, and `timeouts` in the set.
+            Makes the match part of a set. `race`: matches that win the set. `order`: who breaks
+            next, "alternate", "winner" or "loser". `clock` and `extension`: times in s, which the
+            caller measures. `extensions` of a side per match, and `timeouts` per set.
         balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,), optional
-            Another layout than the rack. Only then `hand` is read.
+            A custom layout instead of the rack.
         state : dict or ndarray of `carom.dtypes.rules_state`, optional
-            How the game stands, as for `carom.plan`. With the rack `target` and `innings` are read:
-            `{"innings": 1}` gives equal innings, and the match may be drawn.
+            The state of the game, as for `carom.plan`. With the rack, only `target` and `innings`
+            are used: `{"innings": 1}` means equal innings, which allows a draw.
         hand : {"no", "anywhere", "kitchen", "d", "baulk"}
-            Whether the cue ball is in hand.
+            Where the cue ball in hand may be placed; used only with `balls`.
         options, **changes
             Models of all shots, as for `carom.simulate`.
         """
         check_table(table)
         self._make(rules, state)
-        game = _OWN if isinstance(rules, Rules) else GAMES[rules]
+        game = _OWN if isinstance(self.rules, Rules) else GAMES[self.rules]
         partners = isinstance(rules, Rules) and rules.race != "seats"
         models = shot_options(chosen(options, changes))
         pointed = pointer("carom_table *", table.record)
@@ -231,15 +241,15 @@ class Match(MatchVerbs, MatchActs):
             setup.balls = pointer("carom_shot_ball[]", layout)
             setup.leave = choice(LEAVES, "after" if hand == "no" else hand, "hand")
         elif isinstance(rules, Rules):
-            raise ValueError("balls: rules of one's own have no rack: give a layout")
+            raise ValueError("balls: custom rules have no rack; pass a layout")
         else:
             begins = self._made.c.state
             setup.target, setup.equal_innings = begins.target, begins.innings
         self._act(lambda: lib.carom_match_begin_with(self._c, setup), "balls")
 
     def _make(self, rules: Game | Rules, state: GivenState | None = None) -> None:
-        self.rules = rules
         self._made = Made(rules, state)
+        self.rules = self._made.rules
         self._c: Any = ffi.new("carom_match *")
         self._lines: list[str] = []  # but those in the text of C, of the last act
         self._undone: list[list[str]] = []
@@ -249,24 +259,24 @@ class Match(MatchVerbs, MatchActs):
     def load(
         cls, recording: str | os.PathLike[str] | Iterable[str], *, rules: Rules | None = None
     ) -> Match:
-        """Read a match, from a file, a text or lines as they come, and judge it again.
+        """Read a match from a file, a text or an iterator of lines, and judge it again.
 
-        `rules` are those of a game of your own.
+        `rules` are the custom rules of the match, if any.
 
         Raises
         ------
         CaromError
-            A line is not by the rules, or has other bits.
+            A line violates the rules, or its bits differ.
         """
         match = cls.__new__(cls)
         match._make("eightball" if rules is None else rules)
         if rules is not None:
             match._c.rules = match._made.c[0]
         for line in lines_of(recording):
-            match._read(line, -1)
+            match.read(line)
         if match.phase == "none":
-            text = "cut off: there is no line game" if match._lines else "the text is empty"
-            right = f'{text}: a match begins with a line "recording", and lines up to "game"'
+            text = "the recording has no line game" if match._lines else "the recording is empty"
+            right = f'{text}; a match begins with a line "recording" and further lines up to "game"'
             raise CaromError(Status.ERROR_RECORD, f"line {len(match._lines) + 1}", text=right)
         if rules is None:
             match.rules = list(GAMES)[match._c.record.rules]
@@ -276,7 +286,7 @@ class Match(MatchVerbs, MatchActs):
         return _loaded, (self.lines, self.rules if isinstance(self.rules, Rules) else None)
 
     def copy(self) -> Match:
-        """Another match that stands as this one, and goes on by itself."""
+        """Return an independent copy of the match."""
         twin = type(self).__new__(type(self))
         twin.__dict__.update(self.__dict__)
         twin._c = ffi.new("carom_match *")
@@ -284,11 +294,11 @@ class Match(MatchVerbs, MatchActs):
         twin._lines, twin._undone = [*self._lines], [*self._undone]
         return twin
 
-    # ---- How the match stands
+    # ---- The state of the match
 
     @property
     def lines(self) -> list[str]:
-        """The recording so far. Behind a line that was read, it has those of its ruling."""
+        """The recording so far. Each line that was read is followed by its ruling."""
         return [*self._lines, *self._written()]
 
     def _written(self) -> list[str]:
@@ -309,13 +319,13 @@ class Match(MatchVerbs, MatchActs):
 
     @property
     def state(self) -> Records:
-        """How the game stands for the player at the table: `carom.dtypes.rules_state`."""
+        """The state of the game for the player at the table: `carom.dtypes.rules_state`."""
         state = ffi.buffer(ffi.addressof(self._c.rules, "state"))
         return np.frombuffer(state, dtypes.rules_state).copy().reshape(())
 
     @property
     def seats(self) -> tuple[Seat, ...]:
-        """Who plays."""
+        """The seats and their players."""
         seats = self._c.seating.seat[0 : self._c.seating.count]
         return tuple(
             Seat(
@@ -330,12 +340,12 @@ class Match(MatchVerbs, MatchActs):
 
     @property
     def limits(self) -> dict[str, Any]:
-        """The bounds of strokes; 0: none."""
+        """The limits of strokes; 0: no limit."""
         return _members(self._c.seating.limits)
 
     @property
     def set(self) -> dict[str, Any] | None:
-        """The set that the match belongs to, with its `number` and how many each side had `won`."""
+        """The set of the match, with the match's `number` and how many each side had `won` before."""
         values = _members(self._c.record.set)
         won = values["won"][: len(self.standing.won)]
         is_one = values["race"] > 0
@@ -343,7 +353,7 @@ class Match(MatchVerbs, MatchActs):
 
     @property
     def standing(self) -> Standing:
-        """How the match stands, by sides."""
+        """The score of the match by sides."""
         standing = ffi.new("carom_standing *")
         lib.carom_match_standing(self._c, standing)
         points, won = (
@@ -355,12 +365,14 @@ class Match(MatchVerbs, MatchActs):
 
     @property
     def words(self) -> str:
-        """What the match waits for, or how it ended; `match.ruling.words` says the last ruling."""
+        """A sentence on what the match waits for, or how it ended; `match.ruling.words` is the last
+        ruling.
+        """
         return words_of(lambda *text: lib.carom_match_string(self._c, *text))
 
     @property
     def bounds(self) -> Bounds | None:
-        """Where the cue ball in hand may be put, until the stroke."""
+        """Where the cue ball in hand may be placed before the stroke."""
         if self._c.leave < lib.CAROM_LEAVE_ANYWHERE:
             return None
         bounds = self._c.bounds
@@ -368,12 +380,12 @@ class Match(MatchVerbs, MatchActs):
 
     @property
     def hand(self) -> Hand:
-        """Where the rules let a cue ball in hand be put, until the stroke: `bounds` in a word."""
+        """The name of the area in which a cue ball in hand may be placed before the stroke."""
         return "no" if self.phase == "over" else hand_of(self._c.leave)
 
     @property
     def shot(self) -> Shot | None:
-        """The last shot, or what was played of it, with its events: played here or read."""
+        """The last shot, as far as it was played, with its events."""
         key: int = self._c.record.played.hash
         if not self._c.stroke.mass > 0.0:
             return None
@@ -390,12 +402,12 @@ class Match(MatchVerbs, MatchActs):
 
     @property
     def options(self) -> Options:
-        """The models of all shots, and when the last one was to stop."""
+        """The models of all shots, and the stop of the last one."""
         return options_of(self._c.record.options)
 
     @property
     def ruling(self) -> Ruling | None:
-        """The last ruling, and the last shot, which is None before the first stroke."""
+        """The last ruling with the last shot; None before the first stroke."""
         if not self._c.rulings:
             return None
         shot = cast("Shot", self.shot)
@@ -406,7 +418,7 @@ class Match(MatchVerbs, MatchActs):
     # ---- Acts
 
     def _called(self, call: Callable[[], int], field: str) -> int:
-        """What C returns; what it or a method of the rules refuses changes nothing."""
+        """Call C. If C rejects the call, or a method of the rules raises, nothing changes."""
         previous = bytes(ffi.buffer(self._c))
         code = call()
         try:
@@ -418,45 +430,78 @@ class Match(MatchVerbs, MatchActs):
         return code
 
     def _act(self, call: Callable[[], int], field: str) -> bool:
-        """Does what C does. Returns whether a shot has ended."""
+        """Perform an act in C. Returns whether a shot has ended."""
         known = self._written()
         code = self._called(call, field)
         self._lines += known
         self._undone.clear()
         return code == 0
 
-    def _read(self, line: str, seat: int) -> None:
-        record = self._c.record
-        known, is_due, previous = self._written(), self._c.due > 0, (record.line, record.hash)
-        scratch, text = ffi.new("carom_record *"), line.encode()
-        self._called(
-            lambda: lib.carom_match_read_from(self._c, scratch, text, len(text), seat), "line"
-        )
-        if is_due and self._c.size < sum(len(one.encode()) for one in known):
-            self._lines.append(known[0])
-        elif not is_due and (record.line, record.hash) != previous:  # no blank line, no event
-            self._lines += [*known, line.rstrip() + "\n"]
-
-    def read(self, line: str, seat: int | None = None) -> None:
-        """Read a line of another program and judge it: an act, or a line of the ruling of the last
-        act. With `seat` the act must be one of that seat.
+    def read(self, line: str) -> None:
+        """Read the next line of a file and judge it: an act, or a line of the ruling of the last
+        act.
 
         Raises
         ------
         CaromError
-            The line is not by the rules, has other bits, or is an act of another seat. Then nothing
-            has changed.
+            The line is not by the rules, or has other bits. Then nothing has changed.
         """
-        self._read(line, -1 if seat is None else self._seat(seat))
+        record = self._c.record
+        known, is_due, previous = self._written(), self._c.due > 0, (record.line, record.hash)
+        scratch, text = ffi.new("carom_record *"), line.encode()
+        self._called(lambda: lib.carom_match_read(self._c, scratch, text, len(text)), "line")
+        if is_due and self._c.size < sum(len(one.encode()) for one in known):
+            self._lines.append(known[0])
+        elif not is_due and (record.line, record.hash) != previous:  # no blank line, no event
+            self._lines += [*known, line.rstrip() + "\n"]
         self._undone.clear()
 
-    def undo(self) -> bool:
-        """Take the last act back, by judging the lines before it again.
+    def receive(self, line: str, seat: int | None) -> bool:
+        """Judge a line that a peer has sent, such as a client of a server.
+
+        The lines of the ruling need not follow: the match makes them. A line of the last act that
+        comes again changes nothing.
+
+        Parameters
+        ----------
+        line : str
+            One line, with or without its end.
+        seat : int or None
+            The seat that sent it. None: a sender that may send every line, such as the server of a
+            client.
 
         Returns
         -------
         bool
-            Whether there was one.
+            Whether the match has changed. Then `lines` has new ones.
+
+        Raises
+        ------
+        CaromError
+            The line is not by the rules, has other bits, or is an act of another seat. The match
+            stays as it was, to the bit.
+        """
+        sender = -1 if seat is None else whole(seat, "seat", least=0, most=2**31)
+        known, count = self._written(), self._c.record.line
+        room, text = ffi.new("carom_match *"), line.encode()
+        self._called(
+            lambda: lib.carom_match_receive(self._c, room, text, len(text), sender), "line"
+        )
+        if self._c.record.line == count:
+            return False
+        self._lines += known
+        if self._c.size == 0:  # a line of the beginning, which is read and not made
+            self._lines.append(line.rstrip() + "\n")
+        self._undone.clear()
+        return True
+
+    def undo(self) -> bool:
+        """Undo the last act, by judging the lines before it again.
+
+        Returns
+        -------
+        bool
+            Whether there was an act to undo.
         """
         lines = self.lines
         text = "".join(lines).encode()
@@ -469,13 +514,19 @@ class Match(MatchVerbs, MatchActs):
         return True
 
     def redo(self) -> bool:
-        """Do the act again that was undone last, unless another act followed. Returns whether there
-        was one.
+        """Repeat the act that was undone last, unless another act followed.
+
+        Returns
+        -------
+        bool
+            Whether there was an act to repeat.
         """
         if not self._undone:
             return False
-        for line in self._undone.pop():
-            self._read(line, -1)
+        *others, lines = self._undone
+        for line in lines:
+            self.read(line)
+        self._undone = others
         return True
 
     def _seat(self, seat: int | None) -> int:
@@ -484,8 +535,9 @@ class Match(MatchVerbs, MatchActs):
     # The seat that acts is by default the one at the table.
 
     def call(self, ball: int, pocket: int = -1, *, seat: int | None = None) -> None:
-        """Call the ball and the pocket of the next stroke; ball -1: a safety. In snooker it names a
-        colour or a free ball.
+        """Call the ball and the pocket of the next stroke; ball -1 calls a safety.
+
+        In snooker this nominates a colour or a free ball.
         """
         numbers = [whole(ball, "ball", least=-1), whole(pocket, "pocket", least=-1)]
         call = ffi.new("carom_call *", numbers)[0]
@@ -499,12 +551,12 @@ class Match(MatchVerbs, MatchActs):
         stop_at: StopAt | Iterable[StopAt] = (),
         seat: int | None = None,
     ) -> bool:
-        """Play a stroke of `cue_ball`, up to when `carom.simulate` would stop it.
+        """Play a stroke with `cue_ball`; `t_final` and `stop_at` are as for `carom.simulate`.
 
         Returns
         -------
         bool
-            Whether the shot has ended, and is ruled.
+            Whether the shot has ended and been ruled on.
         """
         struck, stop = pointer("carom_cue[]", copied(one_cue(cue))), _stop(t_final, stop_at)
         return self._act(
@@ -514,13 +566,14 @@ class Match(MatchVerbs, MatchActs):
     def resume(
         self, *, t_final: float | None = None, stop_at: StopAt | Iterable[StopAt] = ()
     ) -> bool:
-        """Go on with a shot that was stopped; t_final counts from its beginning."""
+        """Continue a shot that was stopped; t_final counts from its beginning."""
         stop = _stop(t_final, stop_at)
         return self._act(lambda: lib.carom_match_continue(self._c, stop, ffi.NULL), "t_final")
 
     def prepare(self, best: Records, *, seat: int | None = None) -> None:
-        """Do what a choice of `plan` asks for before its stroke: place, push out and call; or pass,
-        and no stroke follows.
+        """Perform the acts of a choice of `plan` before its stroke: place, push out and call.
+
+        A pass is performed completely; no stroke follows.
         """
         choice = pointer("carom_plan_stroke *", copied(best))
         self._act(lambda: lib.carom_match_prepare(self._c, self._seat(seat), choice), "best")
@@ -534,9 +587,9 @@ class Match(MatchVerbs, MatchActs):
         stop_at: StopAt | Iterable[StopAt] = (),
         seat: int | None = None,
     ) -> bool:
-        """Take a choice of `plan`: `prepare` it, and play its `stroke` unless it is a pass.
+        """Play a choice of `plan`: `prepare` it, and play its `stroke` unless it is a pass.
 
-        `cue` is the stroke as the player makes it; by default that of the choice.
+        `cue` is the stroke that is actually played; it defaults to the choice's.
         """
         self.prepare(best, seat=seat)
         if best["kind"] == Kind.PASS:
@@ -545,21 +598,22 @@ class Match(MatchVerbs, MatchActs):
         return self.stroke(stroke, t_final=t_final, stop_at=stop_at, seat=seat)
 
     def end(self) -> str:
-        """The whole recording, with its last line: nothing follows but the next match of a set."""
+        """End the recording and return all of it; only the next match of a set can follow."""
         self._act(lambda: lib.carom_match_end(self._c), "end")
         return "".join(self.lines)
 
     # ---- Plans
 
     def plan(self, **wanted: Any) -> Records:
-        """The best strokes of the seat at the table, with a cue ball in hand within `bounds`.
+        """Find the best strokes of the seat at the table, with a cue ball in hand within `bounds`.
 
-        `wanted` is as for `carom.plan`: player, opponent, shots, best, seed, ... By default the cue
-        is that of the seat, and the player one of its rating. The opponent is the next seat of the
-        other side, by its rating, else as strong as its strokes in this set show.
+        The keywords are as for `carom.plan`: player, opponent, shots, best, seed, ... The defaults
+        are the seat's cue and a player with the seat's rating. The opponent is the next seat of the
+        other side, with its rating, or if that is unknown, a strength estimated from its strokes in
+        this set.
         """
 
-        c = self.copy()._c  # whose text and cue a plan changes
+        c = self.copy()._c  # a plan changes the text and the cue of the copy
 
         def call(*job: Any) -> int:
             code: int = lib.carom_match_plan(c, *job)
@@ -584,7 +638,7 @@ class Match(MatchVerbs, MatchActs):
 
 
 def _refuse(match: Any, code: int, field: str) -> None:
-    """Raises what C refuses, in its words."""
+    """Raise the error of C, with its text."""
     if code < 0:
         act, _, right = in_python(ffi.string(match.fault).decode()).partition(": ")
         act = "resume" if act == "continue" else act

@@ -1,4 +1,4 @@
-"""Games of pool of an agent against an opponent, in the form that `carom.gymnasium` plays."""
+"""Games of pool of an agent against an opponent, for `carom.gymnasium`."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __dir__ = listing(__name__)
 
 
 def _words(state: State) -> list[int]:
-    """A state as numbers of 64 bits, of which environments keep an array."""
+    """A state as 64-bit integers, which environments keep in an array."""
     words: list[int] = state.reshape(1).view(np.uint64).tolist()
     return words
 
@@ -33,27 +33,24 @@ def _state(words: NDArray[np.uint64]) -> State:
 
 
 class Match:
-    """A game of nine-ball or eight-ball: the agent breaks, and the library plays whenever it is the
-    opponent's turn.
+    """A game of nine-ball or eight-ball: the agent breaks, and the library plays for the opponent.
 
-    **Actions** are those of `carom.pool.Pool`, six numbers. An **observation** is that of
-        `Pool.observe` and the number of strokes left. It is
-    all that there is to know. A step is one stroke of the agent and all strokes of the opponent
-        until the agent plays again. The **reward** is
-    1 for a won game, -1 for a lost one, and else 0. The game also ends with the agent's last
-        stroke.
+    **Actions** are six numbers, as for `carom.pool.Pool`. An **observation** is `Pool.observe` and
+    the number of strokes left; it describes the game completely. A step is one stroke of the agent
+    and all strokes of the opponent until the agent plays again. The **reward** is 1 for a won game,
+    -1 for a lost one, and otherwise 0. The game also ends after the agent's last stroke.
 
     Parameters
     ----------
     game : {"nineball", "eightball"}
     strokes : int
-        Of the agent, at least 1.
+        Largest number of strokes of the agent, at least 1.
     opponent : ndarray of `carom.dtypes.player`, shape (), optional
-        His errors. Default: `carom.player(fargo=500)`.
+        The opponent's errors. Default: `carom.player(fargo=500)`.
     opponent_shots : int
-        By how many shots he finds a stroke. With fewer than 100 he plays the best of so many strokes
-        straight at balls, which takes a millisecond. From 100 on `carom.plan` finds it, which takes
-        10 to 30 milliseconds with 300 shots.
+        Number of shots that the opponent simulates per stroke. Below 100 it plays the best of this
+        many strokes straight at balls, which takes a millisecond. With 100 or more it uses
+        `carom.plan`, which takes 10 to 30 milliseconds with 300 shots.
     **rules
         As for `Pool`: the table, and the noise of the agent.
     """
@@ -75,8 +72,8 @@ class Match:
     ) -> None:
         if "threads" in rules:
             raise TypeError(
-                "threads: matches are played one after another, and take none; "
-                'gymnasium.make_vec(id, games, vectorization_mode="async") plays them in processes'
+                "threads: matches are played sequentially; omit threads, or use "
+                'gymnasium.make_vec(id, games, vectorization_mode="async") for processes'
             )
         self.pool = Pool(game, **rules)
         self.strokes = whole(strokes, "strokes", least=1)
@@ -90,14 +87,14 @@ class Match:
         self._agent = self.pool.base.player()
 
     def bounds(self) -> tuple[Doubles, Doubles]:
-        """The least and the most of each number of an observation."""
+        """The lower and upper bounds of an observation."""
         low, high = self.pool.bounds()
         return np.append(low, 0.0), np.append(high, self.strokes)
 
     def observe(
         self, balls: Records, strokes_left: ArrayLike, words: NDArray[np.uint64]
     ) -> Doubles:
-        """What the agent sees of games, of shape (games, ...)."""
+        """The agent's observations of games, of shape (games, ...)."""
         left = np.broadcast_to(np.asarray(strokes_left, np.float64), len(balls))
         none = Draws([0])
         return np.stack(
@@ -126,8 +123,8 @@ class Match:
         return np.stack([self.pool.begin(draws.key(game)).balls for game in games.tolist()])
 
     def layout(self, centres: ArrayLike) -> Records:
-        """Refuses layouts: a match begins with its break."""
-        raise ValueError("layout: a match begins with the break, and takes no layout")
+        """Raise ValueError: a match begins with the break, not with a layout."""
+        raise ValueError("layout: a match begins with the break; omit layout")
 
     def turn(
         self,
@@ -137,9 +134,9 @@ class Match:
         draws: Draws,
         games: Games,
     ) -> Turned:
-        """A stroke of the agent and the visit of the opponent, in each of some games.
+        """Play a stroke of the agent and the visit of the opponent in each of some games.
 
-        `words` is written to.
+        `words` is modified.
         """
         values = np.asarray(actions, np.float64)
         n = len(games)
@@ -186,11 +183,11 @@ class Match:
         return position
 
     def shot(self, balls: Records, cue: Records | None) -> Shot:
-        """A stroke of the agent with its events, for looking at; without a cue the balls lie still."""
+        """A stroke of the agent with its events, for drawing; without a cue the balls stay at rest."""
         return self.pool.base.shot(balls, cue)
 
     def best_seen(self, observation: ArrayLike, *, shots: int = 500, seed: Seed = 0) -> Doubles:
-        """The action, of shape (6,), of the library's planner for an observation."""
+        """The planner's action, shape (6,), for an observation."""
         return self.pool.best(
             self.seen(observation), opponent=self.opponent, shots=shots, seed=seed
         )
@@ -200,5 +197,5 @@ class Match:
         return self.pool.seen(np.asarray(observation, np.float64)[:-1])
 
     def tried(self, observation: ArrayLike, actions: ArrayLike) -> Doubles:
-        """What actions of shape (n, 6) are worth for the next stroke alone, as `Pool.tried`."""
+        """The values of actions of shape (n, 6), judged by their stroke only, as for `Pool.tried`."""
         return self.pool.tried(self.seen(observation), actions)

@@ -1,5 +1,4 @@
-"""Nine-ball and eight-ball (`carom.pool`) as an environment of PettingZoo, in which two agents take
-turns.
+"""Nine-ball and eight-ball (`carom.pool`) for two agents, as an environment of PettingZoo.
 
     from carom.pettingzoo import PoolEnv
 
@@ -9,8 +8,8 @@ turns.
         observation, reward, terminated, truncated, info = game.last()
         game.step(None if terminated or truncated else game.action_space(agent).sample())
 
-`parallel` has the same game as a parallel environment. Actions, observations and rules are those of `carom.pool.Pool`. The winner gets 1, the other -1.
-Needs PettingZoo.
+`parallel` is the same game as a parallel environment. Actions, observations and rules are defined
+by `carom.pool.Pool`. The winner's reward is 1, the loser's -1. Needs PettingZoo.
 """
 
 from __future__ import annotations
@@ -38,12 +37,11 @@ _PLAYERS = ("player_0", "player_1")
 
 
 class PoolEnv(AECEnv):
-    """One game of pool, whose rules are `Pool(game, **options)`.
+    """One game of pool with the rules `Pool(game, **options)`.
 
-    After so many `strokes`, both players together, it is truncated.
-
-    `render_mode` is as for `carom.gymnasium.GameEnv`. `infos` of both players, after a stroke: foul
-    (why, or empty), first (the ball touched first, 0 for none), potted (a list), hand.
+    It is truncated after `strokes` strokes of both players together. `render_mode` is as for
+    `carom.gymnasium.GameEnv`. After a stroke the `infos` of both players contain foul (the reason,
+    or ""), first (the ball hit first, 0 if there is none), potted (a list) and hand.
     """
 
     metadata: dict[str, Any] = {
@@ -81,8 +79,9 @@ class PoolEnv(AECEnv):
         return self._acted[agent]
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
-        """Begin a game with the break of player_0; options: "position", a `carom.pool.Position` to
-        begin with.
+        """Begin a game with the break of player_0.
+
+        The option "position" is a `carom.pool.Position` to begin with instead.
         """
         if seed is not None:
             self._generator = seeding.np_random(seed)[0]
@@ -100,18 +99,20 @@ class PoolEnv(AECEnv):
         self.infos: dict[str, dict[str, Any]] = {agent: {} for agent in _PLAYERS}
 
     def observe(self, agent: str) -> dtypes.Doubles:
-        """What a player sees."""
+        """The observation of a player."""
         return self.rules.observe(self.position, _PLAYERS.index(agent))
 
     def step(self, action: ArrayLike | None) -> None:
-        """Play the stroke of the player whose turn it is."""
+        """Play the stroke of the player at the table."""
         agent = self.agent_selection
         if self.terminations[agent] or self.truncations[agent]:
             self._was_dead_step(action)
             return
         self._cumulative_rewards[agent] = 0.0
         if action is None:
-            raise ValueError("action: six numbers are needed while the game goes on")
+            raise ValueError(
+                "action: None is only allowed after the end of the game; pass six numbers"
+            )
         values = in_space(action, (6,), "action")
         self.position, self.stroke = self.rules.play(self.position, values)
         winner = self.position.winner
@@ -130,7 +131,7 @@ class PoolEnv(AECEnv):
         self._accumulate_rewards()
 
     def render(self) -> Any:
-        """The text of a picture: the balls and the paths of the last stroke."""
+        """Draw the balls and the paths of the last stroke, as SVG."""
         if self.render_mode is None:
             return None
         return pictures.rendered(
@@ -141,7 +142,7 @@ class PoolEnv(AECEnv):
         )
 
     def close(self) -> None:
-        """Nothing is held open."""
+        """Do nothing: there is nothing to close."""
 
 
 def parallel(
@@ -149,6 +150,6 @@ def parallel(
 ) -> Any:
     """A `PoolEnv` with these arguments as a parallel environment of PettingZoo.
 
-    A step takes an action of each player, and plays that of the player at the table.
+    A step accepts an action of each player, and plays the one of the player at the table.
     """
     return turn_based_aec_to_parallel(PoolEnv(game, strokes, **options))

@@ -1,4 +1,4 @@
-"""Which shot to play: the shots that win most often from a layout, for a player whose strokes err."""
+"""Planning: the shots that win most often from a layout, for a player with given errors."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from carom import dtypes
 from carom._carom import ffi, lib
 from carom._described import Goal as GoalKind
 from carom._faults import argument_error, shot_arguments
-from carom._rows import Array, Arrays, as_array, choice, copied, listing, number, pointer
-from carom._rows import Seed, seed_of, several, whole
+from carom._rows import Array, Arrays, Seed, as_array, choice, copied, either, listing, named
+from carom._rows import number, pointer, seed_of, several, whole
 from carom._shot_options import Options, chosen, shot_options
 from carom.dtypes import Records
 from carom.games._described import Group, Kind
@@ -53,71 +53,81 @@ _USUAL = Options()
 
 
 class Goal(NamedTuple):
-    """What a stroke of `plan` is to leave.
+    """What a stroke of `plan` should leave.
 
-    The kinds are the words of `carom plan --leave`; `carom_goal_kind` of `carom_plan.h` explains
+    The kinds are the ones of `carom plan --leave`; `carom_goal_kind` in `carom_plan.h` explains
     each.
     """
 
     kind: GoalKind
     ball: int = 0
-    """Of "snooker": the index of the ball."""
+    """For "snooker": the index of the ball."""
     balls: Sequence[int] = ()
-    """Of "apart": indices of the balls."""
+    """For "apart": the indices of the balls."""
     place: tuple[float, float] = (0.0, 0.0)
-    """Of "near": the place, m."""
+    """For "near": the position, m."""
     distance: float = 0.0
-    """Of "near" and "apart": the largest distance, or the smallest gap, m."""
+    """For "near": the largest distance, m; for "apart": the smallest gap, m."""
 
 
 def player(
-    errors: float | None = None, *, fargo: float | None = None, rules: Game | None = None
+    errors: float | None = None,
+    *,
+    fargo: float | None = None,
+    rating: float | None = None,
+    rules: Game | None = None,
 ) -> Records:
-    """A player whose strokes err, as an array of `carom.dtypes.player`, shape ().
-
-    Its fields may be changed.
+    """Make a player whose strokes have errors.
 
     Parameters
     ----------
     errors : float
-        At least 0. Standard deviations of a stroke of 2 m/s: 0.1 m/s, 0.1 degrees of direction and
-        of elevation and 0.003 radii each way, times errors; they grow with the speed. Default: 1.
+        Scale of the errors, at least 0. At a speed of 2 m/s, errors=1 means standard deviations of
+        0.1 m/s, 0.1 degrees in direction and elevation, and 0.003 radii of the tip in each
+        direction; they grow with the speed. Default: 1.
     fargo : float, optional
-        A Fargo rating, 200 to 850, instead: errors that grow with the speed, the shots of a plan and
-        `only_pots`, the share of strokes in which the player thinks of nothing but potting. Such
-        players beat those who are 100 points weaker in about 2 of 3 games, if `shots` of `plan` is
-        not given (docs/understanding/plan.md). Set `only_pots` to 0 for a plan that advises one.
+        A Fargo rating, 200 to 850, instead of `errors`. It determines the errors, the number of
+        shots of a plan, and `only_pots`, the fraction of strokes for which the player considers
+        only pots. Such a player beats one rated 100 points lower in about 2 of 3 games if `shots`
+        of `plan` is not given (docs/understanding/plan.md). Set the field `only_pots` to 0 for a
+        plan that advises a person.
+    rating : float, optional
+        Another name of `fargo`.
     rules : str, optional
-        A game in whose matches the player plays: there, players of other ratings than 500 differ so
-        much that 100 points are odds of 2 to 1. Not given: the person, whom a plan advises.
+        The game of a match that the player plays in. Ratings other than 500 are then adjusted so
+        that 100 points are odds of 2 to 1 in this game. Default: a person whom a plan advises.
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.player`, shape ()
+        Its fields may be modified.
     """
+    if fargo is not None and rating is not None:
+        raise ValueError("fargo, rating: two names of the same rating; omit one")
+    fargo = rating if fargo is None else fargo
     if errors is not None and fargo is not None:
-        raise ValueError("errors, fargo: a player has errors or a rating, not both")
+        raise ValueError("errors, fargo: a player has errors or a rating, not both; omit one")
     if not 0.0 <= (errors := 1.0 if errors is None else number(errors, "errors")) < np.inf:
-        raise ValueError(f"errors: it must be finite and at least 0, not {errors}")
+        raise ValueError(f"errors: {errors} is not finite and at least 0")
     if (
         fargo is not None
-        and not 200.0
-        <= (fargo := number(fargo, "fargo", "a rating of 200 to 850 is needed"))
-        <= 850.0
+        and not 200.0 <= (fargo := number(fargo, "fargo", "a rating of 200 to 850")) <= 850.0
     ):
-        raise ValueError(f"fargo: it must be 200 to 850, not {fargo}")
+        raise ValueError(f"fargo: {fargo} is out of range; ratings are 200 to 850")
     record: Array = np.zeros((), dtypes.player)
     made = lib.carom_player_of(errors)
     if fargo is not None:
         made = lib.carom_player_fargo(fargo)
     if rules is not None:
         if fargo is None:
-            raise ValueError("rules: a game needs a rating in it, fargo")
+            raise ValueError("rules: a game is given without a rating; pass fargo, too")
         made = lib.carom_player_rated(fargo, choice(GAMES, rules, "rules"))
     pointer("carom_player[]", record)[0] = made
     return record
 
 
 class Rating(NamedTuple):
-    """A Fargo rating by games: the mean of the likely ones, and the interval that has 95 % of them,
-    2.5 % on each side.
-    """
+    """A Fargo rating from games: the posterior mean and the central 95 % interval."""
 
     mean: float
     low: float
@@ -125,17 +135,24 @@ class Rating(NamedTuple):
 
 
 def rating(scores: ArrayLike) -> Rating:
-    """The Fargo rating of a player by games, 200 to 850.
+    """Estimate a player's Fargo rating, 200 to 850, from games.
 
-    `scores` has a row (against, won, lost) for each opponent: the rating, 0 to 1000, and the games
-    won and lost. Of ratings r and d, the odds that r wins a game are 2^((r - d) / 100) : 1; before
-    the first game ratings are normal around 400 with a spread of 150, which is a stated choice; a
-    player without games is unrated.
+    The odds that rating r wins a game against rating d are 2^((r - d) / 100) : 1. The prior is
+    normal with mean 400 and standard deviation 150, a convention.
+
+    Parameters
+    ----------
+    scores : array_like, shape (opponents, 3)
+        Rows (against, won, lost): the opponent's rating, 0 to 1000, and the games won and lost.
+
+    Returns
+    -------
+    Rating
     """
     points = np.ascontiguousarray(as_array(scores, "scores", np.float64))
     if points.size and (points.ndim != 2 or points.shape[1] != 3):
         raise ValueError(
-            f"scores: rows of 3 numbers are needed: against, won, lost; not the shape {points.shape}"
+            f"scores: the shape is {points.shape}, but must be (opponents, 3): against, won, lost"
         )
     record = ffi.new("carom_rating *")
     if (code := lib.carom_rating_of(pointer("carom_score[]", points), len(points), record)) < 0:
@@ -144,13 +161,21 @@ def rating(scores: ArrayLike) -> Rating:
 
 
 def with_errors(cue: Records, player: Records, seed: Seed, number: int = 0) -> Records:
-    """The stroke that a player makes of the one that he means, with errors drawn from a seed and
-    the number of the stroke.
+    """Apply a player's random errors to an intended stroke.
+
+    Parameters
+    ----------
+    cue : ndarray of `carom.dtypes.cue`, shape ()
+        The intended stroke.
+    player : ndarray of `carom.dtypes.player`, shape ()
+    seed : int or numpy.random.Generator
+    number : int
+        Number of the stroke; each has different errors.
 
     Returns
     -------
-    array of `carom.dtypes.cue`, shape ()
-        The same for the same arguments, on every machine.
+    ndarray of `carom.dtypes.cue`, shape ()
+        The executed stroke; the same for the same arguments on every machine.
     """
     struck = copied(one_cue(cue))
     lib.carom_player_strike(
@@ -164,32 +189,32 @@ def with_errors(cue: Records, player: Records, seed: Seed, number: int = 0) -> R
 
 @dataclass(frozen=True, repr=False)
 class Pot(Arrays):
-    """A stroke that pots a ball, and what it may err."""
+    """A stroke that pots a ball, and its tolerances."""
 
     cue: Records
     """An array of `carom.dtypes.cue`, shape ()."""
     cut: float
-    """Degrees, of the cue ball on the first ball, which goes to the left of its way where this is
-    above 0.
-    """
+    """Cut of the cue ball on the first ball, degrees; positive if that ball goes to the left."""
     margin: float
-    """Degrees by which the way of the ball into the pocket may turn, to either jaw."""
+    """Degrees by which the ball's path into the pocket may turn towards either jaw."""
     phi: tuple[float, float]
-    """Directions of the cue, degrees, between which the ball falls."""
+    """The interval of the cue's direction in which the ball falls, degrees."""
     speed: tuple[float, float]
-    """Speeds of the cue, m/s, between which it falls in the cue's direction."""
+    """The interval of the cue's speed in which it falls at this direction, m/s."""
     elevation: float
-    """Degrees: the least elevation with which the stick is over the cushions and balls behind the
-    cue ball. A stroke with a lower `cue["theta"]` cannot be played.
+    """Smallest elevation at which the stick clears the cushions and balls behind the cue ball,
+    degrees.
+
+    A stroke with a lower `cue["theta"]` cannot be played.
     """
 
 
 _WHY_NOT = {
-    lib.CAROM_POT_NO_WAY: "no direction of the cue sends ball {ball} there by this way",
+    lib.CAROM_POT_NO_WAY: "no direction of the cue sends ball {ball} there along this path",
     lib.CAROM_POT_BARRED: "something is in the way: {met}",
-    lib.CAROM_POT_SHORT: "ball {at_rest} comes to rest on its way",
-    lib.CAROM_POT_REJECTED: "the jaws send ball {ball} back at this speed",
-    lib.CAROM_POT_STICK: "the stick would be raised by {elevation:.1f} degrees over what is behind the cue ball, and nobody plays above 60",
+    lib.CAROM_POT_SHORT: "ball {at_rest} stops before it gets there; use a higher speed",
+    lib.CAROM_POT_REJECTED: "the jaws reject ball {ball} at this speed; use a lower one",
+    lib.CAROM_POT_STICK: "the stick needs an elevation of {elevation:.1f} degrees to clear what is behind the cue ball, above the limit of 60",
 }
 
 
@@ -230,25 +255,25 @@ def aim(
 ) -> Pot | Hit:
     """Aim a pot, or aim at a ball by its cut, also on a table without pockets.
 
-    With `pocket` it is the direction in which `ball` goes to the middle of a pocket's mouth, with squirt,
-    swerve, throw and the cushion's model.
+    With `pocket`, it finds the direction of the cue that sends `ball` to the middle of the pocket's
+    mouth; without one, the direction in which the cue ball meets `ball` at the cut `cut`. Both allow
+    for squirt and swerve, and a pot also for throw and the cushion's model.
 
     Parameters
     ----------
     table, balls, cue, options, **changes
-        As for `simulate`. The speed, the tip and the elevation of the cue count. A `theta` of nan
-        becomes the least one with which the stick is over the cushions and balls behind the cue
-        ball.
+        As for `simulate`. Of the cue, speed, tip and elevation are used. A `theta` of nan is
+        replaced by the smallest elevation at which the stick clears the cushions and balls behind
+        the cue ball.
     ball : int
         Index of the ball.
     pocket : int or str
-        Index of the table's pocket, or its name: "foot-left"; `table.pocket_names` has all. Without
-        it, the cue ball meets `ball` at the cut `cut`.
+        Index of the pocket, or its name, such as "foot-left"; `table.pocket_names` lists the names.
+        Without it, the cue ball meets `ball` at the cut `cut`.
     via : sequence of int or str
-        The way there, up to four contacts: indices of balls and names of rails, "head", "foot",
-        "left" or "right", that the ball before them meets. `["left"]` is a bank of `ball`, `[2]` a
-        combination by ball 2, `["head", ball]` a kick: where `ball` is not named, it comes after
-        the last other ball.
+        The path, up to four contacts in order: indices of balls, and the rails "head", "foot",
+        "left" or "right". `["left"]` is a bank of `ball`, `[2]` a combination via ball 2, `["head",
+        ball]` a kick. If `ball` is not named, it follows the last other ball.
     cut : array_like, shape (...)
         Without `pocket`: the angle in degrees, above -90 and below 90, from the direction of the
         cue ball when it meets `ball` to the line of centres. 0 is a full hit; above 0, `ball`
@@ -263,9 +288,9 @@ def aim(
     Raises
     ------
     ValueError
-        There is no such aim, and why; or an argument is in error.
+        There is no such aim, for a stated reason, or an argument is invalid.
     CaromError
-        The layout, the cue or an option is in error.
+        The layout, the cue or an option is invalid.
 
     Examples
     --------
@@ -275,7 +300,7 @@ def aim(
     array([...])
     """
     if pocket is None:
-        if several(via, "via", "names of rails and indices of balls are needed"):
+        if several(via, "via", "names of rails and indices of balls"):
             raise ValueError("via: it needs a pocket; pass pocket= too, or leave via= out")
         models = chosen(options, changes)
         return aim_by_cut(table, balls, cue, ball, 0.0 if cut is None else cut, models)
@@ -284,27 +309,24 @@ def aim(
     check_table(table)
     layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
     if layout.ndim != 1:
-        raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}")
+        raise ValueError(f"balls: the shape is {layout.shape}, but must be (balls,)")
     struck = copied(one_cue(cue))
 
-    # The ball, the pocket and the way as C knows them.
-    def index(value: int | str, name: str, names: list[str | None], most: int) -> int:
+    # The ball, the pocket and the path for C.
+    def index(value: int | str, name: str, kind: str, names: list[str | None], most: int) -> int:
         if isinstance(value, str):
-            if value not in names:
-                raise ValueError(
-                    f"{name}: it must be one of {', '.join(sorted({known for known in names if known}))}, not {value!r}"
-                )
-            return names.index(value)
-        if whole(value, name, least=0) >= most:
-            raise ValueError(f"{name}: there are {most}, not {value + 1}")
+            known = sorted({known for known in names if known})
+            return names.index(named(known, value, name)) if known else whole(value, name)
+        if whole(value, name) >= most:
+            raise ValueError(f"{name}: there is no {kind} {value}; use 0 to {most - 1}")
         return value
 
     rails, pockets = table.rail_names, table.pocket_names
-    via = several(via, "via", "names of rails and indices of balls are needed")
+    via = several(via, "via", "a list of names of rails and indices of balls")
     way = [
         (
             lib.CAROM_PART_RAIL if isinstance(step, str) else lib.CAROM_PART_BALL,
-            index(step, "via", rails, len(layout)),
+            index(step, "via", "ball", rails, len(layout)),
         )
         for step in via
     ]
@@ -315,13 +337,14 @@ def aim(
         or ball in balls_hit[:-1]
     ):
         raise ValueError(
-            f"via: it must be up to {lib.CAROM_VIA_MOST} names of rails and indices of balls, each once, not the cue ball, and {ball} last, not {list(via)}"
+            f"via: {list(via)} is not a path; pass up to {lib.CAROM_VIA_MOST} names of rails and indices of balls, "
+            f"each ball once, without the cue ball, and ball {ball} last"
         )
     pot = ffi.new(
         "carom_pot *",
         {
-            "ball": index(ball, "ball", [], len(layout)),
-            "pocket": index(pocket, "pocket", pockets, len(pockets)),
+            "ball": index(ball, "ball", "ball", [], len(layout)),
+            "pocket": index(pocket, "pocket", "pocket", pockets, len(pockets)),
             "vias": len(way),
             "via": way,
         },
@@ -351,7 +374,7 @@ def aim(
             met=f"ball {pot.met.a} meets {part}",
             elevation=pot.elevation,
         )
-        raise ValueError(f"pocket: no such aim at {pocket}: {why}")
+        raise ValueError(f"pocket: no aim at {pocket}: {why}")
     return Pot(
         struck,
         pot.cut,
@@ -363,27 +386,28 @@ def aim(
 
 
 _usual_player = player
-# the ranges of a player's numbers, except those from 0 to 1000
+# ranges of a player's fields; the others are 0 to 1000
 _RANGES = {"tip_most": (0.0, 1.0), "eye": (-np.inf, 0.01), "reserved": (0.0, 0.0)}
 
 
 def one_player(player: Records, name: str = "player") -> Any:
-    """A player for C. It keeps the array that it is made of."""
+    """A player for C, which keeps its array alive."""
     record = copied(of_record(player, dtypes.player, name, "player()"))
     if record.ndim != 0:
-        raise ValueError(f"{name}: one is needed, of shape (), not {record.shape}")
+        raise ValueError(f"{name}: the shape is {record.shape}, but must be (), a single player")
     for field in dtypes.player.names or ():
         least, most = _RANGES.get(field, (0.0, 1000.0))
         if not ((record[field] >= least) & (record[field] <= most)).all():
             raise ValueError(
-                f"{name}: {field}: it must be {least:g} to {most:g}, not {record[field]}"
+                f"{name}: {field}: {record[field]} is out of range; it must be {least:g} to {most:g}"
             )
     return pointer("carom_player[]", record)
 
 
 def _corners(in_hand: Hand | ArrayLike) -> tuple[int, Any, Any] | None:
-    """The leave within whose bounds the cue ball is put, and corners for C; NULL: no further bound.
-    None: not in hand.
+    """The carom_leave in which the cue ball is placed, and corners for C (NULL: no further limit).
+
+    None: the cue ball is not in hand.
     """
     if isinstance(in_hand, str):
         leave = choice({word: LEAVES.get(word, 0) for word in get_args(Hand)}, in_hand, "in_hand")
@@ -393,17 +417,15 @@ def _corners(in_hand: Hand | ArrayLike) -> tuple[int, Any, Any] | None:
     corners = as_array(in_hand, "in_hand", np.float64)
     if corners.shape != (2, 2) or not (corners[0] <= corners[1]).all():
         raise ValueError(
-            f"in_hand: the hand of a ruling, {', '.join(map(repr, get_args(Hand)))}, or the corners "
-            f"[[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}"
+            f"in_hand: {in_hand!r} is not a rectangle; pass its corners [[x, y], [x, y]], the lower ones "
+            f"first, or {either(map(repr, get_args(Hand)))}"
         )
     low, high = np.ascontiguousarray(corners)
     return 0, pointer("double[]", low), pointer("double[]", high)
 
 
 def _stoppable(call: Callable[[], int], flag: Any, stop: threading.Event | None) -> int:
-    """What C gives, which a thread of its own calls, so that Python handles signals meanwhile and
-    looks at `stop`.
-    """
+    """Call C in a separate thread, so that Python can handle signals and check `stop` meanwhile."""
     if stop is None and threading.current_thread() is not threading.main_thread():
         return call()
     with ThreadPoolExecutor(1) as pool:
@@ -411,7 +433,7 @@ def _stoppable(call: Callable[[], int], flag: Any, stop: threading.Event | None)
         try:
             while not wait([called], 0.02).done:
                 flag[0] |= stop is not None and stop.is_set()
-        except BaseException:  # of Ctrl-C
+        except BaseException:  # including Ctrl-C
             flag[0] = 1
             raise
     return called.result()
@@ -421,7 +443,7 @@ _GOALS = {word: k for k, word in enumerate(get_args(GoalKind))}
 
 
 def _goal(goal: Goal, count: int) -> Any:
-    """A goal for C, which checks its numbers."""
+    """A goal for C, which checks its values."""
     return ffi.new(
         "carom_plan_goal *",
         {
@@ -435,7 +457,7 @@ def _goal(goal: Goal, count: int) -> Any:
 
 
 class Job:
-    """What a plan is made for, checked, as C has it; and what has to live as long."""
+    """The checked arguments of a plan for C, with the objects that must live as long."""
 
     def __init__(
         self,
@@ -461,13 +483,15 @@ class Job:
         check_table(table)
         self.layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
         if self.layout.ndim != 1:
-            raise ValueError(f"balls: the shape must be (balls,), not {self.layout.shape}")
+            raise ValueError(f"balls: the shape is {self.layout.shape}, but must be (balls,)")
         if len(self.layout) < 2:
-            raise ValueError("balls: a plan needs the cue ball and one more")
+            raise ValueError(
+                f"balls: there are {len(self.layout)}; a plan needs the cue ball and at least one more"
+            )
         self.strike = copied(one_cue(usual_cue() if cue is None else cue))
         self.shot = shot_options(options)
         if stop is not None and not hasattr(stop, "is_set"):
-            raise TypeError(f"stop: a threading.Event is needed, not {stop!r}")
+            raise TypeError(f"stop: {stop!r} is not a threading.Event")
         request = ffi.new(
             "carom_plan_options *",
             {
@@ -479,13 +503,13 @@ class Job:
         request.level = whole(level, "level", most=1)
         request.unsure = number(unsure, "unsure")
         if not 0.0 <= request.unsure <= 1.0:
-            raise ValueError(f"unsure: it must be 0 to 1, not {unsure}")
+            raise ValueError(f"unsure: {unsure} is out of range; it must be 0 to 1")
         request.seconds = number(seconds, "seconds")
         if not 0.0 <= request.seconds <= 1e6:
-            raise ValueError(f"seconds: they must be 0 to 1e6, not {seconds}")
+            raise ValueError(f"seconds: {seconds} is out of range; it must be 0 to 1e6")
         request.chance_opponent = whole(run_out, "run_out", most=1)
         request.safeties = whole(safeties, "safeties", most=1)
-        request.once = stop is None and seconds == 0.0  # Ctrl-C asks for no choice
+        request.once = stop is None and seconds == 0.0  # Ctrl-C then needs no choice
         rival = None if opponent is None else one_player(opponent, "opponent")
         request.opponent = ffi.NULL if rival is None else rival
         request.stop = game.stop
@@ -518,7 +542,7 @@ class Job:
         )
 
     def call(self, function: Callable[..., int], *arguments: Any, field: str = "balls") -> None:
-        """Calls a function of C with the job; raises what it refuses, by its argument."""
+        """Call a function of C with the job; raises an error that names the invalid argument."""
         code = _stoppable(lambda: function(self.c, *arguments), self.game.stop, self.stop)
         self.game.check()
         if code < 0:
@@ -531,7 +555,7 @@ class Job:
 
 
 class ByMatch(NamedTuple):
-    """A plan that a match makes: its own rules of the caller's, and its call of C."""
+    """A plan of a match: its custom rules, if any, and its call of C."""
 
     game_record: Made | None
     call: Callable[..., int]
@@ -571,74 +595,74 @@ def plan(
     table : Table
         With pockets.
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
-        2 to 32 of them at rest, with the cue ball first. For eight-ball and nine-ball a ball's
-        index is its number.
+        2 to 32 balls at rest, the cue ball first. In eight-ball and nine-ball a ball's index is its
+        number.
     cue : ndarray of `carom.dtypes.cue`, shape (), optional
-        Its masses, its tip and its miscue count; the stroke does not. Default: that of
-        `carom.cue()`.
+        The cue; its stroke is ignored. Default: `carom.cue()`.
     rules : str or Rules
-        The game, by its name in `carom plan --help`; of "potting", a drill, the value is the share
-        of the balls that one visit pots, of "threecushion" the chance of the point, on a table
-        without pockets with the balls of `racks.threecushion`; or a game of your own. Games of 15
-        balls have those of `racks.eightball`, snooker those of `racks.snooker`.
+        The game, by name, or custom rules. `carom plan --help` lists the names. For the drill
+        "potting" the value is the fraction of the balls that one visit pots; for "threecushion" it
+        is the chance of the point, on a table without pockets with the balls of
+        `racks.threecushion`. Games with 15 balls use the balls of `racks.eightball`, snooker the
+        ones of `racks.snooker`.
     group : {"open", "solids", "stripes"}
-        The balls of the player, where each has a group. Default: "open".
+        The player's group, in games with groups. Default: "open".
     opening : bool
-        Whether the stroke is the break, where the rules have one.
+        Whether the stroke is the break, in games with a break.
     state : dict or ndarray of `carom.dtypes.rules_state`, optional
-        How the game stands, instead of `group` and `opening`: that of a ruling of `referee`, or
-        what differs from a new game, such as `{"score": (5, 6), "target": 50}`. Of each pair the
-        first is the player's. Of rules of your own eight whole numbers.
+        The state of the game, instead of `group` and `opening`: the state of a ruling of `referee`,
+        or the members that differ from a new game, such as `{"score": (5, 6), "target": 50}`. In
+        each pair the player is first. For custom rules, eight integers.
     player : ndarray of `carom.dtypes.player`, shape (), optional
         Default: `carom.player()`.
     opponent : ndarray of `carom.dtypes.player`, shape (), optional
-        Default: he errs as the player does.
+        Default: a player with the same errors.
     shots : int, optional
-        That the plan plays, about: 100 to 1,000,000. Default: 200,000 with `seconds`, else those of
-        `player`, or 2,000.
+        Approximate number of simulated shots, 100 to 1,000,000. Default: 200,000 with `seconds`,
+        otherwise the player's, or 2,000.
     seconds : float
-        At which the plan ends, if it has not played its shots by then; 0 is never. It then has one
-        choice, the best so far.
+        Time limit, s; 0: no limit. If the plan reaches it, it returns only the best choice so far.
     in_hand : {"no", "anywhere", "kitchen", "d", "baulk"} or array_like, shape (2, 2)
-        Where a cue ball in hand may be put, as `hand` of a ruling, or between two corners (m) of a
-        rectangle: `place` of the choices then says where to put it.
+        Where a cue ball in hand may be placed: the `hand` of a ruling, or two corners of a
+        rectangle, m. The field `place` of a choice contains the position.
     best : int
-        How many choices at most.
+        Largest number of choices.
     seed : int or numpy.random.Generator
-        Of the errors of strokes.
+        Seed of the strokes' errors.
     threads : int
-        Most threads to use; 0 is one alone, -1 all processors. No bit depends on it.
+        Largest number of threads: 0 uses only the calling thread, -1 all processors. Results do not
+        depend on it.
     unsure : float
-        How little the player knows of the table, 0 to 1. Above 0 restitution and friction of its
-        cushions, rolling resistance and sliding friction are drawn with the errors of strokes; 1
-        stands for all tables that there are.
+        The player's uncertainty about the table, 0 to 1. Above 0, restitution and friction of the
+        cushions, rolling resistance and sliding friction vary together with the errors of strokes;
+        1 covers the range of existing tables.
     level : bool
-        Whether strokes are by a level cue, whose stick may be in cushions and balls. By default the
-        cue is raised over them.
+        Whether the cue is level and may pass through cushions and balls. By default it is elevated
+        to clear them.
     run_out : bool
-        Whether to plan to run out: a turn that ends before the game is won is worth nothing.
+        Whether to plan a run-out: a turn that ends before the game is won has value 0.
     goal : Goal, optional
-        What the stroke is to leave, such as `Goal("near", place=(0.6, 0.6), distance=0.2)`. `value`
-        is then the chance that it does, without a foul.
+        What the stroke should leave, such as `Goal("near", place=(0.6, 0.6), distance=0.2)`.
+        `value` is then the chance to achieve this without a foul.
     safeties : bool
-        Whether to try only safeties: strokes that without errors pass the turn without a foul.
+        Whether to try only safeties: strokes that, without errors, end the turn without a foul.
     stop : threading.Event, optional
-        Ends the plan early when another thread, or a handler of a signal, sets it: the plan then
-        has one choice, the best so far. Without a handler of yours Ctrl-C ends the plan, too, and
-        raises KeyboardInterrupt.
+        Ends the plan early when another thread or a signal handler sets it; the plan then returns
+        only the best choice so far. Ctrl-C ends the plan with KeyboardInterrupt unless the caller
+        handles the signal.
     options, **changes
-        As for `simulate`; t_final, stop_at and first_of are not read.
+        As for `simulate`; t_final, stop_at and first_of are ignored.
 
     Returns
     -------
     ndarray of `carom.dtypes.plan_stroke`, shape (up to best,)
-        The best first: `cue` is the stroke, `value` the chance to win, and `kind` what the stroke
-        is, as `carom.plans.Kind`.
+        The best one first. `cue` is the stroke, `value` the chance to win, and `kind` the kind of
+        stroke, a `carom.plans.Kind`.
 
     Raises
     ------
     CaromError
-        The layout, the cue or an option is in error.
+        The layout, the cue or an option is invalid.
     """
     check_table(table)
     corners = _corners(in_hand)
@@ -677,7 +701,7 @@ def plan(
 
 
 class RunOut(NamedTuple):
-    """A run-out as one answer."""
+    """A planned run-out: its strokes and its chance."""
 
     strokes: Records
     """`carom.dtypes.sequence_stroke`, shape (strokes,): `choice` is the stroke, `zone` the corners of
@@ -709,21 +733,27 @@ def sequence(
     options: Options = _USUAL,
     **changes: Unpack[Changes],
 ) -> RunOut:
-    """Plan a run-out as a whole: each stroke from what the one before leaves without errors.
+    """Plan a complete run-out: each stroke starts from the layout that the one before leaves
+    without errors.
 
     Parameters
     ----------
     table, balls, cue, rules, group, state, player, shots, in_hand, seed, threads, stop, options
         As for `plan`.
     within : float
-        How much chance to run out the cue ball may lose within a landing zone.
+        Loss of the chance to run out that bounds the landing zone of the cue ball.
     plays : int
-        How many run-outs with errors to play for the chance of the whole, each stroke planned anew.
+        Number of run-outs played with errors to estimate the total chance; each stroke is planned
+        again.
+
+    Returns
+    -------
+    RunOut
 
     Raises
     ------
     CaromError
-        The layout, the cue or an option is in error.
+        The layout, the cue or an option is invalid.
     """
     check_table(table)
     corners = _corners(in_hand)
@@ -774,36 +804,37 @@ def chances(
     options: Options = _USUAL,
     **changes: Unpack[Changes],
 ) -> Records:
-    """How likely strokes of yours are to win: the chances of each, played with a player's errors.
+    """Compute the chances of given strokes, each played with a player's errors.
 
     Parameters
     ----------
     table, balls
         As for `plan`.
     cues : ndarray of `carom.dtypes.cue`, of any shape
-        Up to 1,000 strokes. Speed, direction, elevation and tip of each count; the rest is that of
-        the first.
+        Up to 1,000 strokes. Speed, direction, elevation and tip of each are used; the rest of the
+        cue is taken from the first.
     rules, group, opening, state, player, opponent, seed, threads, unsure, options, **changes
         As for `plan`.
     shots : int
-        100 to 1,000,000, of which each stroke has an equal share, at least 10.
+        Total number of shots, 100 to 1,000,000, divided equally among the strokes, at least 10
+        each.
     stop : threading.Event, optional
-        As for `plan`: strokes that were not played before have `seen` 0 and the value NaN.
+        As for `plan`. Strokes that were not played by then have `seen` 0 and the value NaN.
 
     Returns
     -------
     ndarray of `carom.dtypes.plan_stroke`, of the shape of `cues`
-        In their order. `value` is the chance to win, `keep` that to play on; `ball` and `pocket`
-        are what falls without errors.
+        In the order of `cues`. `value` is the chance to win, `keep` the chance to keep the turn;
+        `ball` and `pocket` are the pot without errors.
 
     Raises
     ------
     CaromError
-        The layout, a stroke or an option is in error.
+        The layout, a stroke or an option is invalid.
     """
     strokes = copied(of_record(cues, dtypes.cue, "cues", "cue()"))
     if not 1 <= strokes.size <= 1000:
-        raise ValueError(f"cues: 1 to 1000 are needed, not {strokes.size}")
+        raise ValueError(f"cues: there are {strokes.size}; pass 1 to 1000")
     game = Made(rules, state, group, opening)
     job = Job(
         table,
@@ -844,16 +875,16 @@ def value(
     options: Options = _USUAL,
     **changes: Unpack[Changes],
 ) -> float:
-    """The chance that the player at the table wins from a layout, 0 to 1: an estimate that plays no
-    shot, in some 20 us.
+    """Estimate the chance that the player at the table wins from a layout, 0 to 1.
 
-    Without an opponent it is the share of the balls that one visit pots. The arguments are those of
-    `plan`; `in_hand` says whether the cue ball may be put anywhere.
+    The estimate simulates no shot and takes about 20 us. In games without an opponent it is the
+    fraction of the balls that one visit pots. The arguments are as for `plan`; `in_hand` is whether
+    the cue ball may be placed anywhere.
 
     Raises
     ------
     CaromError
-        The layout or an option is in error.
+        The layout or an option is invalid.
     """
     job = Job(
         table,

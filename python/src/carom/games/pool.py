@@ -1,15 +1,15 @@
-"""Eight-ball and nine-ball for two players: the rules, over whole shots.
+"""Eight-ball and nine-ball for two players: the rules as functions of positions and strokes.
 
-`carom.pettingzoo` and `carom.gymnasium` are environments for agents.
+`carom.pettingzoo` and `carom.gymnasium` are the environments for agents.
 
     rules = Pool("nineball")
     position = rules.begin(seed=1)
     position, stroke = rules.play(position, [0.5, 0.9, 0, 0.2, 0, 0])
 
-The rules are those of `carom.referee`, the World Pool-Billiard Association's (wpapool.com, 2016,
-sections 2, 3 and 6), with the following left out: there is no push out and no lag, and player 0
-breaks. In eight-ball the call of a stroke is the ball and the pocket that it would pot without
-noise: the first ball that the player may pot.
+`carom.referee` judges by the rules of the World Pool-Billiard Association (wpapool.com, 2016,
+sections 2, 3 and 6), except that there is no push out and no lag, and player 0 breaks. In
+eight-ball the call of a stroke is the first legal ball that it would pot without noise, and the
+pocket.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from __future__ import annotations
 import enum
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from carom import racks
-from carom._rows import Array, Arrays, Seed, choice, listing, seed_of
+from carom._rows import Array, Arrays, Seed, listing, named, seed_of
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
 from carom.games._draws import Draws
@@ -40,16 +40,16 @@ __dir__ = listing(__name__)
 
 _ONE = np.zeros(1, np.int64)
 PLANNED = 100
-"""The least number of shots of a plan."""
+"""Smallest number of shots of a plan."""
 _GAMES = {"nineball": 9, "eightball": 15}
 _WORTH = np.array(
     [0.5, 0.0, 1.0, -1.0]
-)  # of a stroke that keeps the turn, passes it, wins and loses
+)  # value of a stroke that keeps the turn, passes it, wins, loses
 _LOSE = 3
 
 
 class Hand(enum.IntEnum):
-    """Where the player may put the cue ball."""
+    """Where the player may place the cue ball."""
 
     NOWHERE = 0
     BEHIND = 1
@@ -62,47 +62,45 @@ class Position(Arrays):
     """A game between two strokes."""
 
     balls: Records  # (10,) or (16,): The cue ball, then 1 to 9 or 1 to 15
-    player: int  # Whose turn it is, 0 or 1
+    player: int  # The player at the table, 0 or 1
     hand: Hand  # Whether that player has the cue ball in hand
-    state: State  # (): Of the rules, as that player has it, for `carom.plan` and `carom.referee`
-    strokes: int  # Played until now
+    state: State  # (): State of the rules for this player, for `carom.plan` and `carom.referee`
+    strokes: int  # Number of strokes played
     winner: int | None
-    # The random numbers of the game: noise, and places that a player chose but that were not free
+    # The random stream of the game, for noise and for replacing occupied positions of the cue ball
     draws: Draws
 
     @property
     def fouls(self) -> tuple[int, int]:
-        """Of player 0 and of player 1 in nine-ball, in consecutive strokes of that player; three
-        lose the game.
-        """
+        """Consecutive fouls of player 0 and player 1 in nine-ball; three lose the game."""
         personal, rival = self.state["fouls"].tolist()
         return (personal, rival) if self.player == 0 else (rival, personal)
 
 
 @dataclass(frozen=True)
 class Stroke:
-    """What a stroke was."""
+    """The result of a stroke."""
 
-    foul: str  # Why it was a foul; empty for a legal stroke
-    code: int  # The same as a `carom.Foul`
-    first: int | None  # The ball that the cue ball touched first
-    potted: tuple[int, ...]  # Without the cue ball, in their order
+    foul: str  # Reason of the foul; "" for a legal stroke
+    code: int  # The foul as a `carom.Foul`
+    first: int | None  # First ball that the cue ball hit
+    potted: tuple[int, ...]  # In order, without the cue ball
     shot: Shot
 
 
 class Pool:
     """The rules of a game.
 
-    An **action** is six numbers from -1 to 1: direction, speed and place of the tip as in
-    `carom.potting.Potting`, then where the cue ball is put, if it is in hand: along the width and
-    the length of the table, or of the part behind the head string. A place that is not free becomes
-    a random one that is.
+    An **action** is six numbers from -1 to 1: direction, speed and tip (two numbers) as in
+    `carom.potting.Potting`, then the position of a cue ball in hand along the width and the length
+    of the table, or of the area behind the head string. An occupied position is replaced by a
+    random free one.
 
     Parameters
     ----------
     game : {"nineball", "eightball"}
     table, noise, parameters, speeds, cushion_model
-        As for `Potting`. The balls are those of pool.
+        As for `Potting`. The balls are pool balls.
     """
 
     def __init__(
@@ -115,10 +113,9 @@ class Pool:
         speeds: tuple[float, float] = (0.5, 10.5),
         cushion_model: ShotCushion = "default",
     ) -> None:
-        choice(_GAMES, game, "game")
-        self.game = game
+        self.game = cast(Literal["nineball", "eightball"], named(_GAMES, game, "game"))
         self.base = Potting(
-            _GAMES[game],
+            _GAMES[self.game],
             1,
             table=table,
             noise=noise,
@@ -129,8 +126,8 @@ class Pool:
         self.table = self.base.table
 
     def begin(self, seed: Seed) -> Position:
-        """The position before the break: the rack drawn from a seed, the cue ball in hand behind
-        the head string.
+        """Return the position before the break: a random rack, the cue ball in hand behind the head
+        string.
         """
         seed = seed_of(seed, 2**64 - 1)
         draws = Draws([seed])
@@ -146,7 +143,9 @@ class Pool:
     # -------------------------------------------------------------------------------------------
 
     def area(self, hand: Hand) -> tuple[Doubles, Doubles]:
-        """The lower and the upper corner, m, of the rectangle in which a cue ball in hand is put."""
+        """The lower and the upper corner, m, of the rectangle in which a cue ball in hand is
+        placed.
+        """
         low = np.full(2, self.base.radius + 1e-3)
         length = self.table.length / 4.0 if hand is Hand.BEHIND else self.table.length - low[1]
         return low, np.array([self.table.width - low[0], length])
@@ -159,11 +158,10 @@ class Pool:
         shots: int = 500,
         seed: Seed = 0,
     ) -> Doubles:
-        """The action, of shape (6,), of the library's planner: a baseline and an opponent for
-        agents. It allows for the noise.
+        """Return the planner's action, shape (6,): a baseline and an opponent for agents.
 
-        `opponent` is a `carom.player()`; by default he errs as the noise says. The plan has so many
-        `shots`.
+        The plan allows for the noise and simulates `shots` shots. `opponent` is a `carom.player()`;
+        by default a player with the same noise.
         """
         low, high = self.area(position.hand)
         found = self.planned(position, self.base.player(), opponent, shots, seed, level=True)
@@ -182,9 +180,7 @@ class Pool:
         seed: Seed,
         level: bool = False,
     ) -> Records:
-        """The best choice of `carom.plan`, of shape (), for a player; actions are strokes of a
-        level cue.
-        """
+        """The best choice of `carom.plan` with a level cue, shape ()."""
         found: Array = plan(
             self.table,
             position.balls,
@@ -209,11 +205,11 @@ class Pool:
         shots: int,
         seed: int,
     ) -> tuple[Records, Records, tuple[int, int]]:
-        """The stroke of a player who thinks for so many shots, without errors: the layout, in which
-        he has put a cue ball in hand, the cue and the call.
+        """Choose a stroke by simulating `shots` shots, without errors.
 
-        From PLANNED shots on it is that of `carom.plan`; with fewer it is the best of so many
-        strokes straight at balls (`carom.games._quick`).
+        Returns the layout with the placed cue ball, the cue and the call. With PLANNED or more
+        shots `carom.plan` chooses; with fewer it is the best of as many strokes straight at balls
+        (`carom.games._quick`).
         """
         if shots < PLANNED:
             return quick_stroke(self, position, shots)
@@ -224,12 +220,12 @@ class Pool:
         return laid, found["cue"], (int(found["ball"]), int(found["pocket"]))
 
     def on(self, position: Position) -> tuple[int, ...]:
-        """The balls that the player may meet first."""
+        """The balls that the cue ball may hit first."""
         return on_of(Made(self.game, position.state), position.balls)
 
     def put(self, balls: Records, hand: Hand, point: ArrayLike, draws: Draws) -> None:
-        """Put the cue ball of a layout where it is wanted, two numbers from -1 to 1, or where that
-        is not free, at random.
+        """Place the cue ball at two coordinates from -1 to 1, or at random if that position is
+        occupied.
         """
         low, high = self.area(hand)
         part = (np.clip(point, -1.0, 1.0) + 1.0) / 2.0
@@ -238,7 +234,7 @@ class Pool:
             self.lay(balls, low + (high - low) * draws.uniform(_ONE, 2)[0])
 
     def lay(self, balls: Records, place: ArrayLike) -> None:
-        """Lay the cue ball of layouts (..., balls) to places (..., 2), m, at rest."""
+        """Place the cue balls of layouts (..., balls) at rest at positions (..., 2), m."""
         state = balls["state"]
         state["r"][..., 0, :2], state["r"][..., 0, 2] = place, self.base.radius
         state["v"][..., 0, :], state["w"][..., 0, :] = 0.0, 0.0
@@ -248,12 +244,12 @@ class Pool:
     # --------------------------------------------------------------------------------------------------------
 
     def play(self, position: Position, action: ArrayLike) -> tuple[Position, Stroke]:
-        """Play a stroke: the position after it, and what it was."""
+        """Play a stroke; returns the position after it and its result."""
         values = np.asarray(action, dtype=np.float64)
         if values.shape != (6,) or not np.isfinite(values).all():
-            raise ValueError(f"action: six finite numbers are needed, not {values}")
+            raise ValueError(f"action: {values} are not six finite numbers")
         if position.winner is not None:
-            raise ValueError("position: the game has ended")
+            raise ValueError("position: the game has ended; call begin() for a new one")
         balls, draws = position.balls.copy(), position.draws.copy()
         if position.hand:
             self.put(balls, position.hand, values[4:], draws)
@@ -267,8 +263,9 @@ class Pool:
     def struck(
         self, position: Position, cue: Records, call: tuple[int, int] = (-1, -1)
     ) -> tuple[Position, Stroke]:
-        """The position after a stroke of a cue, without noise, and what it was; the cue ball has
-        been put on the table.
+        """Play a cue without noise; returns the position after it and its result.
+
+        The cue ball must have been placed on the table.
         """
         ruled = referee(
             self.table,
@@ -311,14 +308,16 @@ class Pool:
         )
 
     def played(self, layouts: Records, cues: Records) -> Shots:
-        """Strokes of cues from layouts, with features."""
+        """The shots of cues from layouts, with features."""
         return simulate_batch(
             self.table, layouts, cues, features=True, cushion_model=self.base.cushion_model
         )
 
     def tried(self, position: Position, actions: ArrayLike) -> Doubles:
-        """What actions of shape (n, 6) give without noise, of shape (n,): 1 for a win, 0.5 where
-        the player goes on, 0 where the other plays, -0.5 for a foul, -1 for a loss.
+        """Evaluate actions of shape (n, 6) without noise.
+
+        Returns shape (n,): 1 for a win, 0.5 for keeping the turn, 0 for passing it, -0.5 for a
+        foul, -1 for a loss.
         """
         values = np.asarray(actions, dtype=np.float64)
         layouts = np.repeat(position.balls[np.newaxis], len(values), axis=0)
@@ -338,7 +337,7 @@ class Pool:
 
     @staticmethod
     def worth(turns: Array) -> Doubles:
-        """What strokes are worth to the player, as `tried` has it, by `carom.dtypes.turn`."""
+        """The values of strokes, as in `tried`, from their `carom.dtypes.turn`."""
         foul = (turns["foul"] != 0) & (turns["outcome"] != _LOSE)
         return np.where(foul, -0.5, _WORTH[turns["outcome"]])
 
@@ -346,11 +345,11 @@ class Pool:
     # ---------------------------------------------------------------------------------------------------
 
     def observe(self, position: Position, player: int) -> Doubles:
-        """What a player sees: x, y (m) and 1 in play of each ball, the cue ball first, 30 or 48
-        numbers; then three more.
+        """Return a player's observation: 33 numbers in nine-ball, 51 in eight-ball.
 
-        They are the hand, and in nine-ball fouls of his and of the other; in eight-ball 1 before
-        the break, and the group: 0 open, 1 he has the solids, 2 the stripes.
+        For each ball, the cue ball first: x, y (m), and 1 if it is in play. Then the hand; in
+        nine-ball the player's and the other's fouls; in eight-ball 1 before the break, and the
+        player's group: 0 open, 1 solids, 2 stripes.
         """
         seen = self.base.observe(position.balls, 0.0)[:-1]
         if self.game == "nineball":
@@ -370,7 +369,7 @@ class Pool:
         )
 
     def seen(self, observation: ArrayLike) -> Position:
-        """The position, with player 0 at the table, of an observation of the player at the table."""
+        """The position of an observation of the player at the table, who becomes player 0."""
         values = np.asarray(observation, np.float64)
         hand, second, third = (int(number) for number in values[-3:])
         given_state = (
@@ -390,7 +389,7 @@ class Pool:
         )
 
     def bounds(self) -> tuple[Doubles, Doubles]:
-        """The least and the most of each number of an observation."""
+        """The lower and upper bounds of an observation."""
         low, high = self.base.bounds()
         most = [2.0, 3.0, 3.0] if self.game == "nineball" else [2.0, 1.0, 2.0]
         return np.concatenate([low[:-1], np.zeros(3)]), np.concatenate([high[:-1], np.array(most)])

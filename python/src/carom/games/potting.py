@@ -1,19 +1,18 @@
-"""A game for agents: pot as many balls of a random layout as you can within a number of strokes.
+"""A game for agents: pot as many balls of a random layout as possible with a number of strokes.
 
-`carom.gymnasium` plays it.
+`carom.gymnasium` has the environments. `carom.drills` contains other games with this interface, and
+`carom.matches` games against an opponent.
 
-`carom.drills` has others of the same form, `carom.matches` those against an opponent.
-
-This module does not need gymnasium. `Potting` has the rules, as functions of arrays over many
-games. An agent that plans can use them: it plays a thousand strokes from its observation, and then
-chooses one.
+This module does not need gymnasium. `Potting` implements the rules as functions of arrays over many
+games. An agent that plans can use them to simulate a thousand strokes from its observation before
+it chooses one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,9 +22,9 @@ from carom._carom import ffi, lib
 from carom._rows import (
     Arrays,
     broadcast,
-    choice,
     in_chunks,
     listing,
+    named,
     number,
     one_or_all,
     pointer,
@@ -34,6 +33,7 @@ from carom._rows import (
     raw,
     repeated,
     several,
+    unknown_name,
     whole,
 )
 from carom._shot_options import Options, ShotCushion, shot_options
@@ -64,90 +64,88 @@ class Strokes(Arrays):
     # (..., balls + 1): The balls at rest after the stroke. A cue ball that was potted is still
     # down.
     layouts: Records
-    rewards: Doubles  # (...): Balls that were potted, less 1 for a foul; or the result of `reward` of the rules
-    potted: NDArray[np.int64]  # (...): Balls that were potted, without the cue ball
+    rewards: Doubles  # (...): Number of potted balls, minus 1 for a foul; or the result of `reward` of the rules
+    potted: NDArray[np.int64]  # (...): Number of potted balls, without the cue ball
     scratch: NDArray[np.bool_]  # (...): Whether the cue ball was potted
     foul: NDArray[np.int32]  # (...): As `carom.Foul`; 0 for none
-    # (...): As `carom.Status`. After an error, or where a ball left the table, the stroke is a
-    # foul, and the balls stay where they were.
+    # (...): As `carom.Status`. If the shot failed or a ball left the table, the stroke is a foul, and
+    # the balls return to their positions before it.
     status: NDArray[np.int8]
     time: Doubles  # (...): How long the balls moved, s
     cleared: NDArray[np.bool_]  # (...): Whether all balls but the cue ball are down
 
 
 class Turned(NamedTuple):
-    """What a stroke of each of some games was, for the environments."""
+    """The results of one stroke in each of some games, for the environments."""
 
     struck: Records  # (..., balls + 1): The layouts as they were struck
     cues: Records  # (...): The strikes, with the noise
     strokes: Strokes
-    ended: NDArray[np.bool_]  # (...): Whether the game is over, whatever strokes are left
+    ended: NDArray[np.bool_]  # (...): Whether the game is over, even if strokes are left
 
 
 def in_space(actions: ArrayLike, shape: tuple[int, ...], name: str) -> Doubles:
-    """The actions that an environment is given: numbers of its space, from -1 to 1, of a shape."""
+    """Check the actions of an environment: their shape, and values from -1 to 1."""
     array = as_array(actions, name, np.float64)
     if array.shape != shape:
-        raise ValueError(f"{name}: the shape must be {shape}, not {array.shape}")
-    # in single precision, as policies give them, 1 may be a little more
+        raise ValueError(f"{name}: the shape is {array.shape}, but must be {shape}")
+    # policies return single precision, in which 1 may be exceeded slightly
     outside = ~(np.abs(array) <= 1.0 + 1e-6)
     if outside.any():
         where = tuple(int(k) for k in np.argwhere(outside)[0])
         raise ValueError(
-            f"{name}: each number must be from -1 to 1, not {array[where]:g}, which is at {list(where)}; "
-            "np.clip or gymnasium.wrappers.ClipAction brings it there"
+            f"{name}: {array[where]:g}, at {list(where)}, is not from -1 to 1; "
+            "use np.clip or gymnasium.wrappers.ClipAction"
         )
     return array
 
 
 class Potting:
-    """The rules: balls lie at random on a table of pool, the cue ball among them, and a number of
-    strokes is to pot them.
+    """The rules: pot the balls of a random layout on a pool table with a number of strokes.
 
-    An **action** is four numbers from -1 to 1 (what is beyond is taken as the bound): the
-    direction, 180 degrees times it, from +x towards +y; the speed of the cue, from the least to the
-    most; and where the tip touches the ball, to the left and above the centre, 0.35 radii times
-    them, so that it never slips off. The cue is level: its stick may be in cushions and balls.
+    An **action** is four numbers, which are clipped to -1 to 1. The first times 180 degrees is the
+    direction, counterclockwise from +x. The second is the speed of the cue between its limits. The
+    last two times 0.35 radii are the offsets of the tip to the left of and above the centre, which
+    rules out a miscue. The cue is level and may pass through cushions and balls.
 
-    An **observation** is 3 (balls + 1) + 1 numbers: x (m), y (m) and whether it is in play (1 or 0,
-    with x = y = 0) of each ball, the cue ball first; then how many strokes are left. It is all that
-    there is to know: `layouts()` makes the same balls of it, to the bit.
+    An **observation** is 3 (balls + 1) + 1 numbers. For each ball, the cue ball first, it contains
+    x (m), y (m) and 1, or three zeros if the ball is not in play; then the number of strokes left.
+    It describes the game completely: `layouts()` reconstructs the balls with the same bits.
 
-    The **reward** of a stroke is how many balls it pots, less 1 for a foul: the cue ball goes down
-    too (it is then put back at random) or meets no ball, a ball leaves the table, or the stroke
-    ends in an error (these two are taken back). The game ends when all balls are down, or with the
-    last stroke.
+    The **reward** of a stroke is the number of balls that it pots, minus 1 for a foul. It is a foul
+    if the cue ball falls (it is then replaced at random) or hits no ball; or if a ball leaves the
+    table or the shot fails (both are undone). The game ends when no object ball is left, or after
+    the last stroke.
 
     Parameters
     ----------
     balls, strokes : int
-        Besides the cue ball, 1 to 15; and at least 1.
+        Number of object balls, 1 to 15, and of strokes, at least 1.
     table : Table, optional
-        A rectangular one with pockets, of which 0 <= x <= width, 0 <= y <= length is the bed; by
-        default `carom.tables.snooker()` for balls of snooker, otherwise `pool_9ft()`.
+        A rectangular table with pockets and the bed 0 <= x <= width, 0 <= y <= length. Default:
+        `carom.tables.snooker()` for snooker balls, otherwise `pool_9ft()`.
     ball_set : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker",
-        "pooltool_billiard"}
-        Whose balls they are, as for `carom.balls`.
+        "pooltool_billiard"} The game whose balls are used, as for `carom.balls`.
     noise : tuple of three floats
-        How exactly an agent plays: standard deviations of the direction (degrees), of the speed
-        (m/s) and of the place of the tip (radii, each way). The environments add it to every
-        action; `play` does not.
+        Errors of the agent: standard deviations of the direction (degrees), of the speed (m/s) and
+        of the tip's position (radii, in each direction). The environments add them to every action;
+        `play` does not.
     parameters : mapping of a field of `carom.dtypes.ball_kind` to two floats
         Bounds between which each game draws the field for all its balls, for example `{"mu_slide":
-        (0.15, 0.25)}`. Agents do not see it.
+        (0.15, 0.25)}`. Agents do not observe the value.
     reward : callable, optional
-        reward(balls, strokes) gives the rewards, of shape (...): `balls` are the layouts before,
-        `strokes` what they gave.
+        reward(balls, strokes) returns the rewards, of shape (...), for the layouts `balls` before
+        the strokes and their results `strokes`.
     speeds : tuple of two floats
-        The least and the most speed of the cue, m/s.
+        The lowest and the highest speed of the cue, m/s.
     cushion_model, threads
         As for `carom.simulate_batch`.
     """
 
     acts: ClassVar[int] = 4
-    """How many numbers an action has."""
+    """Number of elements of an action."""
     words: ClassVar[tuple[int, ...]] = ()
-    """What the state of a game has besides its balls, as it begins."""
+    """The initial state of a game in addition to its balls."""
     _game: ClassVar[RulesGame] = "potting"
     _state: ClassVar[dict[str, Any] | None] = None
 
@@ -167,28 +165,28 @@ class Potting:
     ) -> None:
         whole(balls, "balls", least=1, most=15)
         whole(strokes, "strokes", least=1)
-        requirement = "two speeds are needed, the least and the most, m/s"
+        requirement = "two speeds: the lowest and the highest, m/s"
         speeds_given = [
             number(speed, "speeds", requirement) for speed in several(speeds, "speeds", requirement)
         ]
         if len(speeds_given) != 2 or not 0.0 < speeds_given[0] <= speeds_given[1] < np.inf:
             raise ValueError(
-                f"speeds: must be the least and the most, positive and finite, not {speeds}"
+                f"speeds: {speeds} are not two positive and finite speeds, the lower one first"
             )
-        requirement = "three standard deviations are needed, of degrees, m/s and radii"
+        requirement = "three standard deviations, in degrees, m/s and radii"
         deviations = [
             number(deviation, "noise", requirement)
             for deviation in several(noise, "noise", requirement)
         ]
         if len(deviations) != 3 or not all(0.0 <= deviation < np.inf for deviation in deviations):
             raise ValueError(
-                f"noise: must be three standard deviations, of degrees, m/s and radii, not {noise}"
+                f"noise: {noise} are not three standard deviations, in degrees, m/s and radii"
             )
         if reward is not None and not callable(reward):
             raise TypeError(
-                f"reward: a function of the layouts and what the strokes gave is needed, not {reward!r}"
+                f"reward: {reward!r} is not callable; pass a function of the layouts and the strokes"
             )
-        choice(layouts.GAMES, ball_set, "ball_set")
+        ball_set = cast(Game, named(layouts.GAMES, ball_set, "ball_set"))
         pockets = self._game != "threecushion"
         usual = (
             tables.snooker
@@ -200,7 +198,9 @@ class Potting:
         self.table = usual() if table is None else table
         layouts.check_table(self.table)
         if (len(self.table.pockets) > 0) != pockets:
-            raise ValueError(f"table: must have {'' if pockets else 'no '}pockets")
+            raise ValueError(
+                f"table: it has {'no ' if pockets else ''}pockets; this game needs a table {'with' if pockets else 'without'} them"
+            )
         size, p, q = (
             np.array([self.table.width, self.table.length]),
             self.table.rails["p"],
@@ -209,8 +209,8 @@ class Potting:
         for place in np.concatenate([p, q, (p + q) / 2.0]):
             if (place > 1e-6).all() and (place < size - 1e-6).all():
                 raise ValueError(
-                    f"table: its rails must lie around 0 <= x <= width = {size[0]:.6g} m, 0 <= y <= length = {size[1]:.6g} m; "
-                    f"there is one at x = {place[0]:.6g} m, y = {place[1]:.6g} m"
+                    f"table: there is a rail at x = {place[0]:.6g} m, y = {place[1]:.6g} m, inside the bed; rails must "
+                    f"surround 0 <= x <= width = {size[0]:.6g} m, 0 <= y <= length = {size[1]:.6g} m"
                 )
         self.balls = balls
         self.strokes = strokes
@@ -225,13 +225,13 @@ class Potting:
         self._for_c()
         if not isinstance({} if parameters is None else parameters, Mapping):
             raise TypeError(
-                f"parameters: bounds by the names of fields are needed, such as {{'mu_slide': (0.15, 0.25)}}, not {parameters!r}"
+                f"parameters: {parameters!r} is not a mapping from fields to bounds, such as {{'mu_slide': (0.15, 0.25)}}"
             )
         self.parameters = dict({} if parameters is None else parameters)
         self._check_parameters()
 
     def _for_c(self) -> None:
-        """The game as C has it, with what it points to."""
+        """The game for C, with the objects it points to."""
         self._rules = Made(self._game, self._state)
         record, of_c, cue, player = self._kept = (
             self.table.record,
@@ -267,22 +267,27 @@ class Potting:
         ends = repeated(self._ball, dtypes.shot_ball, (2,))
         ends["state"]["r"][:, :2] = 0.3 * self.table.width, 0.3 * self.table.length
         for name, bounds in self.parameters.items():
-            if name not in known or len(bounds) != 2 or not bounds[0] <= bounds[1]:
+            if name not in known:
                 raise ValueError(
-                    f"parameters: must give the least and the most of one of {', '.join(known)}, not {name!r}: {bounds}"
+                    unknown_name("parameters", "field", name, known, "help(carom.balls)")
+                )
+            if len(bounds) != 2 or not bounds[0] <= bounds[1]:
+                raise ValueError(
+                    f"parameters: {name}: {bounds} are not two bounds, the lower one first"
                 )
             ends["kind"][name] = bounds
         for k in range(2):
             simulate(
                 self.table, ends[k : k + 1]
-            )  # raises CaromError where a bound is out of the field's range
+            )  # raises CaromError if a bound is out of the field's range
 
     # ---- Actions and observations
     # ---------------------------------------------------------------------------------------
 
     def bounds(self) -> tuple[Doubles, Doubles]:
-        """The least and the most of each number of an observation; balls may rest in the mouth of a
-        pocket, beyond the cushions.
+        """The lower and upper bounds of an observation.
+
+        They extend beyond the cushions, because balls may rest in the mouth of a pocket.
         """
         beyond = 0.2
         low = np.append(np.tile([-beyond, -beyond, 0.0], self.balls + 1), 0.0)
@@ -293,9 +298,9 @@ class Potting:
         return low, high
 
     def cues(self, actions: ArrayLike, seeds: NDArray[np.uint64] | None = None) -> Records:
-        """The strikes of actions, of shape (..., acts): `carom.dtypes.cue` of shape (...).
+        """Return the strikes of actions of shape (..., acts): `carom.dtypes.cue` of shape (...).
 
-        With seeds, of shape (...), they err by the noise, as `carom.with_errors` has it.
+        With seeds, of shape (...), the noise is added, as in `carom.with_errors`.
         """
         values = np.ascontiguousarray(actions, dtype=np.float64)
         if values.shape[-1] == self.acts:
@@ -311,7 +316,7 @@ class Potting:
             ):
                 return cues
         raise ValueError(
-            f"actions: finite numbers of shape (..., {self.acts}) are needed, not of shape {values.shape}: {values}"
+            f"actions: {values}, of shape {values.shape}, are not finite numbers of shape (..., {self.acts})"
         )
 
     def actions(
@@ -321,13 +326,13 @@ class Potting:
         a: ArrayLike = 0.0,
         b: ArrayLike = 0.0,
     ) -> Doubles:
-        """The actions, of shape (..., 4), of directions (degrees), speeds (m/s) and places of the
-        tip (radii), of shape (...).
+        """Return actions of shape (..., 4) for directions (degrees), speeds (m/s) and tip offsets
+        (radii) of shape (...).
         """
         least, most = self.speeds
         if not all(np.isfinite(part).all() for part in (phi, speed, a, b)):
             raise ValueError(
-                f"phi, speed, a, b: finite numbers are needed, not {phi!r}, {speed!r}, {a!r}, {b!r}"
+                f"phi, speed, a, b: {phi!r}, {speed!r}, {a!r}, {b!r} are not all finite"
             )
         turn = (np.asarray(phi, dtype=np.float64) + 180.0) % 360.0 / 180.0 - 1.0
         hard = 2.0 * (np.asarray(speed, dtype=np.float64) - least) / max(most - least, 1e-12) - 1.0
@@ -340,8 +345,8 @@ class Potting:
         return np.stack(parts, axis=-1)
 
     def observe(self, balls: Records, strokes_left: ArrayLike, words: object = None) -> Doubles:
-        """What an agent sees of layouts, of shape (..., balls + 1): of shape (..., 3 (balls + 1) +
-        1).
+        """Return the observations, shape (..., 3 (balls + 1) + 1), of layouts of shape (..., balls
+        + 1).
         """
         layouts = np.ascontiguousarray(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
         count = layouts.shape[-1]
@@ -356,20 +361,20 @@ class Potting:
         return seen
 
     def layouts(self, observations: ArrayLike) -> Records:
-        """The balls of observations: `carom.dtypes.shot_ball` of shape (..., balls + 1)."""
+        """Return the balls of observations: `carom.dtypes.shot_ball` of shape (..., balls + 1)."""
         values = np.asarray(observations, dtype=np.float64)
         seen = values[..., :-1].reshape((*values.shape[:-1], self.balls + 1, 3))
         return self._balls(seen[..., :2], seen[..., 2] != 0.0)
 
     def _balls(self, centres: Doubles, in_play: NDArray[np.bool_]) -> Records:
-        """Balls at rest, those that are not in play in a pocket."""
+        """Balls at rest; balls that are not in play are in a pocket."""
         records = repeated(self._ball, dtypes.shot_ball, centres.shape[:-1])
         records["state"]["r"][..., :2] = centres
         records["state"]["label"] = np.where(in_play, _STATIONARY, _POCKETED)
         return records
 
     def player(self) -> Records:
-        """The player with the noise, the speeds and the tip of this game, for `carom.plan`."""
+        """Return a player with the noise, speeds and tip limits of this game, for `carom.plan`."""
         record = plans.player(0.0)
         record["phi"], record["a"], record["b"] = self.noise[0], self.noise[2], self.noise[2]
         record["growth"] = 0.0
@@ -379,11 +384,10 @@ class Potting:
         return record
 
     def best(self, balls: Records, *, shots: int = 500, seed: Seed = 0) -> Doubles:
-        """The action, of shape (4,), of the library's planner for a layout of shape (balls + 1,): a
-        baseline for agents.
+        """Return the planner's action, shape (4,), for a layout of shape (balls + 1,), as a
+        baseline.
 
-        It looks for the stroke that pots the largest share of the balls in one visit, by a plan of
-        so many `shots`.
+        The plan simulates `shots` shots and maximises the fraction of balls potted in one visit.
         """
         found = plans.plan(
             self.table,
@@ -400,12 +404,13 @@ class Potting:
         return self.actions(found["phi"], found["speed"], found["a"], found["b"])
 
     def best_seen(self, observation: ArrayLike, *, shots: int = 500, seed: Seed = 0) -> Doubles:
-        """The action, of shape (acts,), of the library's planner for an observation."""
+        """Return the planner's action, shape (acts,), for an observation."""
         return self.best(self.layouts(observation), shots=shots, seed=seed)
 
     def tried(self, observation: ArrayLike, actions: ArrayLike) -> Doubles:
-        """What actions of shape (..., acts) are worth for the next stroke alone, without noise, of
-        shape (...): here their rewards.
+        """Evaluate actions of shape (..., acts) by their next stroke, without noise.
+
+        Returns shape (...); for this game, the rewards.
         """
         return self.play(self.layouts(observation), actions).rewards
 
@@ -413,7 +418,7 @@ class Potting:
     # -------------------------------------------------------------------------------------------------------
 
     def deal(self, draws: Draws, games: Games) -> Records:
-        """Random layouts of some games, of shape (len(games), balls + 1), with random parameters."""
+        """Draw layouts for some games, of shape (len(games), balls + 1), with random parameters."""
         layouts = repeated(self._ball, dtypes.shot_ball, (len(games), self.balls + 1))
         self._place(layouts, draws, games, self.balls + 1)
         for name, (low, high) in self.parameters.items():
@@ -421,13 +426,13 @@ class Potting:
         return layouts
 
     def layout(self, centres: ArrayLike) -> Records:
-        """A layout of shape (balls + 1,) with centres (m) of shape (balls + 1, 2), which are
-        checked.
+        """Make a layout of shape (balls + 1,) from centres (m) of shape (balls + 1, 2), and check
+        it.
         """
         places = np.asarray(centres, dtype=np.float64)
         if places.shape != (self.balls + 1, 2):
             raise ValueError(
-                f"layout: the shape must be ({self.balls + 1}, 2), the cue ball first, not {places.shape}"
+                f"layout: the shape is {places.shape}, but must be ({self.balls + 1}, 2), the cue ball first"
             )
         layout = self._balls(places, np.ones(self.balls + 1, np.bool_))
         simulate(
@@ -436,14 +441,14 @@ class Potting:
         return layout
 
     def put_back(self, balls: Records, draws: Draws, games: Games) -> None:
-        """Put the cue balls of some games, layouts of shape (len(games), balls + 1), back on the
-        table, at random.
+        """Replace the cue balls of some games at random, in layouts of shape (len(games), balls +
+        1).
         """
         self._place(balls, draws, games, 1)
 
     def _place(self, balls: Records, draws: Draws, games: Games, many: int) -> None:
-        """Place the first balls of layouts, drawn together until all are clear of each other, of
-        what is fixed, and of the others in play.
+        """Draw positions for the first balls of layouts until they are clear of each other, of the
+        table and of the other balls in play.
         """
         keys = draws.keys[games]
         if not lib.carom_python_place(
@@ -454,16 +459,16 @@ class Potting:
             pointer("carom_shot_ball[]", balls),
         ):
             raise ValueError(
-                f"table: no free places for {many} balls in 10,000 draws: it is too small for {self.balls}"
+                f"table: no free positions for {many} balls in 10,000 draws; it is too small for {self.balls} balls"
             )
         draws.keys[games] = keys
 
     def free(self, balls: Records) -> bool:
-        """Whether the cue ball of a layout is clear of the others in play, of pockets and of jaws."""
+        """Whether the cue ball is clear of the other balls in play, of pockets and of jaws."""
         return bool(lib.carom_python_free(self._c, pointer("carom_shot_ball[]", balls), 1))
 
     def placed(self, balls: Records, actions: ArrayLike) -> Records:
-        """The layouts with what actions place: here nothing."""
+        """The layouts after placing balls by the actions; this game places none."""
         return balls
 
     def play(self, balls: Records, actions: ArrayLike) -> Strokes:
@@ -473,19 +478,19 @@ class Potting:
         ----------
         balls : ndarray of `carom.dtypes.shot_ball`, shape (..., balls + 1)
         actions : array_like, shape (..., 4)
-            Broadcast against the leading dimensions of the balls: many actions from one layout, or
-            one for each of many.
+            Broadcast against the leading dimensions of the balls: many actions for one layout, or
+            one action for each layout.
 
         Returns
         -------
         Strokes
-            Of the broadcast shape. Each stroke has the bits that it has alone.
+            Arrays of the broadcast shape. Each stroke has the same bits as in a single call.
         """
         laid = of_record(balls, dtypes.shot_ball, "balls", "balls()")
         return self._played(self.placed(laid, actions), self.cues(actions))
 
     def _played(self, balls: Records, cues: Records) -> Strokes:
-        """Strikes from layouts, which are broadcast against each other."""
+        """Play strikes from layouts, which are broadcast against each other."""
         shape = (
             cues.shape
             if balls.shape[:-1] == cues.shape
@@ -493,7 +498,9 @@ class Potting:
         )
         lead, count = len(shape), balls.shape[-1]
         if count != self.balls + 1:
-            raise ValueError(f"balls: the shape must be (..., {self.balls + 1}), not {balls.shape}")
+            raise ValueError(
+                f"balls: the shape is {balls.shape}, but must be (..., {self.balls + 1})"
+            )
         previous, is_single = one_or_all(balls, (*shape, count), lead)
         strikes, one_cue = one_or_all(cues, shape, lead)
         outcomes, records = np.empty((*shape, count), dtypes.shot_ball), np.empty(shape, _STROKE)
@@ -542,8 +549,9 @@ class Potting:
         draws: Draws,
         games: Games,
     ) -> Turned:
-        """One stroke of each of some games with their noise, of which a cue ball that fell lies on
-        the table again. `words` is written to.
+        """Play one stroke with noise in each of some games, and replace cue balls that fell.
+
+        `words` is modified.
         """
         struck, cues = (
             self.placed(balls, actions),
@@ -558,5 +566,5 @@ class Potting:
         return Turned(struck, cues, strokes, strokes.cleared)
 
     def shot(self, balls: Records, cue: Records | None) -> Shot:
-        """One stroke with its events, for looking at; without a cue the balls lie still."""
+        """One stroke with its events, for drawing; without a cue the balls stay at rest."""
         return simulate(self.table, balls, cue, cushion_model=self.cushion_model)

@@ -1,6 +1,4 @@
-"""Rules of games: what a shot amounts to, by the library's rules of eight-ball, nine-ball and a
-drill, or by those of a game of one's own.
-"""
+"""Rules of games: rulings on shots by the built-in games or by custom rules."""
 
 from __future__ import annotations
 
@@ -23,10 +21,12 @@ from carom._rows import (
     choice,
     copied,
     listing,
+    named,
     number,
     pointer,
     several,
     text_of,
+    unknown_name,
     whole,
 )
 from carom._shot_options import Options
@@ -54,16 +54,16 @@ _GROUPS = {word: k for k, word in enumerate(get_args(Group))}
 _TURNS = {word: k for k, word in enumerate(get_args(TurnWord))}
 LEAVES = {word: k for k, word in enumerate(get_args(LeaveWord))}
 _RACES = {word: k for k, word in enumerate(get_args(Race))}
-_WORDS = 8  # of the state of rules of one's own
+_WORDS = 8  # of the state of custom rules
 _USUAL = Options()
-_NO_ROOM = "there is no room for a ball that comes back"
+_NO_ROOM = "there is no room to spot a ball"
 _MEMBERS = tuple(
     name for name in dtypes.rules_state.names or () if name not in ("user", "unused", "context")
 )
 _POCKETED, _OFF = int(Label.POCKETED), int(Label.OFF)  # with which NumPy compares in half the time
 
 
-_A_LIST = "whole numbers are needed"
+_A_LIST = "a list of integers"
 
 
 def _set_of(balls: Collection[int], name: str = "on", most: int = 31) -> int:
@@ -76,29 +76,28 @@ def of_set(bits: int) -> frozenset[int]:
 
 @dataclass(frozen=True)
 class Facts:
-    """What happened in a shot, for `Rules.judge`."""
+    """The facts of a shot, for `Rules.judge`."""
 
-    first: int  # The ball that the cue ball met first, -1 for none, also after an error
-    second: int  # The next other ball that it met, or -1
+    first: int  # First ball that the cue ball hit; -1: none, or the shot failed
+    second: int  # Second different ball that it hit, or -1
     cushions_before: tuple[
         int, int
-    ]  # Impacts of the cue ball on cushions before it met each of both
-    potted: Mapping[
-        int, int
-    ]  # The pocket that took each ball that fell, the cue ball 0 among them, in their order
+    ]  # Impacts of the cue ball on cushions before each of these contacts
+    potted: Mapping[int, int]  # Pocket of each ball that fell, including the cue ball 0, in order
     off: frozenset[int]  # Balls that left the table
     cushions: tuple[int, ...]  # Impacts of each ball on cushions
-    cushions_after: int  # Those of all balls after the first contact
+    cushions_after: int  # Impacts of all balls on cushions after the first contact
     frozen: frozenset[int]  # Balls that touched the cue ball when it was struck
-    pushed: frozenset[int]  # Balls that it met before the tip left it
-    jumped: frozenset[int]  # Balls that it flew over before it met one
-    touches: int  # Of the tip: 1, or 2 and more of a double hit within the push; 0 without a strike
+    pushed: frozenset[int]  # Balls that it hit before the tip left it
+    jumped: frozenset[int]  # Balls that it flew over before it hit one
+    touches: int  # Contacts of the tip: 1; 2 or more: a double hit within the push; 0: no strike
     cue_ball: int  # The ball that the cue struck
-    _record: bytes = field(repr=False)  # Of C, which copies and pickles as they are
+    _record: bytes = field(repr=False)  # The C record, for copying and pickling
 
     def foul(self, on: Collection[int]) -> Foul:
-        """The foul that it is in any game whose balls `on` may be met first: up to `Foul.CUSHION`,
-        or `Foul.NONE`.
+        """The foul common to all games in which the balls `on` may be hit first.
+
+        One of the fouls up to `Foul.CUSHION`, or `Foul.NONE`.
         """
         facts = ffi.from_buffer("carom_facts[]", self._record)
         return Foul(lib.carom_foul_of(facts, _set_of(on), self.cue_ball))
@@ -128,21 +127,30 @@ def _facts(record: Any, cue_ball: int) -> Facts:
 
 
 def hand_of(leave: int) -> Hand:
-    """Where a cue ball in hand may be put, by its `carom_leave`."""
+    """The area for a cue ball in hand, from a `carom_leave`."""
     word = list(LEAVES)[leave]
     return cast("Hand", "no" if word in ("after", "before") else word)
 
 
 @dataclass(frozen=True)
 class Turn:
-    """What a shot amounts to, from `Rules.judge`: the fields are its arguments.
+    """The ruling on a shot, returned by `Rules.judge`.
 
-    `turn`: who plays, or how the game ends; "pass": the other plays, or in a race of seats the one
-    of `state.seat`, which with "win" has won. `leave`: his layout: as it is
-    "after" the shot, as "before" it, or with the cue ball in hand, "anywhere", in the "kitchen"
-    behind the head string, in the "d" of a snooker table or behind the "baulk" line. `foul`: a `Foul`. `spot`: balls that
-    come back to the foot spot: any that are down or off the table, but the cue ball. `points`: of
-    the shot; a plan reads them without an opponent only.
+    Parameters
+    ----------
+    turn : {"keep", "pass", "win", "lose", "draw"}
+        Who plays next, or how the game ends. In a race of seats "pass" and "win" refer to
+        `state.seat`.
+    leave : {"after", "before", "anywhere", "kitchen", "d", "baulk"}
+        The next layout: as "after" or "before" the shot; or with the cue ball in hand anywhere, in
+        the kitchen behind the head string, in the D of a snooker table, or behind the baulk line.
+    foul : int
+        A `Foul`.
+    spot : collection of int
+        Balls to spot on the foot spot. They must be pocketed or off the table, and not the cue
+        ball.
+    points : float
+        Points of the shot; a plan uses them only without an opponent.
     """
 
     turn: TurnWord
@@ -153,7 +161,7 @@ class Turn:
 
 
 class Words(list[int]):
-    """The state of a game of one's own: eight numbers, and the seat at the table."""
+    """The state of custom rules: eight integers, and the seat at the table."""
 
     def __init__(self, numbers: Iterable[int], seat: int = 0) -> None:
         super().__init__(numbers)
@@ -165,82 +173,84 @@ def _words(game: Any) -> Words:
 
 
 class Rules:
-    """A game of one's own, for `plan`, `referee` and `Match`: a subclass says its rules.
+    """Custom rules, for `plan`, `referee` and `Match`: a subclass defines a game.
 
-    The cue ball is ball 0, or that of `facts.cue_ball`.
+    The cue ball is ball 0, or `facts.cue_ball`.
 
-    `state` are eight numbers, as a list, for whatever the rules have to know: always as the player
-    at the table has them. `judge` may change them, and leaves them as the next player has them.
-    Balls in play are a frozenset of their indices.
+    `state` is a list of eight integers for any purpose, seen from the player at the table. `judge`
+    may change it, and leaves it as seen from the next player. Balls in play are a frozenset of
+    indices.
 
-    In a race of "seats" `state[k]` says what seat k has left, such as its lives; 0: it is out. The
-    seat at the table is `state.seat`, and `judge` sets it to the one that plays next.
+    In a race of "seats" `state[k]` is what seat k has left, such as its lives; at 0 it is out. The
+    seat at the table is `state.seat`, and `judge` sets it to the next one.
     """
 
     race: Race = "own"
-    """Whose balls are to be potted: each player has his own, both have the same, or there is no
-    opponent. "points": both make points, and `left` says how many each needs. "seats": 2 to 8 seats
-    play each for itself.
+    """The kind of race. "own": each player pots separate balls. "shared": both pot the same balls.
+    "alone": there is no opponent. "points": both score points, and `left` returns how many each
+    needs. "seats": 2 to 8 seats play for themselves.
     """
     any_cue_ball: bool = False
-    """Whether a player may strike any ball."""
+    """Whether a player may strike any ball as cue ball."""
     calls: bool = False
     """Whether ball and pocket are called."""
     first_decides: bool = False
-    """Whether a shot that first meets a ball that is not on is a foul, whatever else happens: it is
-    not played to its end.
+    """Whether hitting a ball first that is not on is always a foul. Such a shot is not played to
+    its end.
     """
 
     def on(self, state: Words, in_play: frozenset[int]) -> Collection[int]:
-        """The balls that may be met first, and potted."""
+        """Return the balls that may be hit first and potted."""
         raise NotImplementedError(f"{type(self).__name__} needs the method on(state, in_play)")
 
     def judge(
         self, state: Words, in_play: frozenset[int], facts: Facts, call: tuple[int, int]
     ) -> Turn:
-        """What a shot amounts to; `in_play` were the balls before it, `call` is a ball and its
-        pocket, or (-1, -1).
+        """Return the ruling on a shot.
+
+        `in_play` are the balls in play before it; `call` is a ball and a pocket, or (-1, -1).
         """
         raise NotImplementedError(
             f"{type(self).__name__} needs the method judge(state, in_play, facts, call)"
         )
 
     def left(self, state: Words, in_play: frozenset[int]) -> tuple[int, int]:
-        """How many balls the player at the table, and the other, have to pot to win."""
+        """Return how many balls the player at the table and the other must pot to win."""
         raise NotImplementedError(f"{type(self).__name__} needs the method left(state, in_play)")
 
     def pockets(self, state: Words) -> Collection[int]:
-        """The pockets in which balls count, by their indices in `table.pocket_names`.
+        """Return the indices in `table.pocket_names` of the pockets in which balls count.
 
         Default: all.
         """
         return range(8)
 
     def value(self, state: Words, layout: Records, in_hand: bool) -> float:
-        """The chance that the player at the table wins from a layout, 0 to 1: an array of
-        `carom.dtypes.ball_state`, shape (balls,). Without an opponent: how many balls the player is
-        still going to pot.
+        """Return the chance that the player at the table wins from a layout, 0 to 1.
 
-        Default: an estimate from the two best pots and from `left`. A plan in a race of seats needs
-        yours.
+        `layout` is an array of `carom.dtypes.ball_state`, shape (balls,). Without an opponent,
+        return the number of balls that the player will still pot.
+
+        Default: an estimate from the two best pots and from `left`. A plan in a race of seats
+        requires this method.
         """
         raise NotImplementedError
 
     def points(self, state: Words, in_play: frozenset[int], ball: int) -> float:
-        """In a race for points: the points of a ball that falls in the next stroke; for ball -1 the
-        mean points of a later pot.
+        """In a race for points, return the points of a ball that falls in the next stroke.
 
-        Default: 1.
+        For ball -1, return the mean points of a later pot. Default: 1.
         """
         raise NotImplementedError
 
     def settle(self, state: Words, table: Table, balls: Records, turn: Turn) -> Turn:
-        """Do what depends on the places of the balls after a stroke that was judged: return the
-        turn, changed or not. `balls` is an array of `carom.dtypes.shot_ball`, shape (balls,); what
-        is written to it and to `state` stays.
+        """Apply rules that depend on the final positions of the balls, and return the turn.
 
-        Default: puts the balls of `turn.spot` on the foot spot, or behind it. Rules of your own do
-        so by `super().settle(...)`.
+        `balls` is an array of `carom.dtypes.shot_ball`, shape (balls,). Changes to it and to
+        `state` persist.
+
+        Default: places the balls of `turn.spot` on the foot spot or behind it. An override calls
+        `super().settle(...)` for this.
         """
         for ball in sorted(turn.spot):
             code = lib.carom_spot_ball(
@@ -255,17 +265,17 @@ class Rules:
 
 
 _OPTIONAL = ("pockets", "value", "points", "settle")
-_CHANCE = "a chance of 0 to 1 is needed, or without an opponent a number of balls"
+_CHANCE = "a chance of 0 to 1, or without an opponent a number of balls"
 
 
 def _array_of(address: Any, count: int, dtype: np.dtype[Any]) -> Array:
-    """Records of C, which are written where they are."""
+    """Records of C as an array that shares their memory."""
     array: Array = np.frombuffer(ffi.buffer(address, count * dtype.itemsize), dtype)
     return array
 
 
 def _turn_of(turn: Any) -> Turn:
-    """A turn of C."""
+    """A `Turn` from a turn of C."""
     words = {number: word for word, number in _TURNS.items()}
     leaves = {number: word for word, number in LEAVES.items()}
     return Turn(
@@ -278,24 +288,26 @@ def _turn_of(turn: Any) -> Turn:
 
 
 def _write_turn(target: Any, turn: Any, method: str) -> None:
-    """What a method of rules returned, to a turn of C."""
+    """Write the result of a method of rules to a turn of C."""
     if not isinstance(turn, Turn):
-        raise TypeError(f"{method}: it must return a carom.Turn, not {turn!r}")
+        raise TypeError(f"{method}: it returned {turn!r}, but must return a carom.Turn")
     target.outcome = choice(_TURNS, turn.turn, "Turn.turn")
     target.leave = choice(LEAVES, turn.leave, "Turn.leave")
     target.foul, target.spot = int(turn.foul), _set_of(turn.spot, "Turn.spot")
-    target.points = _finite(turn.points, "Turn.points", "points are needed")
+    target.points = _finite(turn.points, "Turn.points", "a number of points")
 
 
 def _finite(value: object, name: str, needed: str) -> float:
     finite = number(value, name, needed)
     if not np.isfinite(finite):
-        raise ValueError(f"{name}: {needed}, not {finite}")
+        raise ValueError(f"{name}: {finite} is not {needed}")
     return finite
 
 
 def _check_settled(table: Any, balls: Any, count: int, turn: Any, cue_ball: int) -> None:
-    """Refuses balls that settle() laid where none can lie; a cue ball in hand may lie anywhere."""
+    """Raise an error if settle() placed a ball where it cannot be; a cue ball in hand may be
+    anywhere.
+    """
     where = ffi.new("int *")
     code = lib.carom_shot_check(table, balls, count, ffi.NULL, ffi.NULL, where)
     in_hand = turn.leave >= lib.CAROM_LEAVE_ANYWHERE and where[0] == cue_ball
@@ -304,7 +316,9 @@ def _check_settled(table: Any, balls: Any, count: int, turn: Any, cue_ball: int)
 
 
 class Made:
-    """The rules for C, with what has to live as long; and the first exception of a method of Rules."""
+    """The rules for C, with the objects that must live as long, and the first exception of a
+    method.
+    """
 
     def __init__(
         self,
@@ -316,13 +330,15 @@ class Made:
         self.raised: BaseException | None = None
         self.callbacks: list[Any] = []
         self.cue_ball = 0
-        """Of the last stroke that rules of one's own judged."""
-        self.rules = rules
+        """The cue ball of the last stroke that custom rules judged."""
+        self.rules = (
+            rules if isinstance(rules, (Rules, type)) else cast(Game, named(GAMES, rules, "rules"))
+        )
         self.stop = ffi.new("int32_t *")
-        """Of plans; set by an exception."""
+        """The stop flag of plans; an exception sets it."""
         if isinstance(rules, type) and issubclass(rules, Rules):
             raise ValueError(
-                f"rules: give a game, {rules.__name__}(), not the class {rules.__name__}"
+                f"rules: {rules.__name__} is a class; pass an instance, {rules.__name__}()"
             )
         if isinstance(rules, Rules):
             self.c = ffi.new("carom_plan_rules *")
@@ -331,27 +347,23 @@ class Made:
             for name in ("calls", "first_decides", "any_cue_ball"):
                 setattr(self.c, name, bool(getattr(rules, name)))
         else:
-            self.c = ffi.new(
-                "carom_plan_rules *", lib.carom_plan_rules_of(choice(GAMES, rules, "rules"))
-            )
-        self.last = None if isinstance(rules, Rules) else LAST.get(rules)
-        """The highest number of a ball."""
+            self.c = ffi.new("carom_plan_rules *", lib.carom_plan_rules_of(GAMES[self.rules]))
+        self.last = None if isinstance(self.rules, Rules) else LAST.get(self.rules)
+        """The highest ball number."""
         if state is not None:
             for is_given, name in ((group is not None, "group"), (opening, "opening")):
                 if is_given:
-                    raise ValueError(
-                        f"state, {name}: the state says the {name}, too: give one of both"
-                    )
+                    raise ValueError(f"state, {name}: the state contains the {name}, too; omit one")
             self._stand(state)
         self.c.state.group += choice(_GROUPS, "open" if group is None else group, "group")
         self.c.state.opening |= bool(opening)
-        if not isinstance(rules, Rules):
+        if not isinstance(self.rules, Rules):
             wrong = lib.carom_rules_fault(
-                GAMES[rules], ffi.addressof(self.c, "state"), limits := ffi.new("char **")
+                GAMES[self.rules], ffi.addressof(self.c, "state"), limits := ffi.new("char **")
             )
             if wrong:
                 raise ValueError(
-                    f"{text_of(wrong)}: by the rules {rules} it must be {text_of(limits[0])}"
+                    f"{text_of(wrong)}: out of range; in the game {self.rules!r} it must be {text_of(limits[0])}"
                 )
 
     @property
@@ -362,21 +374,21 @@ class Made:
         ).reshape(())
 
     def _stand(self, values: Any) -> None:
-        """A record; or of a game some members by their names, of rules of one's own eight words."""
+        """Set the state from a record; from members of a game by name; or from eight integers of
+        custom rules.
+        """
         members: Any = values
         if isinstance(self.rules, Rules):
             words = as_array(values, "state")
             if words.shape != (_WORDS,) or words.dtype.kind not in "iu" or (words < 0).any():
-                raise ValueError(
-                    f"state: {_WORDS} whole numbers, at least 0, are needed, not {values!r}"
-                )
+                raise ValueError(f"state: {values!r} are not {_WORDS} integers of at least 0")
             members = {"user": words, "seat": getattr(values, "seat", 0)}
         elif not isinstance(values, Mapping):
             record = of_record(values, dtypes.rules_state, "state", "referee().state")
             members = {name: record[name] for name in _MEMBERS}
         for name, value in members.items():
             if not hasattr(self.c.state, name):
-                raise ValueError(f"state: there is no {name!r}; there are {', '.join(_MEMBERS)}")
+                raise ValueError(unknown_name("state", "member", name, _MEMBERS))
             try:
                 setattr(
                     self.c.state,
@@ -415,14 +427,16 @@ class Made:
             spots = of_set(c_turn.spot & (in_play & ~(facts.down | facts.off) | 1 << cue_ball))
             if spots:
                 raise ValueError(
-                    f"Turn.spot: balls come back that are down or off the table, not the cue ball, and not {sorted(spots)}"
+                    f"Turn.spot: balls {sorted(spots)} cannot be spotted; spot balls that are pocketed or off the table, but not the cue ball"
                 )
             return c_turn[0]
 
         def left(game: Any, in_play: int, out: Any) -> None:
             both = several(rules.left(_words(game), of_set(in_play)), "left", _A_LIST)
             if len(both) != 2:
-                raise ValueError(f"left: two numbers are needed, not {both}")
+                raise ValueError(
+                    f"left: {both} are not two numbers; return what the player and the other need"
+                )
             out[0:2] = whole(both[0], "left"), whole(both[1], "left")
 
         def on(game: Any, in_play: int) -> int:
@@ -435,16 +449,16 @@ class Made:
             states = _array_of(layout, count, dtypes.ball_state).copy()
             worth = _finite(rules.value(_words(game), states, bool(in_hand)), "value", _CHANCE)
             if not 0.0 <= worth <= (count if rules.race == "alone" else 1.0):
-                raise ValueError(f"value: {_CHANCE}, not {worth}")
+                raise ValueError(f"value: {worth} is not {_CHANCE}")
             return worth
 
         def points(game: Any, in_play: int, ball: int) -> float:
             points = rules.points(_words(game), of_set(in_play), ball)
-            return _finite(points, "points", "points are needed")
+            return _finite(points, "points", "a number of points")
 
         def settle(game: Any, table: Any, balls: Any, count: int, turn: Any) -> None:
             if self.raised is not None:
-                return  # judge() has no turn that could be settled
+                return  # judge() returned no turn to settle
             state = _words(game)
             on_table = Table.from_record(_array_of(table, 1, dtypes.table)[0])
             layout = _array_of(balls, count, dtypes.shot_ball)
@@ -464,14 +478,14 @@ class Made:
             "settle": (settle, None),
         }
         for name, (call, otherwise) in methods.items():
-            # The library has its own of those that a class may leave out.
+            # The library has defaults for methods that a class omits.
             if name in _OPTIONAL and getattr(type(rules), name) is getattr(Rules, name):
                 continue
             self.callbacks.append(guarded(f"carom_rules_{name} *", call, otherwise))
             setattr(self.c, name, self.callbacks[-1])
 
     def check_layout(self, table: Table, layout: Records) -> None:
-        """Refuses what is no layout of the game, for a plan."""
+        """Raise an error if a layout is not one of the game, for a plan."""
         pockets = len(table.pocket_names)
         is_named = isinstance(self.rules, str)
         is_carom = is_named and self.c.rack in (
@@ -481,34 +495,37 @@ class Made:
         size = lib.carom_rack_size(self.c.rack)
         if is_carom and (pockets or len(layout) < size):
             raise ValueError(
-                f"table: {self.rules} needs one without pockets"
+                f"table: it has pockets, but {self.rules} needs a table without them"
                 if pockets
-                else f"balls: {self.rules} needs {'three' if size == 3 else 'four'}"
+                else f"balls: there are {len(layout)}, but {self.rules} needs {'three' if size == 3 else 'four'}"
             )
         if is_named and not is_carom and not pockets:
-            raise ValueError(f"table: it has no pockets, which {self.rules} needs")
+            raise ValueError(f"table: it has no pockets, but {self.rules} needs them")
         label = layout["state"]["label"]
         for ball in range(len(layout) if self.last is None else self.last + 1, len(layout)):
             if label[ball] not in (_POCKETED, _OFF):
                 raise ValueError(
-                    f"balls: the balls of {self.rules} are the cue ball and 1 to {self.last}, not {ball}"
+                    f"balls: there is no ball {ball} in {self.rules}; its balls are the cue ball and 1 to {self.last}"
                 )
         if self.c.race == lib.CAROM_RACE_SEATS and self.c.value == ffi.NULL:
-            raise ValueError("rules: a plan in a race of seats needs the method value()")
+            raise ValueError(
+                "rules: the method value() is missing; a plan in a race of seats needs it"
+            )
         self.check_count(len(layout))
 
     def check_count(self, count: int) -> None:
-        """Refuses a layout in which balls are missing that may come back. In eight-ball they come
-        back for a new break alone, which the referee refuses without them.
+        """Raise an error if balls are missing that may be spotted.
+
+        In eight-ball balls return only for a new break, which the referee rejects without them.
         """
         is_built_in = not isinstance(self.rules, Rules) and self.rules != "eightball"
         if is_built_in and self.c.settle and count <= (self.last or 0):
             raise ValueError(
-                f"balls: {self.rules} has the cue ball and 1 to {self.last}, of which some may be down, not {count} balls"
+                f"balls: there are {count}, but {self.rules} needs the cue ball and 1 to {self.last}; pocketed balls count too"
             )
 
     def check(self) -> None:
-        """Raises what a method of the rules raised, once."""
+        """Raise the exception of a method of the rules, once."""
         raised, self.raised = self.raised, None
         if raised is not None:
             raise raised
@@ -524,11 +541,10 @@ def judge(
     states: State | None = None,
     calls: Array | None = None,
 ) -> Array:
-    """What shots with facts amount to, as `carom.dtypes.turn`, from the layouts before them, of
-    shape (..., balls).
+    """Judge shots with facts: `carom.dtypes.turn`, from the layouts (..., balls) before them.
 
-    `states` are changed; by default each shot has that of the rules. `calls` are int32 of shape
-    (..., 2); by default none.
+    `states` is modified; by default each shot has the state of the rules. `calls` is int32 of shape
+    (..., 2); by default there are none.
     """
     label = layout["state"]["label"]
     in_play = ((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]
@@ -548,7 +564,7 @@ def judge(
 
 
 def on_of(game: Made, layout: Records) -> tuple[int, ...]:
-    """The balls of a layout, of shape (balls,), that may be met first."""
+    """The balls of a layout, shape (balls,), that may be hit first."""
     label = layout["state"]["label"]
     return tuple(
         sorted(
@@ -565,8 +581,9 @@ def on_of(game: Made, layout: Records) -> tuple[int, ...]:
 
 
 def calls_of(game: Made, layout: Records, shots: Shots) -> Array:
-    """The calls of shots with facts from a layout, int32 of shape (..., 2): the first ball on that
-    falls, and its pocket; or -1, -1.
+    """The calls of shots with facts from a layout, int32 of shape (..., 2).
+
+    Each is the first ball on that falls, and its pocket; or -1, -1.
     """
     facts: Any = shots._facts
     falls = np.full(facts["pocket_time"].shape, np.inf)
@@ -581,33 +598,31 @@ def calls_of(game: Made, layout: Records, shots: Shots) -> Array:
 
 @dataclass(frozen=True, repr=False)
 class Ruling(Arrays):
-    """What a stroke was, and what comes next."""
+    """The ruling on a stroke, and the next situation."""
 
-    # "keep": the player plays on; "pass": the other plays; "win", "lose", "draw": the game
-    # has ended
+    # "keep": the player plays again; "pass": the other plays; "win", "lose", "draw": the game has
+    # ended
     turn: str
     foul: Foul
     # Whether the next player has the cue ball in hand: anywhere, behind the head string, or in the
     # D of a snooker table
     hand: Hand
-    potted: tuple[int, ...]  # Balls that fell, the cue ball among them, in their order
-    first: int  # The ball that the cue ball met first, -1 for none
+    potted: tuple[int, ...]  # Balls that fell, including the cue ball, in order
+    first: int  # First ball that the cue ball hit; -1: none
     points: float
     balls: (
         Records  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
     )
-    put: frozenset[int]  # Balls that lie elsewhere than the shot left them
-    # (): How the game stands for the next player, `carom.dtypes.rules_state`; of rules of one's own
-    # eight numbers
+    put: frozenset[int]  # Balls that the ruling moved
+    # (): State of the game for the next player, `carom.dtypes.rules_state`; eight integers for custom
+    # rules
     state: State
-    seat: int  # The next seat in a race of seats: Words(state, seat) is the state of own rules
-    score: tuple[
-        int, int
-    ]  # Points, or balls, of the next player and of the other, less those that they lost or owe
-    # Of the shot: both balls that the cue ball met, its cushions before each, and more; no ball was
-    # met in one that ended in an error
+    seat: int  # Next seat in a race of seats; Words(state, seat) is the state of custom rules
+    score: tuple[int, int]  # Points, or balls, of the next player and of the other, minus penalties
+    # Facts of the shot: the balls that the cue ball hit, its cushions before each, and more; a failed
+    # shot has no contacts
     facts: Facts
-    words: str  # All of that in words
+    words: str  # The ruling as a sentence
     shot: Shot
 
 
@@ -630,24 +645,23 @@ def referee(
     ----------
     table : Table
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
-        As for `plan`; the cue ball is that of the cue.
+        As for `plan`; the cue ball is the one in `cue`.
     cue : ndarray of `carom.dtypes.cue`, shape ()
     rules, group, opening, state
-        As for `plan`. The `state` of a ruling is that for the next stroke.
+        As for `plan`. The `state` of a ruling is the state for the next stroke.
     call : tuple of two ints
-        The ball and the pocket that are called: `ball` and `pocket` of a choice of `plan`, which
-        say a push-out and a pass, too. The other choices that `state["may"]` allows are the balls
-        -4 (racked again, the player breaks), -5 (racked again, the other breaks), -6 (the cue ball
-        stays) and -7 (touching balls go to their spots; or, on a table with pockets, the ball
-        nearest to the head string goes to the foot spot).
+        The called ball and pocket: `ball` and `pocket` of a choice of `plan`, which also encode a
+        push-out and a pass. Other choices that `state["may"]` allows are the balls -4 (new rack,
+        the player breaks), -5 (new rack, the other breaks), -6 (the cue ball stays) and -7
+        (touching balls are spotted; or, on a table with pockets, the ball nearest to the head
+        string is placed on the foot spot).
     options, **changes
         As for `simulate`.
 
     Raises
     ------
     CaromError
-        The layout or the cue is in error. A shot that ends in an error is a foul, whose layout is
-        taken back.
+        The layout or the cue is invalid. A shot that fails is a foul, and its layout is restored.
     """
     layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
     game = Made(rules, state, group, opening)
@@ -693,21 +707,23 @@ def referee(
     game.check()
     beyond = [ball for ball in of_set(ruling.turn.spot) if ball >= len(layout)]
     if beyond:
-        raise ValueError(f"Turn.spot: there are {len(layout)} balls, none is {beyond[0]}")
+        raise ValueError(
+            f"Turn.spot: there is no ball {beyond[0]}; the layout has balls 0 to {len(layout) - 1}"
+        )
     if code < 0:
         raise CaromError(code, "Turn.spot", text=_NO_ROOM)
     return ruling_of(ruling, len(layout), isinstance(rules, Rules), shots[0], cue_ball)
 
 
 def words_of(write: Callable[[Any, int], int]) -> str:
-    """The words of a ruling or a match that C writes to a text with room."""
+    """A sentence of C on a ruling or a match."""
     words = ffi.new("char[]", 1024)
     write(words, 1024)
     return text_of(words)
 
 
 def ruling_of(ruling: Any, count: int, is_own: bool, shot: Shot, cue_ball: int) -> Ruling:
-    """A ruling of C for so many balls."""
+    """A `Ruling` from a ruling of C for a number of balls."""
     facts, turn = _facts(ffi.addressof(ruling, "facts"), cue_ball), ruling.turn
     size = count * dtypes.shot_ball.itemsize
     layout = np.frombuffer(ffi.buffer(ruling.balls, size), dtypes.shot_ball).copy()

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes, layouts, tables
-from carom._rows import choice, listing, whole
+from carom._rows import choice, listing, named, whole
 from carom._shot_options import Options
 from carom.dtypes import Doubles, Records
 from carom.games import match as matches
@@ -106,7 +106,7 @@ class TableGame:
         speeds: tuple[float, float] = (0.5, 8.0),
         **base: Any,
     ) -> None:
-        choice(GAMES, rules, "rules")
+        rules = named(GAMES, rules, "rules")
         choice({"win": 0, "points": 1}, reward, "reward")
         self.game: Game = rules
         self.table = _TABLES.get(rules, tables.pool_9ft)() if table is None else table

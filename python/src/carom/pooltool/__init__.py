@@ -1,5 +1,6 @@
-"""Shots of the simulator pooltool, played by carom: takes a pooltool System and fills it as
-pooltool's own `simulate` does.
+"""Play shots of the simulator pooltool with carom.
+
+Fills a pooltool System as pooltool's own `simulate` does.
 
     import pooltool as pt
     import carom.pooltool
@@ -24,7 +25,7 @@ from typing import Any, Literal
 import numpy as np
 
 from carom import dtypes
-from carom._rows import Array, Seed, listing, seed_of
+from carom._rows import Array, Seed, either, listing, seed_of, unknown_value
 from carom._shot_options import BallModel, Friction, Options, ShotCushion
 from carom.collisions import alciatore
 from carom.dtypes import Records
@@ -61,10 +62,10 @@ _simulate: Any = importlib.import_module("pooltool.evolution.event_based.simulat
 _action: Any = importlib.import_module("pooltool.ai.action")
 
 original: Any = _simulate.simulate
-"""pooltool's own `simulate`, whatever is installed: to compare with."""
+"""pooltool's own `simulate`, for comparison, even after `install`."""
 
-# What carom plays of pooltool's engines, and of its own strategies in them: repository HEAD has
-# InstantaneousPoint2D.
+# The strategies of pooltool's engines, and carom's, that carom can play; InstantaneousPoint2D is in
+# the head of pooltool's repository.
 _FIXED = {
     "stick_ball": ("InstantaneousPoint", "InstantaneousPoint2D"),
     "ball_pocket": ("CanonicalBallPocket",),
@@ -91,17 +92,17 @@ _ALCIATORE = alciatore()
 
 
 class UnsupportedError(ValueError):
-    """Only pooltool can do this; `simulate(..., fallback=True)` lets pooltool do it."""
+    """Only pooltool supports this; with `simulate(..., fallback=True)` pooltool plays the shot."""
 
 
 class FallbackWarning(UserWarning):
-    """pooltool plays a system, at the speed of pooltool, because carom cannot.
+    """pooltool plays a system, at its own speed, because carom cannot.
 
     Each reason is reported once.
     """
 
 
-# ---- What goes in
+# ---- Input
 # -------------------------------------------------------------------------------------------------------
 
 
@@ -134,19 +135,19 @@ def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[A
     for segment in linear:
         if segment.direction not in (0, 1):
             raise UnsupportedError(
-                f"cushion {segment.id!r} has balls on both sides: carom takes direction 0 or 1"
+                f"table: cushion {segment.id!r} can be hit from both sides; carom supports direction 0 or 1"
             )
         (x, y, height), (other_x, other_y, _) = (
             np.asarray(end, np.float64).tolist() for end in (segment.p1, segment.p2)
         )
-        # The line as pooltool has it, lx, ly and l0, whose signs say what `side` means.
+        # The line in pooltool's form, lx, ly and l0; their signs define `side`.
         slope = (other_y - y) / (other_x - x) if other_x != x else None
         line = (1.0, 0.0, -x) if slope is None else (-slope, 1.0, slope * x - y)
         rails.append(((x, y), (other_x, other_y), height, line, segment.direction, 0.0, 0.0))
     # Plain numbers: arrays as small as these take ten times as long.
     jaws = [(c.center[:2].tolist(), c.radius, c.center[2], 0.0, 0.0) for c in circular]
     pockets = [(centre[:2].tolist(), radius, depth) for centre, radius, depth in holes]
-    # The bed reaches from rail to rail, those in the mouths of pockets left out, which are oblique.
+    # The bed reaches from rail to rail, except for the oblique rails in the mouths of pockets.
     # (A System's own table.w and table.l need segments with the names of pooltool's tables.)
     size = []
     for axis in range(2):
@@ -165,8 +166,7 @@ def balls_of(system: Any) -> Records:
     kinds: dict[int, bytes] = {}
     records = bytearray()
     for ball in system.balls.values():
-        # Balls of a rack share their constants. What pooltool has not, drag and what follows it,
-        # stays 0.
+        # Balls of a rack share their constants. Fields that pooltool lacks, from drag on, stay 0.
         p, state = ball.params, ball.state
         if id(p) not in kinds:
             kinds[id(p)] = struct.pack(
@@ -201,38 +201,41 @@ def cue_of(system: Any) -> Records:
 
 
 def _name(part: Any) -> str:
-    """The class of a part of an engine."""
+    """The class name of a part of an engine."""
     return _named(part.__class__)
 
 
 @functools.lru_cache(maxsize=64)
 def _named(kind: Any) -> str:
-    """The name of a class: alone, where it is pooltool's or carom's."""
+    """The name of a class, without its module if it belongs to pooltool or carom."""
     ours = kind.__module__.partition(".")[0] in ("pooltool", "carom")
     return str(kind.__name__) if ours else f"{kind.__module__}.{kind.__qualname__}"
 
 
 def _one_of(known: Collection[str], name: str, part: str) -> None:
     if name not in known:
-        raise UnsupportedError(f"engine: carom knows {', '.join(known)} for {part}, not {name}")
+        raise UnsupportedError(
+            f"engine: {part} is {name}, which carom does not support; use {either(known)}"
+        )
 
 
 def _options_of(engine: Any, table: Table, balls: Records) -> tuple[Options, Table]:
-    """The models of an engine of pooltool's and the table for them, or an error that says what of
-    it carom does not know.
+    """The options and the table for an engine of pooltool; raises UnsupportedError.
 
-    Numbers that pooltool has in its models carom has in the balls, which are changed, and in rails
-    and jaws.
+    Some parameters of pooltool's models belong to balls, rails and jaws in carom; the balls are
+    modified.
     """
     resolver, kinds = engine.resolver, balls["kind"]
     if getattr(engine, "is_3d", False):
         raise UnsupportedError(
-            "engine: carom knows is_3d=False alone, balls that stay on the cloth"
+            "engine: is_3d is True; carom supports only is_3d=False, balls that stay on the cloth"
         )
     for part, known in _FIXED.items():
         _one_of(known, _name(getattr(resolver, part)), part)
     if (resolver.stick_ball.english_throttle, resolver.stick_ball.squirt_throttle) != (1.0, 1.0):
-        raise UnsupportedError("engine: carom knows a stick_ball with throttles of 1 alone")
+        raise UnsupportedError(
+            "engine: a throttle of stick_ball is not 1, the only value that carom supports"
+        )
 
     pair, steps = resolver.ball_ball, set()
     _one_of(_PAIRS, _name(pair), "ball_ball")
@@ -250,14 +253,14 @@ def _options_of(engine: Any, table: Table, balls: Records) -> tuple[Options, Tab
         and (law := (pair.friction.a, pair.friction.b, pair.friction.c)) != _ALCIATORE
     ):
         kinds["law_a"], kinds["law_b"], kinds["law_c"] = law
-        if not any(law):  # which would be the usual law
+        if not any(law):  # zeros would select the default law
             friction, kinds["mu_ball"] = "constant", 0.0
 
     linear, circular = resolver.ball_linear_cushion, resolver.ball_circular_cushion
     name = _name(linear).replace("Linear", "")
     if _name(circular).replace("Circular", "") != name:
         raise UnsupportedError(
-            f"engine: carom knows the same model for both kinds of cushions, not {name} and {_name(circular)}"
+            f"engine: the cushions have the models {name} and {_name(circular)}; carom needs the same model for both kinds"
         )
     _one_of(_CUSHIONS, name, "cushions")
     cushion_model = _CUSHIONS[name]
@@ -267,7 +270,7 @@ def _options_of(engine: Any, table: Table, balls: Records) -> tuple[Options, Tab
     for number in numbers:
         if getattr(linear, number) != getattr(circular, number):
             raise UnsupportedError(
-                f"engine: carom knows the same {number} for both kinds of cushions"
+                f"engine: {number} differs between the two kinds of cushions; carom needs the same value"
             )
     if cushion_model == "stronge":
         kinds["omega_ratio"] = linear.omega_ratio
@@ -280,11 +283,11 @@ def _options_of(engine: Any, table: Table, balls: Records) -> tuple[Options, Tab
         steps.add(int(linear.max_steps))
         if linear.delta_p != 0.001:
             raise UnsupportedError(
-                "engine: carom knows a delta_p of 0.001 N s alone for Mathavan2010"
+                f"engine: delta_p of Mathavan2010 is {linear.delta_p} N s; carom supports only 0.001"
             )
     if len(steps) > 1:
         raise UnsupportedError(
-            "engine: carom knows the same number of steps for FrictionalMathavan and Mathavan2010"
+            "engine: FrictionalMathavan and Mathavan2010 have different numbers of steps; carom needs the same number"
         )
     most = next(iter(steps), 0)
     return Options("pooltool", ball_model, cushion_model, friction, steps=most), table
@@ -304,55 +307,59 @@ def simulate(
     cushion_model: ShotCushion = "default",
     fallback: bool = False,
 ) -> Any:
-    """pooltool's `simulate`, by carom.
+    """Simulate a System with carom, with the interface of pooltool's `simulate`.
 
     Parameters
     ----------
     shot : pooltool.System
-        Simulated as a copy, unless `inplace`.
+        The System; it is copied unless `inplace` is true.
     engine : pooltool.physics.PhysicsEngine, optional
-        None: pooltool's default. Ball and ball FrictionalInelastic, FrictionalMathavan,
-        FrictionlessElastic or `ExactBallBall`; cushions StrongeCompliant, Han2005, Mathavan2010,
-        Unrealistic or `ExactLinearCushion` and `ExactCircularCushion`.
+        Default: pooltool's. Supported are, for two balls, FrictionalInelastic, FrictionalMathavan,
+        FrictionlessElastic and `ExactBallBall`; for cushions StrongeCompliant, Han2005,
+        Mathavan2010, Unrealistic, and `ExactLinearCushion` with `ExactCircularCushion`.
     inplace, continuous, dt, t_final, max_events
-        As for pooltool's.
+        As for pooltool's `simulate`.
     include : set of pooltool.EventType
-        All of them.
+        Must contain all types.
     models : {"pooltool", "carom"}
-        The rules and models of pooltool's engine, for the same history but for rounding; or
-        carom's, without an engine: exact collisions and contacts.
+        "pooltool": the rules and models of pooltool's engine, for the same history up to rounding.
+        "carom": carom's own rules and exact models, without an engine.
     cushion_model : str
-        With models="carom" only; a word as for `carom.simulate`.
+        As for `carom.simulate`; only with models="carom".
     fallback : bool
-        What carom cannot do is played by pooltool instead of an error. A `FallbackWarning` says
-        why, once for each reason.
+        Whether pooltool plays what carom does not support, instead of an error. A `FallbackWarning`
+        reports each reason once.
 
     Returns
     -------
     pooltool.System
-        As pooltool leaves it: events with their agents, states, histories, pockets with their
-        contents.
+        With the same contents as after pooltool's `simulate`: events with their agents, states,
+        histories, and pockets with their balls.
 
     Raises
     ------
     UnsupportedError
-        An engine, a table or an `include` that is pooltool's alone.
+        Only pooltool supports this engine, table or `include`.
     CaromError
-        A System that carom refuses (overlapping balls, a ball off the table, more than 32 balls),
-        or a shot that ends in an error.
+        The System is invalid for carom (overlapping balls, a ball off the table, more than 32
+        balls), or the shot fails.
     """
     try:
         if models not in ("pooltool", "carom"):
-            raise ValueError(f"models: must be 'pooltool' or 'carom', not {models!r}")
+            raise ValueError(unknown_value("models", models, ("pooltool", "carom")))
         if set(include) != set(_simulate.INCLUDED_EVENTS):
-            raise UnsupportedError("include: carom resolves all types of events")
+            raise UnsupportedError(
+                "include: some types of events are missing; carom always resolves all types"
+            )
         table, balls, cue = table_of(shot.table), balls_of(shot), cue_of(shot)
         if models == "pooltool":
             options, table = _options_of(engine or _simulate.DEFAULT_ENGINE, table, balls)
             played = _play(table, balls, cue, options=options)
         else:
             if engine is not None:
-                raise UnsupportedError("engine: with models='carom' the models are carom's")
+                raise UnsupportedError(
+                    "engine: not allowed with models='carom'; omit it, or use models='pooltool'"
+                )
             played = _play(
                 table, balls, cue, cushion_model=cushion_model, space="flat"
             )  # as pooltool's 2D engine
@@ -379,7 +386,7 @@ _told: set[object] = set()
 
 
 def _tell(reason: UnsupportedError | CaromError) -> None:
-    """Warns, once for each reason, at the line that called the function that calls this one."""
+    """Warn, once for each reason, at the line that called the caller of this function."""
     kind = reason.status if isinstance(reason, CaromError) else str(reason)
     if kind in _told:
         return
@@ -398,22 +405,23 @@ _GAMES: dict[str, PooltoolGame] = {"_EightBall": "eightball", "_NineBall": "nine
 
 
 class Agent:
-    """Plays eight-ball and nine-ball in pooltool, by pooltool's rules: an `ai` of pooltool's
-    `Player`, or a stroke for a System.
+    """A player of eight-ball and nine-ball by pooltool's rules.
+
+    Use it as the `ai` of pooltool's `Player`, or to find a stroke for a System.
 
     Parameters
     ----------
     player : ndarray of `carom.dtypes.player`, shape (), optional
         The errors of its strokes. Default: `carom.player()`.
     opponent : ndarray of `carom.dtypes.player`, shape (), optional
-        Default: as the player.
+        Default: a player with the same errors.
     exact : bool
-        Its strokes are those that it means, where whoever plays them adds the errors. Its plans
-        allow for errors all the same.
+        Whether strokes are returned without errors, for callers that add them. Plans allow for
+        errors in any case.
     engine : pooltool.physics.PhysicsEngine, optional
-        By which the shots of a plan are played. Default: pooltool's.
+        The engine for the shots of a plan. Default: pooltool's.
     shots, seed, threads
-        As for `carom.plan`; each stroke has a seed of its own.
+        As for `carom.plan`; each stroke has a different seed.
     """
 
     def __init__(
@@ -439,21 +447,21 @@ class Agent:
         self.strokes = 0
 
     def decide(self, system: Any, game: Any, callback: Any = None) -> Any:
-        """The stroke for a System in a game, a `pooltool.ai.action.Action`.
+        """Choose the stroke for a System in a game; returns a `pooltool.ai.action.Action`.
 
-        A cue ball in hand is put to its place in the System, and the game is told the ball and the
-        pocket that are called. A safety calls a ball that does not fall, since pooltool's
-        eight-ball asks for a call. `callback` is called with the stroke.
+        Places a cue ball in hand in the System, and sets the called ball and pocket in the game.
+        Because pooltool's eight-ball requires a call, a safety calls a ball that does not fall.
+        `callback` is called with the stroke.
 
         Raises
         ------
         UnsupportedError
-            Another game, or an engine or a table that is pooltool's alone.
+            The game, the engine or the table is not supported.
         """
         kind = next((base.__name__ for base in type(game).__mro__ if base.__name__ in _GAMES), None)
         if kind is None:
             raise UnsupportedError(
-                f"game: the agent plays pooltool's eight-ball and nine-ball, not {type(game).__name__}"
+                f"game: {type(game).__name__} is not supported; the agent plays pooltool's eight-ball and nine-ball"
             )
         constraints = game.shot_constraints
         hand = str(constraints.ball_in_hand)
@@ -493,44 +501,38 @@ class Agent:
         opening: bool = False,
         hand: str = "none",
     ) -> Records:
-        """The stroke for a System without a game of pooltool's: the balls and the cue of the System
-        stay as they are.
+        """Choose the stroke for a System without a game of pooltool. The System is not modified.
 
         Parameters
         ----------
         system : pooltool.System
-            The ball "cue" and balls named by their numbers; those that are missing or pocketed are
-            down.
+            The ball "cue" and balls named by their numbers. Missing balls count as pocketed.
         targets : collection of str
-            The balls that the player may meet first. In eight-ball they tell his group; in
+            The balls that the cue ball may hit first. In eight-ball they determine the group; in
             nine-ball the lowest ball is on.
         rules : {"eightball", "nineball"}
         opening : bool
-            The stroke is the break.
+            Whether the stroke is the break.
         hand : {"none", "anywhere", "behind_line"}
-            Where the cue ball is in hand.
+            Where the cue ball in hand may be placed.
 
         Returns
         -------
-        row of `carom.plan`, shape ()
-            Its cue errs as the player does, unless `exact`.
+        ndarray of `carom.dtypes.plan_stroke`, shape ()
+            Its cue includes the player's errors, unless `exact` is set.
 
         Raises
         ------
         UnsupportedError
-            Another word, or an engine or a table that is pooltool's alone.
+            A name, the engine or the table is not supported.
         """
         if rules not in _GAMES.values():
-            raise UnsupportedError(
-                f"rules: the agent plays {' and '.join(_GAMES.values())}, not {rules!r}"
-            )
+            raise UnsupportedError(unknown_value("rules", rules, list(_GAMES.values())))
         hands = {"none": "no", "anywhere": "anywhere", "behind_line": "kitchen"}
         if hand not in hands:
-            raise UnsupportedError(
-                f"hand: the agent knows a cue ball in hand anywhere or behind_line, or none, not {hand!r}"
-            )
+            raise UnsupportedError(unknown_value("hand", hand, ("none", "anywhere", "behind_line")))
 
-        # The layout by numbers; a cue ball in hand is nowhere yet.
+        # The layout by numbers; a cue ball in hand has no position yet.
         table, names = table_of(system.table), ["cue", *map(str, range(1, LAST[rules] + 1))]
         layout_of = dict(zip(system.balls, balls_of(system), strict=True))
         layout: Array = np.array(
@@ -566,12 +568,12 @@ class Agent:
         return best
 
     def apply(self, system: Any, action: Any) -> None:
-        """Give the stroke to the cue of a System, for `simulate`."""
+        """Set the stroke of a System's cue, for `simulate`."""
         action.apply(system.cue)
 
 
 def _group(hittable: Collection[str], balls: dict[str, Any]) -> Group:
-    """Whose balls the player has, by the balls that he may meet."""
+    """The player's group, from the balls that may be hit first."""
 
     def are_in_play(low: int, high: int) -> bool:
         return any(
@@ -585,33 +587,31 @@ def _group(hittable: Collection[str], balls: dict[str, Any]) -> Group:
     return "solids" if max(numbers) < 8 else "stripes" if min(numbers) > 8 else "open"
 
 
-# ---- In its place
+# ---- Replacing pooltool's simulate
 # -------------------------------------------------------------------------------------------------------
 
 
 def _replace(old: Any, new: Any) -> None:
-    """Under every name that the old function has in a module, but in this one, which keeps both."""
+    """Replace a function under all its names in all modules except this one, which keeps both."""
     for name, module in list(sys.modules.items()):
         if name != __name__ and issubclass(type(module), types.ModuleType):
-            # Not by vars(), which would load a module that waits for its first use.
+            # vars() would load a module that is imported on first use.
             names = object.__getattribute__(module, "__dict__")
             for key in [key for key, value in list(names.items()) if value is old]:
                 names[key] = new
 
 
 def install() -> None:
-    """Put carom in place of `pooltool.simulate`: in pooltool, and in every module that has imported
-    it by now under any name.
+    """Replace `pooltool.simulate` by carom in pooltool and in all modules that have imported it.
 
-    What carom cannot do is then played by pooltool; a `FallbackWarning` says why, once for each
-    reason.
+    pooltool still plays what carom does not support; a `FallbackWarning` reports each reason once.
     """
     _told.clear()
     _replace(original, _installed)
 
 
 def uninstall() -> None:
-    """Put `pooltool.simulate` back."""
+    """Restore `pooltool.simulate`."""
     _replace(_installed, original)
 
 

@@ -1,11 +1,10 @@
-"""Writes a shot into a System of pooltool's: events with their agents, states, histories, pockets.
+"""Writes a shot into a System of pooltool: events with their agents, states, histories, pockets.
 
-Most of the time would go into objects that nobody looks at: for a nine-ball break some 1,000 states
-of histories and 250 balls of agents, and ten times as many states of continuous histories. So they
-are made when they are first looked at: the states of a history at once, and the balls of all agents
-at once, in C (`carom._objects`). Until then histories and agents are of a subclass without fields
-of its own, whose one field holds what makes them; then they become what pooltool's are, class and
-all.
+Most of the time would be spent on objects that are never used: for a nine-ball break about 1,000
+states in histories and 250 balls in agents, and ten times as many states in continuous histories.
+They are therefore created on first access in C (`carom._objects`): all states of a history, and the
+balls of all agents, at once. Until then histories and agents are instances of a subclass that
+stores the function that creates them; afterwards they are instances of pooltool's classes.
 """
 
 from __future__ import annotations
@@ -59,7 +58,7 @@ _TYPES: dict[int, Any] = {
 }
 
 
-# ---- Made when first looked at
+# ---- Created on first access
 # ------------------------------------------------------------------------------------------
 
 _states_of: Any = _BallHistory.__dict__["states"]
@@ -73,8 +72,8 @@ _id_of, _type_of, _initial_of, _final_of = (
 
 
 class _LaterHistory(_BallHistory):  # type: ignore[misc]
-    """A BallHistory whose states are made when they are first looked at, by the function in their
-    place; without one it is empty.
+    """A BallHistory whose states are created on first access by a stored function; without a
+    function it is empty.
     """
 
     __slots__ = ()
@@ -82,7 +81,7 @@ class _LaterHistory(_BallHistory):  # type: ignore[misc]
 
     @property
     def states(self) -> Any:
-        """The states; from now on this is a BallHistory."""
+        """The states; on first access this object becomes a BallHistory."""
         try:
             states: Callable[[], list[Any]] = _states_of.__get__(self)
         except AttributeError:
@@ -108,26 +107,25 @@ class _LaterHistory(_BallHistory):  # type: ignore[misc]
 
 
 class _LaterAgent(_Agent):  # type: ignore[misc]
-    """An Agent whose balls are made when they are first looked at, by the function in the place of
-    its initial state.
+    """An Agent whose balls are created on first access by the function stored as its initial state.
 
-    That function makes the balls of all agents of the shot, which become Agents.
+    The function creates the balls of all agents of the shot, which become Agents.
     """
 
     __slots__ = ()
     __qualname__ = "Agent"  # for repr()
 
     def _settle(self) -> None:
-        """Becomes an Agent."""
+        """Become an Agent."""
         try:
             settle: Callable[[], None] = _initial_of.__get__(self)
         except AttributeError:
-            self.__class__ = _Agent  # a copy on its way, whose fields come next
+            self.__class__ = _Agent  # a copy in progress, whose fields follow
         else:
             settle()
 
     def _field(slot: Any) -> Any:
-        """The ball before or after the event: the field of an Agent, which this becomes."""
+        """The ball before or after the event; on first access this object becomes an Agent."""
 
         def get(self: Any) -> Any:
             self._settle()
@@ -170,8 +168,8 @@ def after_each_event(shot: Shot) -> Records:
     each = np.arange(len(events))
     states[each, events["a"]] = events["after"][:, 0]
     states[each[pair], events["b"][pair]] = events["after"][pair, 1]
-    # A state at a time is that after everything of the time. Events at the same instant are taken
-    # apart here, the last first.
+    # A state at a time is the state after all events at that time. Here simultaneous events are
+    # separated, the last one first.
     for k in np.flatnonzero(times[1:] == times[:-1])[::-1]:
         states[k] = states[k + 1]
         for side in range(1 + int(pair[k + 1])):
@@ -180,7 +178,7 @@ def after_each_event(shot: Shot) -> Records:
 
 
 def _rvw(states: Records) -> Doubles:
-    """Copies of r, v, w as pooltool has them, (..., 3, 3)."""
+    """Copies of r, v, w in pooltool's form, (..., 3, 3)."""
     rvw = np.empty((*states.shape, 3, 3))
     for k, name in enumerate("rvw"):
         rvw[..., k, :] = states[name]
@@ -188,7 +186,7 @@ def _rvw(states: Records) -> Doubles:
 
 
 def _states(rvws: Doubles, labels: list[int], times: list[float]) -> list[Any]:
-    """States of pooltool's, of (n, 3, 3) numbers."""
+    """States of pooltool from an array (n, 3, 3)."""
     states: list[Any] = make(
         _balls.BallState, len(labels), ("rvw", "s", "t"), (list(rvws), labels, times)
     )
@@ -196,9 +194,7 @@ def _states(rvws: Doubles, labels: list[int], times: list[float]) -> list[Any]:
 
 
 class _Histories:
-    """What the histories of all balls are made of, computed once for all balls: states at times,
-    between the first and the last.
-    """
+    """The states of all balls between the first and the last time, computed once for all histories."""
 
     def __init__(self, look: Callable[[], tuple[Records, Doubles]]) -> None:
         self.look = look
@@ -220,7 +216,7 @@ class _Histories:
 
 
 class _Filler:
-    """Makes pooltool's events from those of a shot."""
+    """Converts the events of a shot to pooltool's."""
 
     def __init__(self, system: Any, events: Records) -> None:
         self.system = system
@@ -246,7 +242,7 @@ class _Filler:
         turn(self.agents, _LaterAgent, (), ())
 
     def settle(self) -> None:
-        """Gives all agents their balls, before and after, each without a history."""
+        """Set the balls of all agents before and after their events, without histories."""
         n, when = len(self.agents), self.events["time"][np.array(self.rows) // 2].tolist()
         owners = [self.balls[number] for number in self.numbers]
         fields = [[getattr(ball, field) for ball in owners] for field in _OWN_FIELDS]
@@ -265,7 +261,7 @@ class _Filler:
         turn(self.agents, _Agent, ("initial", "final"), tuple(columns))
 
     def happened(self) -> list[Any]:
-        """The events with their agents; pockets take their balls."""
+        """The events with their agents; balls are added to their pockets."""
         seconds = iter(self.agents[len(self.types) :])
         agents: list[tuple[Any, ...]] = []
         for kind, a, b, ball in zip(
@@ -299,10 +295,10 @@ class _Filler:
 
 
 def fill(system: Any, shot: Shot, retained: int, stopped: bool, dt: float | None) -> None:
-    """Writes the first `kept` events of a shot into the System.
+    """Write the first `kept` events of a shot into the System.
 
-    `stopped`: its balls are then stopped, as max_events does. With a `dt` it gets the continuous
-    histories that pooltool's `continuize` gives, a state each dt.
+    With `stopped` its balls are stopped, as for max_events. With `dt` it receives the continuous
+    histories of pooltool's `continuize`, one state per dt.
     """
     events = shot.events[:retained]
     filler = _Filler(system, events)
@@ -325,7 +321,7 @@ def fill(system: Any, shot: Shot, retained: int, stopped: bool, dt: float | None
         times = np.add.accumulate(np.full(int(end // dt), dt))
         continuous = _Histories(lambda: (shot.states(times), times))
     for index, ball in enumerate(filler.balls):
-        # The last state is the ball's own, and stands twice: after the last event and at the end.
+        # The last state is the ball's final one, and occurs twice: after the last event and at the end.
         first, last = ball.state, lasts[index]
         _time_of.__set__(first, 0.0)
         history = _later_history(

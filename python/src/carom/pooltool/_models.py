@@ -24,13 +24,14 @@ _ball_cushion_core: Any = importlib.import_module("pooltool.physics.resolve.ball
 
 
 class ExactBallBall(_ball_ball_core.CoreBallBallCollision):  # type: ignore[misc]
-    """Two balls by the exact limit of Mathavan's model of 2014, for pooltool's own engine.
+    """The collision of two balls by the exact limit of Mathavan's model of 2014, for pooltool's
+    engine.
 
     `Resolver.ball_ball = carom.pooltool.ExactBallBall()`.
 
     Parameters
     ----------
-    friction : a friction of pooltool's, optional
+    friction : a friction strategy of pooltool, optional
         Default: pooltool's AlciatoreBallBallFriction().
     """
 
@@ -40,9 +41,9 @@ class ExactBallBall(_ball_ball_core.CoreBallBallCollision):  # type: ignore[misc
         self.friction = friction if friction is not None else _friction.AlciatoreBallBallFriction()
 
     def solve(self, ball1: Any, ball2: Any) -> tuple[Any, Any]:
-        """The balls, with the motion after the collision, in place."""
+        """Set the balls' motion after the collision, and return them."""
         numbers = [*_numbers(ball1), *_numbers(ball2)]
-        # The frame is that of two balls at one height.
+        # The frame assumes two balls at the same height.
         numbers[14] = numbers[2]
         numbers.append(self.friction.calculate_friction(ball1, ball2))
         numbers.append((ball1.params.e_b + ball2.params.e_b) / 2)
@@ -53,13 +54,13 @@ class ExactBallBall(_ball_ball_core.CoreBallBallCollision):  # type: ignore[misc
 
 
 def _numbers(ball: Any) -> list[float]:
-    """A ball as an impact has it: place, velocity, spin, radius, mass, friction of the cloth."""
+    """A ball as in an impact: position, velocity, spin, radius, mass, friction of the cloth."""
     p = ball.params
     return [*ball.state.rvw.ravel().tolist(), p.R, p.m, p.u_s]
 
 
 def _set_motion(ball: Any, motion: Array) -> None:
-    """Gives a ball the motion after an impact; it slides, until pooltool finds it rolling."""
+    """Set a ball's motion after an impact; it slides until pooltool finds that it rolls."""
     rvw = ball.state.rvw.copy()
     rvw[1:] = motion.reshape(2, 3)
     ball.state = _balls.BallState(rvw, Label.SLIDING)
@@ -89,24 +90,26 @@ def _resolve_cushion(ball: Any, cushion: Any, jaw_radius: float) -> tuple[Any, A
 
 
 class ExactLinearCushion(_ball_cushion_core.CoreBallLCushionCollision):  # type: ignore[misc]
-    """A ball and a rail by the exact limit of Mathavan's model of 2010:
-    `Resolver.ball_linear_cushion`.
+    """The impact on a rail by the exact limit of Mathavan's model of 2010.
+
+    For `Resolver.ball_linear_cushion`.
     """
 
     model = "carom_exact"
 
     def solve(self, ball: Any, cushion: Any) -> tuple[Any, Any]:
-        """The ball, with the motion after the impact, in place."""
+        """Set the ball's motion after the impact, and return it."""
         return _resolve_cushion(ball, cushion, 0.0)
 
 
 class ExactCircularCushion(_ball_cushion_core.CoreBallCCushionCollision):  # type: ignore[misc]
-    """A ball and a jaw by the exact limit of Mathavan's model of 2010:
-    `Resolver.ball_circular_cushion`.
+    """The impact on a jaw by the exact limit of Mathavan's model of 2010.
+
+    For `Resolver.ball_circular_cushion`.
     """
 
     model = "carom_exact"
 
     def solve(self, ball: Any, cushion: Any) -> tuple[Any, Any]:
-        """The ball, with the motion after the impact, in place."""
+        """Set the ball's motion after the impact, and return it."""
         return _resolve_cushion(ball, cushion, float(cushion.radius))

@@ -1,20 +1,19 @@
-"""Recorded paths of balls: reading them, making them, and what happened on them.
+"""Recorded paths of balls: reading them, making synthetic ones, and detecting their events.
 
-A recording is one shot: for each ball rows of time and place, s and m, in the order of time. The
-table is 0 <= x <= W, 0 <= y <= L, so a ball's centre stays a radius inside. The files of cameras
-have four traps, which this module takes into account:
+A recording is one shot: for each ball rows of time and position, s and m, in order of time. The
+table is 0 <= x <= W, 0 <= y <= L, so a ball's centre stays a radius inside. Recordings of cameras
+have four traps, which this module handles:
 
-- the first rows of a ball, often one, are its place at rest, whenever it starts to move;
+- the first rows of a ball, often only one, are its position at rest, whenever it starts to move;
 - later rows may be thinned by displacement: a row is written once the ball is far enough from the
-    last one written, and the last row
-  is the place of rest, at the end of the recording;
-- places may be clamped to the cushions: a coordinate that is exactly R or W - R tells little;
-- the strike happened at some time before the first row of the moving ball, and not at time 0.
+  last written row, and the last row is the final position, at the end of the recording;
+- positions may be clamped to the cushions, so a coordinate of exactly R or W - R has little meaning;
+- the strike occurred at some time before the first row of the moving ball, not at time 0.
 
-`read` reads files; `events` finds pieces of rolling and sliding, impacts on cushions and hits, each
-with its numbers and errors, as structured arrays of the dtypes `piece`, `impact` and `hit`;
-`synthetic` plays shots with known strikes and records them with the traps and the noise of real
-ones.
+`read` reads files. `events` finds pieces of rolling and sliding, impacts on cushions, and hits,
+each with its quantities and errors, as structured arrays of the dtypes `piece`, `impact` and `hit`.
+`synthetic` simulates shots with known strikes and records them with the traps and the noise of real
+recordings.
 """
 
 from __future__ import annotations
@@ -58,7 +57,7 @@ __dir__ = listing(__name__)
 
 @dataclass(frozen=True, eq=False)
 class Synthetic:
-    """Recordings of played shots, and the truth about them."""
+    """Recordings of simulated shots, with the true shots."""
 
     recordings: list[Recording]
     shots: list[Shot]  # As played; their clocks begin at the strikes
@@ -76,7 +75,7 @@ def _record(
     noise: float,
     random: np.random.Generator,
 ) -> tuple[Doubles, ...]:
-    """The tracks that a camera gives of balls at positions(times), with the traps."""
+    """The tracks that a camera records of balls at positions(times), with the traps."""
     times: Doubles = np.arange(0.0, end + 1.0 / rate, 1.0 / rate, dtype=np.float64)
     seen = positions(times)
     seen = np.clip(seen + random.normal(0.0, noise, seen.shape), low, high)
@@ -106,13 +105,13 @@ def synthetic(
     thin: float = 0.016,
     seed: Seed = 0,
 ) -> Synthetic:
-    """Play shots of three balls with strikes drawn at random, and record them as a camera does.
+    """Simulate shots of three balls with random strikes, and record them like a camera.
 
-    `table` has the extents of x and y and `radius` is that of the balls, m; `constants` are those
-    of `carom.fit`, the usual ones where none is given; `speeds` are the least and the greatest of a
-    strike, m/s. The camera takes `rate` pictures a second, each coordinate has the standard
-    deviation `noise`, m, and a row of a ball is kept once the ball is `thin` m from the last row
-    kept. The same seed gives the same recordings.
+    `table` contains the extents of x and y, and `radius` is the radius of the balls, m. `constants`
+    are the constants of `carom.fit`, by default the usual ones. `speeds` are the lowest and the
+    highest speed of a strike, m/s. The camera records `rate` frames per second with a standard
+    deviation of `noise`, m, in each coordinate; a row is kept once the ball is `thin` m from the
+    last kept row. The same seed returns the same recordings.
     """
     whole(shots, "shots")
     random = np.random.default_rng(seed_of(seed, 2**64 - 1))
@@ -125,7 +124,7 @@ def synthetic(
     )
     for name, value, unit in (("radius", radius, "m"), ("rate", rate, "pictures a second")):
         if not 0.0 < value < np.inf:
-            raise ValueError(f"{name}: it must be positive and finite, in {unit}, not {value:g}")
+            raise ValueError(f"{name}: {value:g} {unit} is not positive and finite")
     for name, pair, least, what in (
         ("table", table, 6.0 * radius, "six times the radius, "),
         ("speeds", speeds, 0.0, ""),
@@ -136,19 +135,17 @@ def synthetic(
             or not (np.isfinite(pair_values) & (pair_values > least)).all()
             or (name == "speeds" and pair_values[0] > pair_values[1])
         ):
-            raise ValueError(
-                f"{name}: two finite numbers above {what}{least:g} are needed, not {pair!r}"
-            )
+            raise ValueError(f"{name}: {pair!r} are not two finite numbers above {what}{least:g}")
     for name, value in (("noise", noise), ("thin", thin)):
         if not 0.0 <= value < np.inf:
-            raise ValueError(f"{name}: it must be finite and at least 0, in m, not {value:g}")
+            raise ValueError(f"{name}: {value:g} m is not finite and at least 0")
     world = _constants.sloped(_constants.rectangle(table, values["nose_height"]), values)
     low, high = radius, np.array(table) - radius
     recordings: list[Recording] = []
     shots_played: list[Shot] = []
     strikes: list[Doubles] = []
     for index in range(shots):
-        # places that are apart from each other and from the cushions
+        # positions clear of each other and of the cushions
         while True:
             centres = random.uniform(2.0 * low, high - radius, (3, 2))
             gaps = np.hypot(*(centres[[0, 0, 1]] - centres[[1, 2, 2]]).T)

@@ -1,11 +1,9 @@
-"""What recorded shots are played with: named constants, and the table and balls that follow from
-them.
+"""The constants of recorded shots, and the table and the balls that follow from them.
 
-A constant is a field of `carom.dtypes.ball_kind` without the radius, or the slope of the table along
-x or y, which is among the constants where it is given or fitted. carom_ball_kind_resolve() says
-what a number stands for where it is 0, so a fit plays the balls of a shot. Friction between balls
-is always the law of law_a, law_b and law_c, also where it is constant: a given mu_ball without one
-of these stands for that.
+A constant is a field of `carom.dtypes.ball_kind` other than the radius, or the slope of the table
+along x or y if it is given or fitted. carom_ball_kind_resolve() replaces a 0 by its default, so a
+fit uses the same balls as a shot. Friction between balls is always the law of law_a, law_b and
+law_c; a constant mu_ball without these is converted to it.
 """
 
 from __future__ import annotations
@@ -18,9 +16,9 @@ import numpy as np
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._described import BallFriction, Game
-from carom._rows import Array, choice, numbered, pointer, worded
+from carom._rows import Array, choice, pointer, unknown_name, worded
 from carom._shot_options import Options, ShotCushion, options_of, shot_options
-from carom.layouts import GAMES, Table, balls
+from carom.layouts import GAMES, TABLE_KINDS, Table, balls
 from carom.status import CaromError
 
 Constants = dict[str, float]
@@ -31,13 +29,12 @@ SLOPE = ("slope_x", "slope_y")
 NAMES = KINDS + SLOPE
 _LAW = ("law_a", "law_b", "law_c")
 CUSHIONS = tuple(worded("SHOT_CUSHION"))
-# the words of the command, and the names of `carom.tables`
+# names of the command
 TABLES = worded("TABLE")
-_TABLES = {**numbered("carom_table_kind"), **TABLES}
 
 
 class Ground(NamedTuple):
-    """A table of recorded shots, and the game whose constants stand for what is not given."""
+    """A table of recorded shots, and the game that supplies constants that are not given."""
 
     table: Table
     game: Game
@@ -56,17 +53,19 @@ def _built_in(kind: int) -> Table:
 
 
 def ground(table: str | Extents, radius: float | None = None, game: Game | None = None) -> Ground:
-    """The table of a kind, such as "9ft", or one without pockets, 0 to W along x and 0 to L along
-    y, m; the game, which is that of the table, or "billiard"; and the radius of its balls, m.
+    """The table, the game and the radius of the balls, m, of recorded shots.
+
+    `table` is a built-in table such as "9ft", or the extents (W, L), m, of one without pockets. The
+    default game is the table's, or "billiard" for extents.
     """
     if isinstance(table, str):
-        kind = choice(_TABLES, table, "table")
+        kind = choice(TABLE_KINDS, table, "table")
         number = lib.carom_game_of_table(kind) if game is None else choice(GAMES, game, "game")
         made = _built_in(kind)
     else:
         if radius is None and game is None:
             raise ValueError(
-                "radius: that of the balls is needed, m, or their game, for a table of two extents"
+                "radius: missing for a table of two extents; pass the radius of the balls, m, or their game"
             )
         number = GAMES["billiard"] if game is None else choice(GAMES, game, "game")
         made = rectangle(table, _nose_height(number))
@@ -74,8 +73,8 @@ def ground(table: str | Extents, radius: float | None = None, game: Game | None 
         radius = float(lib.carom_ball_kind_of(number).radius)
     if not min(made.width, made.length) > 4.0 * radius > 0.0:
         raise ValueError(
-            f"table, radius: the extents {made.width:g} x {made.length:g} m must be above four radii, "
-            f"{4.0 * radius:g} m, and those above 0"
+            f"table, radius: the extents {made.width:g} x {made.length:g} m are not above four radii, "
+            f"{4.0 * radius:g} m, or the radius is not above 0"
         )
     return Ground(made, cast(Game, next(k for k, v in GAMES.items() if v == number)), radius)
 
@@ -88,8 +87,9 @@ def _nose_height(game: int) -> float:
 
 
 def rectangle(size: Extents, nose_height: float) -> Table:
-    """A table without pockets, 0 to size[0] along x and 0 to size[1] along y, m, with noses so high
-    above the cloth.
+    """A table without pockets, 0 to size[0] along x and 0 to size[1] along y, m.
+
+    `nose_height` is the height of its noses above the cloth, m.
     """
     width, length = size
     corners = np.array([[0.0, 0.0], [width, 0.0], [width, length], [0.0, length]])
@@ -102,7 +102,7 @@ def rectangle(size: Extents, nose_height: float) -> Table:
 def _resolved(
     kind: Array, cushion_model: ShotCushion, friction: BallFriction, table: Table | None
 ) -> tuple[Constants, ShotCushion]:
-    """The constants of a ball as shots read them, and the model of the cushion."""
+    """The constants of a ball after defaults are resolved, and the model of the cushion."""
     options = ffi.new(
         "carom_shot_options *",
         shot_options(Options(cushion_model=cushion_model, friction=friction))[0],
@@ -134,7 +134,7 @@ def usual(
     friction: BallFriction = "alciatore",
     table: Table | None = None,
 ) -> Constants:
-    """The constants to begin with: those of a game's balls for a model of the cushion."""
+    """The initial constants: a game's balls for a model of the cushion."""
     table = table or rectangle((1.0, 1.0), _nose_height(GAMES[game]))
     return _resolved(_kind_of(game, cushion_model), cushion_model, friction, table)[0]
 
@@ -148,9 +148,7 @@ def complete(
     friction: BallFriction = "alciatore",
     table: Table | None = None,
 ) -> tuple[Constants, ShotCushion]:
-    """The given constants, and those of the game for those that are not given; and the model of the
-    cushion that the shots are played with.
-    """
+    """The given constants completed by the game's, and the model of the cushion for the shots."""
     table = table or rectangle((1.0, 1.0), _nose_height(GAMES[game]))
     if (
         isinstance(constants, (np.ndarray, np.void))
@@ -160,19 +158,17 @@ def complete(
         return _resolved(cast(Array, constants), cushion_model, friction, table)
     if not isinstance(constants, Mapping):
         raise TypeError(
-            f"{where}: numbers by the names of constants are needed, such as {{'mu_slide': 0.2}}, not {constants!r}"
+            f"{where}: {constants!r} is not a mapping from constants to numbers, such as {{'mu_slide': 0.2}}"
         )
     for name, value in constants.items():
         if name not in NAMES:
-            raise ValueError(
-                f"{where}: there is no constant {name!r}; known are {', '.join(NAMES)}"
-            )
+            raise ValueError(unknown_name(where, "constant", name, NAMES, "help(carom.fit.fit)"))
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value):
-            raise ValueError(f"{where}: {name} must be a finite number, not {value!r}")
+            raise ValueError(f"{where}: {name}: {value!r} is not a finite number")
     kind = _kind_of(game, cushion_model)
     if "mu_ball" in constants and not any(name in constants for name in _LAW):
         friction, kind["mu_ball"] = "constant", constants["mu_ball"]
-    # the game's own law, where single numbers of it are given
+    # the game's law, if only some of its parameters are given
     for values in (_resolved(kind, cushion_model, friction, None)[0], constants):
         _give(kind, values)
     found, model = _resolved(kind, cushion_model, "alciatore", table)
@@ -186,7 +182,7 @@ def _give(kinds: Array, constants: Mapping[str, float]) -> None:
 
 
 def path(name: str) -> str:
-    """The name of a constant as `carom.tangents` takes it."""
+    """The name of a constant for `carom.tangents`."""
     return f"{'table' if name in SLOPE else 'kind'}.{name}"
 
 

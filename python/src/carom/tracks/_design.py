@@ -1,14 +1,14 @@
-"""Which further shots would tell the constants of a fit best.
+"""Design of further shots that determine the constants of a fit best.
 
-Candidates are strokes of the cue ball at an object ball or past it, from drawn places, with drawn
-speeds and tips, and are recorded in thought, 30 times a second. With the derivatives J_c and J_p of
-the samples by the constants and the strike, a shot adds
+Candidates are strokes of the cue ball at an object ball or past it, with random positions, speeds
+and tips, as a camera with 30 frames per second would record them. With the derivatives J_c and J_p
+of the samples by the constants and the strike, a shot adds
 
     (J_c^T J_c - J_c^T J_p (J_p^T J_p)^-1 J_p^T J_c) / V
 
-to the inverse of the covariance of the constants. V is the variance that one piece of evidence has
-in the fit itself, as in `_joint.Search.weigh`. One shot after the other is chosen, each the one
-that leaves the least sum of variances over those of the priors.
+to the inverse of the covariance of the constants. V is the variance of one sample in the fit, as in
+`_joint.Search.weigh`. The shots are chosen greedily: each minimises the sum of the variances
+relative to those of the priors.
 """
 
 from __future__ import annotations
@@ -26,7 +26,11 @@ from carom.tracks import _constants, _joint, _strikes
 from carom.tracks._profile import NORMAL
 from carom.tracks._recordings import Recording
 
-_CANDIDATES, _RATE, _LONGEST = 60, 30.0, 4.0  # drawn shots; pictures a second, and s of them
+_CANDIDATES, _RATE, _LONGEST = (
+    60,
+    30.0,
+    4.0,
+)  # drawn shots; frames per second, and their duration, s
 _STILL = 0.4  # s at rest before a strike
 _FARTHEST = (
     0.03  # m: samples that a deviation of a prior moves farther count less, as fits lose them
@@ -35,7 +39,7 @@ _FARTHEST = (
 
 @dataclass(frozen=True)
 class Design:
-    """A shot to play and to film."""
+    """A shot to play and to record."""
 
     places: Doubles  # (2, 2): Of the cue ball and of an object ball, m
     cue: Records  # The stroke, as `carom.simulate` takes it
@@ -59,7 +63,7 @@ class Design:
 
 
 def _drawn(fit: Any, random: np.random.Generator) -> tuple[Doubles, Records]:
-    """Places and a stroke."""
+    """Random positions and a stroke."""
     size = np.array(fit.ground.size)
     margin = 4.0 * fit.radius
     while True:
@@ -75,7 +79,7 @@ def _drawn(fit: Any, random: np.random.Generator) -> tuple[Doubles, Records]:
 
 
 def _recorded(fit: Any, places: Doubles, stroke: Records) -> tuple[Recording, Doubles]:
-    """The shot as a camera would see it, and its strike, on the clock of the recording."""
+    """The shot as a camera would record it, and its strike, on the clock of the recording."""
     layout = balls(places, game=fit.ground.game, radius=fit.radius)
     for name, value in fit.constants.items():
         if name in _constants.KINDS:
@@ -92,7 +96,7 @@ def _recorded(fit: Any, places: Doubles, stroke: Records) -> tuple[Recording, Do
 def _information(
     fit: Any, names: list[str], scale: Doubles, shot: Recording, strike: Doubles
 ) -> Doubles:
-    """What a shot tells of the constants, in deviations of their priors, times V."""
+    """The information of a shot on the constants, in deviations of their priors, times V."""
     plays = _strikes.Plays([shot], fit.table, fit.radius, fit.constants, fit.cushion_model)
     on_clock = strike - [0.0, 0.0, 0.0, 0.0, 0.0, plays.origins[0]]
     _, J_p, J_c, _ = _strikes.derivatives(plays, 0, on_clock, names, rest=False)
@@ -107,7 +111,9 @@ def design(fit: Any, count: int, seed: int) -> list[Design]:
     """The shots; see `Fit.design`."""
     names = list(fit.fitted)
     if not names:
-        raise ValueError("design: whole shots told no constants in this fit (free)")
+        raise ValueError(
+            "design: this fit determined no constants from complete shots; choose them with free"
+        )
     priors = [_joint.prior(name, fit.constants[name])[0] for name in names]
     scale = np.array([width or 1.0 for width in priors])
 

@@ -1,10 +1,11 @@
-"""What happened on recorded tracks, event by event: pieces of rolling and sliding, impacts on
-cushions, hits. No shot is simulated.
+"""Events on recorded tracks: pieces of rolling and sliding, impacts on cushions, and hits.
 
-Pieces. On a cloth with constant friction a ball's way is quadratic in time while it slides, and
-nearly so while it rolls. Each track is cut into pieces by dynamic programming: the cuts minimise
-the sum over pieces of chi^2 of a quadratic, and a penalty for each piece. The standard deviation of
-a coordinate is s(v) = hypot(s_0, s_t v): noise of the places, and of the times for a fast ball.
+No shot is simulated.
+
+Pieces. On a cloth with constant friction a ball's path is quadratic in time while it slides, and
+nearly so while it rolls. Dynamic programming cuts each track into pieces: the cuts minimise the sum
+over pieces of chi^2 of a quadratic and a penalty. The standard deviation of a coordinate is s(v) =
+hypot(s_0, s_t v), from the noise of positions and, for a fast ball, of times.
 
 Impacts and hits. At a cut where a ball is at a cushion and turns, or touches a ball and changes its
 velocity, a local model is fitted to the samples around it, by least squares: before, a path of
@@ -13,9 +14,9 @@ constant deceleration; after, sliding from velocity w with slip u,
     r(t) = r_c + w t - (mu_s g/2) u/|u| t^2      until t_s = 2|u|/(7 mu_s g), then rolling with w -
         (2/7) u.
 
-A ball leaves a cushion some milliseconds after it came, so the normal part of the way begins late:
-the delay is fitted with a prior of 3 +- 6 ms, as 50 pictures a second hardly tell it. Standard
-errors are those of the least squares.
+A ball leaves a cushion some milliseconds after it arrived, so the normal component of its path
+begins late. This delay is fitted with a prior of 3 +- 6 ms, because 50 frames per second hardly
+determine it. Standard errors follow from the least squares.
 """
 
 from __future__ import annotations
@@ -126,9 +127,10 @@ after (z); errors of a component; chi^2 over its degrees of freedom.
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Events(Arrays):
-    """What happened on recorded tracks, as structured arrays: `pieces`, `impacts`, `hits` with the
-    dtypes of their names in `carom.tracks`, and the friction on the cloth that was found on the
-    way.
+    """The events of recorded tracks, and the friction of the cloth that they determine.
+
+    `pieces`, `impacts` and `hits` are structured arrays of the dtypes of these names in
+    `carom.tracks`.
     """
 
     pieces: Records  # (n,)
@@ -145,11 +147,11 @@ class Events(Arrays):
 def least_squares(
     residuals: Callable[[Doubles], Doubles], start: Doubles, scale: Doubles, iterations: int = 40
 ) -> tuple[Doubles, float, Doubles]:
-    """Levenberg and Marquardt's method: the numbers found, the sum of squares there, and their
-    standard errors.
+    """Levenberg and Marquardt's method: the parameters, the sum of squares, and the standard
+    errors.
 
-    `residuals` takes many sets of numbers at once, (k, p) to (k, m). Differences are 1e-5 of the
-    scale.
+    `residuals` evaluates many sets of parameters at once, (k, p) to (k, m). Finite differences use
+    a step of 1e-5 of the scale.
     """
     x: Doubles = start.copy()
     damping = 1e-3
@@ -208,7 +210,7 @@ def _cuts(track: Doubles, weight: Doubles) -> list[tuple[int, int]]:
 
 
 def _free(track: Doubles, moves: float, low: float, high: Doubles) -> Doubles:
-    """The rows of a track that tell of the motion: since it moves, before the last one, and not
+    """The rows of a track that determine the motion: from its start, without the last row and rows
     clamped to a cushion.
     """
     rows = track[track[:, 0] >= moves][:-1]
@@ -264,7 +266,7 @@ def _pieces(shot: int, ball: int, rows: Doubles, noise: float) -> list[Any]:
 
 
 def _state(record: Any, time: ArrayLike) -> tuple[Doubles, Doubles]:
-    """Place and velocity of a piece at times, (..., 2) each."""
+    """Position and velocity of a piece at times, (..., 2) each."""
     u = (np.asarray(time, np.float64) - record["time"])[..., None]
     return record["r"] + u * (record["v"] + 0.5 * u * record["a"]), record["v"] + u * record["a"]
 
@@ -272,8 +274,8 @@ def _state(record: Any, time: ArrayLike) -> tuple[Doubles, Doubles]:
 def _cloth(
     pieces: Records,
 ) -> tuple[tuple[float, float], tuple[tuple[float, float], tuple[float, float]]]:
-    """Deceleration of sliding, and a, b of a + b v^2 of rolling, each with its error; NaN where no
-    piece tells.
+    """Deceleration of sliding, and a, b of a + b v^2 of rolling, each with its error; NaN without
+    suitable pieces.
     """
     slides = pieces[pieces["sliding"] & (pieces["a_error"] < 0.15)]
     size = np.hypot(*slides["a"].T)
@@ -316,8 +318,9 @@ def halves(
     random: np.random.Generator,
     find: Callable[[NDArray[np.intp]], Doubles],
 ) -> Doubles:
-    """The standard errors of what `find` gives of all n rows, by random halves: the difference of
-    two halves is twice that error.
+    """The standard errors of the result of `find` for all n rows, from random halves.
+
+    The difference of two halves is twice this error.
     """
     parts = [np.array_split(random.permutation(n), 2) for _ in range(splits)]
     apart = np.array([find(first) - find(second) for first, second in parts])
@@ -334,8 +337,8 @@ def _unit(vectors: Doubles) -> tuple[Doubles, Doubles]:
 
 
 class _Motion:
-    """The local models of motion, vectorised over sets of numbers: (k, 2) vectors and (k, m) times
-    give (k, m, 2) places.
+    """The local models of motion, vectorised over sets of parameters: (k, 2) vectors and (k, m)
+    times return (k, m, 2) positions.
     """
 
     def __init__(self, slide: float, roll: tuple[float, float]) -> None:
@@ -346,7 +349,7 @@ class _Motion:
         return self.roll[0] + self.roll[1] * speed**2
 
     def place_after(self, t: Doubles, r: Doubles, w: Doubles, u: Doubles) -> Doubles:
-        """Slides from velocity w with slip u, then rolls and stops."""
+        """The position of a ball that slides from velocity w with slip u, then rolls and stops."""
         size, way = _unit(u)
         lasts = 2.0 * size / (7.0 * self.slide)
         sliding = np.minimum(t, lasts)[..., None]
@@ -372,15 +375,15 @@ def _cushion(
     motion: _Motion,
     noise: float,
 ) -> Any:
-    """Numbers of one impact on a cushion at about window[1], from the samples between window[0] and
-    window[2]; None with too few.
+    """The parameters of an impact on a cushion at about window[1], from the samples between
+    window[0] and window[2]; None with too few samples.
     """
     begin, time, end = window
     first = (rows[:, 0] >= begin) & (rows[:, 0] < time - 0.004)
     second = (rows[:, 0] > time + 0.009) & (rows[:, 0] <= end)
     if first.sum() < 6 or second.sum() < 8:
         return None
-    # in the frame of the cushion, along and into, about the place of the cut
+    # in the frame of the cushion, along and into it, relative to the position of the cut
     frame = np.array([[n[1], -n[0]], n])
     place, v = _state(incoming, time)
     _, w = _state(outgoing, time)
@@ -461,9 +464,10 @@ def _hit(
     motion: _Motion,
     noise: float,
 ) -> Any:
-    """Numbers of one hit on a ball at rest that is first seen to move at window[1]: of the samples
-    from window[0] to window[2] of the ball that hits, and to window[3] of the other; None with too
-    few.
+    """The parameters of a hit on a ball at rest that is first seen to move at window[1].
+
+    Uses the samples from window[0] to window[2] of the hitting ball, and to window[3] of the other;
+    None with too few samples.
     """
     begin, time, end, other_end = window
     first = (rows[:, 0] >= begin) & (rows[:, 0] < time - 0.021)
@@ -545,7 +549,7 @@ class _Cut:
 def _cuts_of(
     shot: Recording, pieces: Records, ball: int, radius: float, table: tuple[float, float]
 ) -> list[_Cut]:
-    """The cuts between a ball's pieces, told apart."""
+    """The cuts between a ball's pieces, classified."""
     found: list[_Cut] = []
     for preceding, following in zip(pieces[:-1], pieces[1:]):
         # where the two quadratics come closest
@@ -578,14 +582,15 @@ def _cuts_of(
 
 
 def events(recordings: Sequence[Recording], table: tuple[float, float], radius: float) -> Events:
-    """Find what happened on recorded tracks; `table` has the extents of x and y and `radius` is
-    that of the balls, m.
+    """Find the events of recorded tracks.
+
+    `table` contains the extents of x and y, and `radius` is the radius of the balls, m.
 
     Returns
     -------
     Events
-        The pieces of all tracks, and the impacts and hits that enough samples tell of. Nothing is
-        left out for being improbable: select by chi2 and errors.
+        The pieces of all tracks, and the impacts and hits with enough samples. Improbable events
+        are included; select by chi2 and errors.
     """
     low, high = radius, np.array(table) - radius
     rows = [
@@ -605,7 +610,7 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
         else np.zeros(0, piece)
     )
     slide, roll = _cloth(pieces)
-    # where nothing tells the friction, impacts are fitted with that of an ordinary cloth
+    # without evidence of the friction, impacts are fitted with an ordinary cloth's
     usual = (
         2.0 if math.isnan(slide[0]) else slide[0],
         (0.05, 0.01) if math.isnan(roll[0][0]) else (roll[0][0], roll[1][0]),
@@ -625,7 +630,7 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
             for number, cut in enumerate(ball_cuts):
                 if cut.kind != "cushion":
                     continue
-                # samples up to the neighbouring events, and before the impact of one phase alone
+                # samples up to the neighbouring events, and before the impact of a single phase
                 smooth = [
                     c.time for c in ball_cuts if c.kind == "smooth" and c.time < cut.time - 0.02
                 ]

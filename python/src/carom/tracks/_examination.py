@@ -1,13 +1,15 @@
-"""Examines recorded shots before they are fitted: their clock, their noise, and how they lie on the
-table. What is wrong is put right where the rows tell how, and said in each case.
+"""Examines recorded shots before a fit: their clock, their noise, and their alignment with the
+table.
 
-Clock. A film of r pictures a second in a file of more repeats pictures, or has their times rounded
-up to its own. So the places of a moving ball do not follow the times. With the phase p of a shot,
-picture k = floor(t r - p) was taken at k/r: p lies in the widest gap of the fractions of t r. The
-rate is that of the usual ones whose times make the ways of moving balls smooth.
+Errors are corrected if the rows determine the correction, and always reported.
 
-Where t counts pictures, sliding tells the rate: a ball that was just hit slides, and cloths differ
-little in that. It slows down by mu_slide g, about 1.95 m/s^2.
+Clock. A film of r frames per second in a file with a higher rate repeats frames, or rounds their
+times up to the file's. The positions of a moving ball then do not match the times. With the phase p
+of a shot, frame k = floor(t r - p) was taken at k/r; p is in the widest gap of the fractions of t
+r. The rate is the common one that makes the paths of moving balls smoothest.
+
+If t counts frames, sliding determines the rate: a ball that was just hit slides, and its
+deceleration mu_slide g, about 1.95 m/s^2, varies little between cloths.
 """
 
 from __future__ import annotations
@@ -37,26 +39,29 @@ from carom.tracks._recordings import (
 
 _RATES = (25.0, 30.0, 24.0, 50.0, 60.0, 100.0, 120.0, 240.0, 23.976, 29.97, 48.0, 59.94)  # 1/s
 _SLIDING = 1.95  # m/s^2: mu_slide g of most cloths, 0.17 to 0.22 times g
-_ROWS = (7, 14, 28, 56)  # that tell how a ball slides, of 25 to 240 pictures a second
-_SLIDES = (0.18, 0.6)  # s: it slides so long
+_ROWS = (7, 14, 28, 56)  # rows that show sliding, at 25 to 240 frames per second
+_SLIDES = (0.18, 0.6)  # s: duration of sliding
 _CLOCK = 1.18  # a clock that is wrong by less is no other than a cloth that is unlike most
-_HELD = 0.03  # share of repeated pictures among those of moving balls, above chance
+_HELD = 0.03  # fraction of repeated frames of moving balls, above chance
 _SMOOTHER = 0.6  # of the scatter that a right clock leaves, at most
 _MOVES, _FAST = 2e-3, 20e-3  # m: least steps of balls that move, for their clock, and move fast
-_CROOKED = 8e-3  # m: tracks that are farther off are told
-_BEYOND = 15e-3  # m: a ball that turns farther off a cushion tells of another table
-_GAP, _GAP_WAY = 2.5, 0.04  # pictures, and m that a ball goes meanwhile: more is said
+_CROOKED = 8e-3  # m: deviation above which a misaligned track is reported
+_BEYOND = 15e-3  # m: a turn farther from a cushion means another table
+_GAP, _GAP_WAY = (
+    2.5,
+    0.04,
+)  # frames, and m that a ball moves meanwhile, above which a gap is reported
 _DRIFT, _BEFORE = 2e-3, 0.05  # m and s: of a ball at rest, so long before the strike
-_UNLIKE = 1.6  # the noise of one coordinate over the other's, above which it is said
+_UNLIKE = 1.6  # ratio of the noise of two coordinates above which it is reported
 
 
 _CAUSES = ("clock", "table", "radius", "rest")
-_KINDS = (*_CAUSES, "file", "gap", "noise")  # in the order in which findings are told
+_KINDS = (*_CAUSES, "file", "gap", "noise")  # in the order of the report
 
 
 @dataclass(frozen=True)
 class Finding:
-    """What an examination found, where, and what would be right."""
+    """A finding of an examination: what, where, and its correction."""
 
     kind: str  # "clock", "table", "radius", "rest", "gap", "file" or "noise"
     text: str  # a sentence
@@ -79,7 +84,7 @@ class _Findings(list[Finding]):
 
 @dataclass(frozen=True, eq=False)
 class Examination:
-    """Recordings that are put right, and what was found in them."""
+    """Corrected recordings, and the findings."""
 
     recordings: list[Recording]
     findings: list[Finding]
@@ -89,18 +94,18 @@ class Examination:
 
     @property
     def causes(self) -> list[str]:
-        """The kinds of what was found and makes fits worse, as it is not put right."""
+        """The kinds of uncorrected findings, which make fits worse."""
         open_ones = {finding.kind for finding in self.findings if not finding.is_mended}
         return [kind for kind in _CAUSES if kind in open_ones]
 
     @property
     def sentences(self) -> list[str]:
-        """What was found of all shots, a sentence each."""
+        """Sentences on the findings that concern all shots."""
         return [finding.text for finding in self.findings]
 
 
 def _names(shots: Sequence[int | str]) -> str:
-    """Which shots, in words."""
+    """The shots, as a phrase."""
     some = ", ".join(map(str, shots[:4])) + (" and others" if len(shots) > 4 else "")
     return f"{'shot' if len(shots) == 1 else 'shots'} {some}"
 
@@ -109,8 +114,8 @@ def _names(shots: Sequence[int | str]) -> str:
 
 
 def _slowing(recordings: Sequence[Recording], rows: int, with_struck: bool) -> Doubles:
-    """The decelerations of balls that lay at rest in their first rows of motion, in which those
-    slide that were hit, and usually those that were struck.
+    """The decelerations of balls in their first rows of motion, in which balls slide that were hit,
+    and usually the struck ball.
     """
     found = []
     for shot in recordings:
@@ -136,7 +141,7 @@ def _slowing(recordings: Sequence[Recording], rows: int, with_struck: bool) -> D
 
 
 def _time_scale(recordings: Sequence[Recording], least: int, with_struck: bool = False) -> float:
-    """How many units of t a second has, by sliding; NaN where fewer balls than `least` tell."""
+    """The number of units of t per second, from sliding; NaN with fewer than `least` balls."""
     steps = [np.diff(track[:, 0]) for shot in recordings for track in shot.tracks]
     picture = float(np.median(np.concatenate(steps)))
     for rows in _ROWS:
@@ -144,7 +149,7 @@ def _time_scale(recordings: Sequence[Recording], least: int, with_struck: bool =
         half = len(slowing) // 2 + 1
         if len(slowing) < least:
             continue
-        # the half that lies closest together slides alone; of others some hit or roll meanwhile
+        # the closest half only slides; some of the others hit or roll meanwhile
         widths = slowing[half - 1 :] - slowing[: len(slowing) - half + 1]
         first = int(np.argmin(widths))
         middle = float(slowing[first : first + half].mean())
@@ -156,7 +161,7 @@ def _time_scale(recordings: Sequence[Recording], least: int, with_struck: bool =
 
 
 def _in_seconds(recordings: list[Recording], findings: _Findings) -> list[Recording]:
-    """Recordings whose t counts pictures or milliseconds, in seconds."""
+    """Recordings with t converted from frames or milliseconds to seconds."""
     t = np.concatenate([track[:, 0] for shot in recordings for track in shot.tracks])
     if len(t) < 40 or np.abs(t - np.round(t)).max() > 1e-6 or np.ptp(t) < 20.0:
         return recordings
@@ -184,13 +189,13 @@ def _in_seconds(recordings: list[Recording], findings: _Findings) -> list[Record
     ]
 
 
-# ---- Pictures
+# ---- Frames
 
 
 @dataclass(frozen=True)
 class _Pictures:
-    """The times at which a shot was seen, and at which of them a moving ball is first seen in its
-    place, or is seen there again.
+    """The times of a shot's frames, and which of them show a moving ball at a new or a repeated
+    position.
     """
 
     times: Doubles
@@ -199,7 +204,7 @@ class _Pictures:
 
 
 def _pictures(shot: Recording, least: float = _MOVES) -> _Pictures:
-    """The pictures of a shot, in which a ball is new that moved by more than `least`, m."""
+    """The frames of a shot; a ball that moved by more than `least`, m, is new."""
     times = np.unique(np.concatenate([track[:, 0] for track in shot.tracks]))
     is_new, is_repeated = np.zeros(len(times), np.bool_), np.zeros(len(times), np.bool_)
     for track in shot.tracks:
@@ -217,7 +222,7 @@ def _pictures(shot: Recording, least: float = _MOVES) -> _Pictures:
 
 
 def _numbered(pictures: _Pictures, rate: float) -> tuple[NDArray[np.int64], float]:
-    """The numbers of the pictures of a shot in a film of this rate, and the time of number 0."""
+    """The numbers of a shot's frames in a film of this rate, and the time of number 0."""
     seen = pictures.times[pictures.is_new] if pictures.is_new.any() else pictures.times
     fractions = np.sort(seen * rate % 1.0)
     gaps = np.diff(fractions, append=fractions[0] + 1.0)
@@ -227,11 +232,12 @@ def _numbered(pictures: _Pictures, rate: float) -> tuple[NDArray[np.int64], floa
 
 
 def _retimed(shot: Recording, pictures: _Pictures, rate: float) -> tuple[Recording, int, int]:
-    """A shot by the clock of a film of this rate, without pictures that are seen again; how many
-    of these there were, and how many pictures of moving balls fell together.
+    """A shot on the clock of a film of this rate, without repeated frames.
+
+    Also returns the number of repeated frames, and of frames of moving balls that coincided.
     """
     numbers, begin = _numbered(pictures, rate)
-    # of the times with one number the first is taken, before all others that of a new place
+    # of the times with the same number, prefer a new position, then the first
     order = np.lexsort((np.arange(len(numbers)), ~pictures.is_new, numbers))
     chosen = np.zeros(len(numbers), np.bool_)
     chosen[order[np.diff(numbers[order], prepend=numbers.min() - 1) > 0]] = True
@@ -246,7 +252,7 @@ def _retimed(shot: Recording, pictures: _Pictures, rate: float) -> tuple[Recordi
 
 
 def _by_film(recordings: list[Recording], findings: _Findings) -> list[Recording]:
-    """Recordings by the clock of their film, where the file's is another."""
+    """Recordings on the clock of their film, if the file's differs."""
     pictures = [_pictures(shot) for shot in recordings]
     new, held = (
         sum(int(getattr(p, name).sum()) for p in pictures) for name in ("is_new", "is_held")
@@ -258,7 +264,7 @@ def _by_film(recordings: list[Recording], findings: _Findings) -> list[Recording
     uneven = len(steps) > 0 and np.mean(np.abs(steps / np.median(steps) - 1.0) > 0.15) > 0.08
     if not repeats and not uneven:
         return recordings
-    # where repeated pictures are the same to a hair, those of slow balls are known, too
+    # exact repetition also identifies repeated frames of slow balls
     exact = [_pictures(shot, 1e-9) for shot in recordings]
     if repeats and sum(int(p.is_held.sum()) for p in exact) > 0.9 * held:
         pictures = exact
@@ -302,9 +308,7 @@ def _by_film(recordings: list[Recording], findings: _Findings) -> list[Recording
 def _on_table(
     recordings: list[Recording], ground: _constants.Ground, findings: _Findings
 ) -> tuple[list[Recording], list[int]]:
-    """Recordings without the rows of balls that have fallen and those whose places are off the
-    table, and their indices.
-    """
+    """Recordings without rows of balls that have fallen and rows off the table, and their indices."""
     table, radius, pockets = ground.size, ground.radius, ground.table.pockets["centre"]
     places = np.concatenate([track[:, 1:] for shot in recordings for track in shot.tracks])
     low, high = radius, np.array(table) - radius
@@ -348,8 +352,9 @@ def _on_table(
 
 
 def _thawed(track: Doubles, noise: float) -> Doubles:
-    """A track with the first and the last row of each run in which the ball does not move by a
-    hair, as compressed films freeze it: together they are one measurement.
+    """A track with only the first and the last row of each run without any motion.
+
+    Compressed films freeze balls; such a run is a single measurement.
     """
     near = np.hypot(*np.diff(track[:, 1:], axis=0).T) < 0.1 * noise
     inner = np.zeros(len(track), np.bool_)
@@ -360,7 +365,7 @@ def _thawed(track: Doubles, noise: float) -> Doubles:
 def _noise(
     recordings: list[Recording], train: Sequence[int] | None, findings: _Findings
 ) -> tuple[list[Recording], Noise]:
-    """Recordings with their noise, and without what a film repeats of balls at rest."""
+    """Recordings with their noise, and without the repeated rows of balls at rest."""
     noise = noise_of(recordings if train is None else [recordings[k] for k in train])
     if noise.is_frozen:
         findings.say(
@@ -384,11 +389,11 @@ def _noise(
     return recordings, noise
 
 
-# ---- What the rows of a shot say
+# ---- Findings in a shot
 
 
 def _gaps(shot: Recording) -> list[tuple[float, float, float]]:
-    """When no ball was seen while one moved on: begin, end, and the way, m."""
+    """The gaps in which no ball was seen although one moved: beginning, end, and the distance, m."""
     times = np.unique(np.concatenate([track[:, 0] for track in shot.tracks]))
     if len(times) < 8:
         return []
@@ -410,7 +415,7 @@ def _gaps(shot: Recording) -> list[tuple[float, float, float]]:
 
 
 def _drifts(shot: Recording) -> list[tuple[int | str, float, int]]:
-    """Balls that move before the strike: how far, m, and in how many rows."""
+    """The balls that move before the strike: by what distance, m, and in how many rows."""
     found = []
     for ball, track, still in zip(shot.balls, shot.tracks, shot.still):
         rows = track[: max(still - 3, 0)]
@@ -425,7 +430,7 @@ def _drifts(shot: Recording) -> list[tuple[int | str, float, int]]:
 
 
 def _begins_late(shot: Recording) -> bool:
-    """Whether the struck ball moves from its first row on, as far as from the second."""
+    """Whether the struck ball already moves between its first two rows."""
     if not np.isfinite(shot.moves).any() or len(shot.tracks[shot.cue]) < 4:
         return False
     first = shot.tracks[shot.cue][:4]
@@ -435,9 +440,10 @@ def _begins_late(shot: Recording) -> bool:
 
 
 def _diameters(shot: Recording) -> list[float]:
-    """Two radii by each hit of the struck ball on a ball at rest, m: by the distance of its way
-    from the other's centre, over the sine of the angle at which the other leaves. Throw makes them
-    some per cent too large.
+    """The diameter, m, from each hit of the struck ball on a ball at rest.
+
+    It is the distance of its path from the other's centre, divided by the sine of the angle at
+    which the other leaves. Throw makes it some per cent too large.
     """
     found: list[float] = []
     if not np.isfinite(shot.moves).any():
@@ -470,7 +476,9 @@ def _diameters(shot: Recording) -> list[float]:
 
 
 def _say_shots(recordings: list[Recording], radius: float, findings: _Findings) -> None:
-    """What single shots show: gaps, drifts, strikes that were not filmed, another radius."""
+    """Report findings in single shots: gaps, drifts, strikes that were not recorded, another
+    radius.
+    """
     gaps = {shot.id: found for shot in recordings if (found := _gaps(shot))}
     if gaps:
         first, (begin, end, way) = next((shot, found[0]) for shot, found in gaps.items())
@@ -530,7 +538,7 @@ def _say_rails(
     radius: float,
     findings: _Findings,
 ) -> None:
-    """Where balls turn that meet cushions, if it is not at them: for few impacts."""
+    """Report turns of balls away from the cushions, for few impacts."""
     found = beyond_rails(recordings, table, radius)
     if not found or max(abs(off) for off, _ in found.values()) < _BEYOND:
         return
@@ -558,29 +566,35 @@ def examine(
     train: Sequence[int] | None = None,
     calibrate: bool = False,
 ) -> Examination:
-    """Examine recorded shots, and put right what their rows tell; `carom.fit.fit` does this first.
+    """Examine recorded shots and correct them where possible, as `carom.fit.fit` does first.
 
-    Repeated pictures are left out and times set by the film's clock; t that counts pictures is
-    taken in seconds; places off the table, false detections and frozen rows are left out; swapped
-    names are put right. Missing pictures, balls that move before the strike, strikes that were not
-    filmed, a table that lies crooked or has another size, and balls that come too near are said.
-    A mirrored table is not: a shot in a mirror is a shot with the other english.
+    Repeated frames are removed, and times are set by the film's clock. A t that counts frames is
+    converted to seconds. Positions off the table, false detections and frozen rows are removed, and
+    swapped names are corrected. Missing frames, balls that move before the strike, strikes that
+    were not recorded, a rotated table or one of another size, and balls that come too close are
+    reported. A mirrored table cannot be detected, because a mirrored shot is a shot with opposite
+    english.
 
     Parameters
     ----------
     recordings : sequence of Recording
-        From `carom.tracks.read`, whose notes come first in the findings.
+        From `carom.tracks.read`; its notes are the first findings.
     table, radius
-        As in `carom.fit.fit`.
+        As for `carom.fit.fit`.
     train : sequence of int, optional
-        The shots that tell the noise; all without.
+        The shots that determine the noise. Default: all.
     calibrate : bool
-        Whether places are put right where the table lies crooked in the tracks.
+        Whether to correct positions if the table is rotated in the tracks.
+
+    Returns
+    -------
+    Examination
 
     Raises
     ------
     ValueError
-        The table's extents or the radius are wrong, or the rows do not tell the unit of time.
+        The table's extents or the radius are invalid, or the rows do not determine the unit of
+        time.
     """
     ground = _constants.ground(table, radius)
     size, radius = ground.size, ground.radius

@@ -1,10 +1,10 @@
-"""Forecasts: what may come after the first seconds of a recorded shot.
+"""Forecasts of recorded shots from their first seconds.
 
-Neither the strike is known exactly, nor the constants c, the places of rest r and the models of
-contacts. A draw has all four errors.
+The strike, the constants c, the initial positions r and the models of contacts all have errors, and
+a draw includes all four.
 
-1. Before. Constants and places of rest are drawn by their errors. With the c and r of a draw, the
-   strike and the kicks y of the contacts in the first t seconds follow
+1. Before. Constants and initial positions are drawn from their errors. Given c and r, the strike and
+   the kicks y of the contacts in the first t seconds follow
 
        log P(y) = - (E(y) + sum of V_1 y^2/s^2) / (2 V),   V_1 = m^2 PRICE,
 
@@ -45,7 +45,7 @@ from carom.tracks import _covariance, _kicks, _recordings, _search, _strikes
 from carom.tracks._recordings import Recording
 
 SHARES = (0.68, 0.95)
-_STEPS = 6  # of the descent to the top of P
+_STEPS = 6  # iterations of the descent to the maximum of P
 _ALIKE = 0.1  # the share of the draws that have the largest weight
 # an RMSE so many times that of the noise is no longer ok: with the true constants nine in ten shots
 # are below
@@ -56,17 +56,18 @@ _APART = 0.5  # s between the regions of to_dict()
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Forecast(Arrays):
-    """Draws of what may come after the first seconds of a recorded shot."""
+    """Draws of the continuation of a recorded shot after its first seconds."""
 
     recording: Recording
-    after: float  # s from the first motion: the strikes know the rows until then
+    after: float  # s from the first motion: the strikes are fitted to the rows until then
     until: float  # s, the same on the clock of the recording
     numbers: Doubles  # (draws, 6 + 5 * 16): Strikes, on the clock of the plays, and kicks
     plays: _strikes.Plays  # A shot for each draw, with its constants and places of rest
 
     def positions(self, times: ArrayLike) -> Doubles:
-        """The centres of all balls in all draws at times of the recording's clock, m: shape (draws,
-        times..., balls, 2).
+        """Return the centres of all balls in all draws, m, at times of the recording's clock.
+
+        Shape (draws, times..., balls, 2).
         """
         moments = np.asarray(times, np.float64)
         sorted_times, back = np.unique(moments, return_inverse=True)
@@ -80,10 +81,10 @@ class Forecast(Arrays):
         return np.array(places)
 
     def regions(self, times: ArrayLike, shares: ArrayLike = SHARES) -> tuple[Doubles, Doubles]:
-        """Where balls will be: centres, m, of shape (times..., balls, 2), and radii, m, of shape
-        (shares..., times..., balls), of the circles that hold these shares of the draws.
+        """Return circles that contain given shares of the draws of each ball.
 
-        A centre is the median of the draws. A camera adds its noise to each draw, as to the rows.
+        Returns centres, m, of shape (times..., balls, 2), which are medians, and radii, m, of shape
+        (shares..., times..., balls). The camera's noise is added to each draw, as in the rows.
         """
         places = self.positions(times)
         middle: Doubles = np.median(places, axis=0)
@@ -93,8 +94,8 @@ class Forecast(Arrays):
         return middle, np.quantile(off, levels, axis=0)
 
     def later(self, *, moving: bool = False) -> tuple[Doubles, NDArray[np.int64]]:
-        """The rows of the recording (t, x, y) after the first seconds, and the ball of each: all,
-        or those that tell a motion (`Recording.moving`).
+        """Return the rows (t, x, y) after the first seconds, and the ball of each: all rows, or
+        only the moving ones (`Recording.moving`).
         """
         shot = self.recording
         parts = [
@@ -104,9 +105,7 @@ class Forecast(Arrays):
         return np.concatenate(parts), np.repeat(np.arange(len(parts)), list(map(len, parts)))
 
     def covered(self, shares: ArrayLike = SHARES, *, moving: bool = False) -> Doubles:
-        """Which part of the later rows, or of those that tell a motion, is in the regions of these
-        shares; nan without any.
-        """
+        """Return the fraction of later rows, or of moving ones, in the regions; nan without rows."""
         rows, balls = self.later(moving=moving)
         if not len(rows):
             return np.full(np.shape(shares), np.nan)
@@ -116,9 +115,7 @@ class Forecast(Arrays):
         return np.asarray((off <= radii[..., each, balls]).mean(axis=-1))
 
     def to_dict(self) -> dict[str, Any]:
-        """Where balls will be each half a second until the recording ends, of numbers that JSON
-        has.
-        """
+        """Return the regions every half second until the recording ends, for JSON."""
         end = max(float(track[-1, 0]) for track in self.recording.tracks)
         times = np.arange(self.until + _APART, max(end, self.until + _APART) + 1e-9, _APART)
         middle, radii = self.regions(times)
@@ -131,8 +128,8 @@ class Forecast(Arrays):
         }
 
     def plot(self, waits: ArrayLike = (1.0, 2.0, 4.0)) -> pictures.Picture:
-        """The regions so many seconds after the last one that is known, as circles of 68 and 95 %,
-        on the recorded places, dots. Its `svg` is the text of a file.
+        """Draw the regions after the first seconds: circles of 68 and 95 %, with the recorded
+        positions as dots. `svg` of the result is the text of a file.
         """
         durations = np.asarray(waits, np.float64)
         middle, radii = self.regions(self.until + durations)
@@ -153,7 +150,7 @@ class Forecast(Arrays):
 
 
 def first_seconds(recording: Recording, duration: float) -> Recording:
-    """The rows until `after` seconds from the first motion, and at least one of each ball."""
+    """The rows until `after` seconds from the first motion, at least one for each ball."""
     end = recording.moves.min() + duration
     rows = [(track[:, 0] <= end) | (np.arange(len(track)) == 0) for track in recording.tracks]
     return replace(
@@ -162,7 +159,7 @@ def first_seconds(recording: Recording, duration: float) -> Recording:
 
 
 def forecast(fit: Any, whole: Recording, after: float, draws: int, seed: int) -> Forecast:
-    """By the constants of a `Fit`, of the first seconds of a recording."""
+    """Forecast a recording from its first seconds with the constants of a `Fit`."""
     random = np.random.default_rng(seed)
     whole, error = replace(whole, noise=fit.noise), fit.model_error
     end = float(whole.moves.min() + after)
@@ -176,14 +173,14 @@ def forecast(fit: Any, whole: Recording, after: float, draws: int, seed: int) ->
 
 
 def _part(fit: Any, whole: Recording, duration: float) -> Any:
-    """A `Fit` of the first seconds alone, with the constants of another."""
+    """A `Fit` of only the first seconds, with the constants of another."""
     (part,), _ = _recordings.sound([first_seconds(whole, duration)], fit.noise)
     plays = _strikes.Plays([part], fit.table, fit.radius, fit.constants, fit.cushion_model)
     found, _ = _search.find(plays, squares=True)
     rmse = plays.rmse(found)
     if not np.isfinite(rmse[0]):
         raise ValueError(
-            f"shot: in its first {duration:g} s no strike was found that can be played"
+            f"shot: no playable strike was found in its first {duration:g} s; use a longer time"
         )
     found[:, 5] += plays.origins
     return replace(fit, recordings=[part], strikes=found, status=["ok"], rmse=rmse, train=None)
@@ -196,11 +193,10 @@ def _kicked(
     error: float,
     random: np.random.Generator,
 ) -> Doubles:
-    """Strikes and kicks up to a time of the plays' clock with random kicks of the contacts after
-    it; nan where a play ends in an error.
+    """Strikes and kicks up to a time of the plays' clock, with random kicks of the later contacts.
 
-    A kick changes which contacts follow. So the kicks of one contact after the other are as large
-    as its kind asks, until the kinds of all are those of the play.
+    nan if a play fails. A kick changes which contacts follow, so kicks are scaled one contact after
+    another by its kind until all kinds agree with the play.
     """
     known = strikes.shape[1]
     kicks = random.normal(size=(len(strikes), _kicks.CONTACTS, _strikes.KICKS))
@@ -241,7 +237,7 @@ class _Before:
         self.error, self.variance, self.noise = error, _kicks.PRICE * error**2, fit.noise**2
         self.held = np.concatenate([self.variance / _covariance.bounds(whole[0]) ** 2, price])
 
-        # the constants and places of rest of each draw
+        # the constants and initial positions of each draw
         changes: Doubles = np.zeros((count, len(fit.fitted)))
         if fit.covariance is not None and fit.fitted:
             changes = random.multivariate_normal(changes[0], fit.covariance, count)

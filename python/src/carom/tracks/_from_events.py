@@ -1,4 +1,4 @@
-"""Constants from single events: no shot is simulated, so each constant stands on its own evidence.
+"""Constants from single events, without simulating shots, so each constant has separate evidence.
 
 - mu_slide and mu_roll: medians and means over pieces. The engine's rolling resistance is constant,
     so mu_roll is the mean deceleration
@@ -11,8 +11,8 @@
   spin is not seen, so each impact has one of its own: the best, with a prior of 0 +- 0.12 v for
   balls that were not struck before their first cushion, and 0 +- 0.7 v for others.
 
-A constant's error is the scatter of its median, or for the cushion that of fits of random halves of
-the impacts; and what the method itself is off by, added in quadrature: see _METHOD.
+A constant's error is the scatter of its median, or for the cushion of fits to random halves of the
+impacts, plus the error of the method, added in quadrature; see _METHOD.
 """
 
 from __future__ import annotations
@@ -57,9 +57,9 @@ def measured(
     seed: int,
     constants: Mapping[str, float] | None = None,
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """The constants that the events tell, and their errors.
+    """The constants that the events determine, and their errors.
 
-    What too few events tell is left out. Other numbers of the cushion are `given`.
+    Constants with too few events are omitted. `given` contains the other constants of the cushion.
     """
     found: dict[str, tuple[float, float]] = {
         "mu_slide": (events.slide[0] / _GRAVITY, events.slide[1] / _GRAVITY),
@@ -113,8 +113,8 @@ def rebound(
     model: ShotCushion,
     constants: Mapping[str, Any],
 ) -> Doubles:
-    """v_t, v_n and R w_t, R w_n, R w_z after impacts, (..., 5), as carom_shoot() has them; `spin`
-    has the last three before, (..., 3).
+    """v_t, v_n and R w_t, R w_n, R w_z after impacts, (..., 5), as computed by carom_shoot();
+    `spin` contains the last three before, (..., 3).
     """
     balls: Array = np.zeros(np.shape(v_t), dtypes.cushion_impact)
     balls["v"][..., 0], balls["v"][..., 1], balls["w"] = v_t, v_n, spin / radius
@@ -201,7 +201,7 @@ _LEAST, _MOST = (
 
 
 def _free(model: ShotCushion) -> tuple[str, ...]:
-    """Those of _CUSHION that impacts tell: without friction the first alone."""
+    """The constants of _CUSHION that impacts determine: without friction only the first."""
     return _CUSHION if model != "mirror" else _CUSHION[:1]
 
 

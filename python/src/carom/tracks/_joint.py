@@ -1,21 +1,21 @@
-"""Constants from whole shots, all of them together.
+"""Constants from all complete shots together.
 
-The cost of a set of constants is the sum over shots of n m log(1 + c/(n m)), where c is the least
-cost that a strike gives (`_strikes`), n the number of its samples and m twice the median of c/n, so
-that shots whose events are missed do not decide; and the constants' priors, ((c - c_0)/s)^2 each.
-As the fit comes nearer to the noise, m falls and the priors count less. With J_c and J_p the
-derivatives of the distances by the constants and by one shot's strike, the strike follows a step dc
-of the constants by -(J_p^T W J_p)^-1 J_p^T W J_c dc, which is put into the normal equations of dc
-and leaves (variable projection)
+The cost of a set of constants is the sum over shots of n m log(1 + c/(n m)), where c is the
+smallest cost of a strike (`_strikes`), n the number of its samples and m twice the median of c/n,
+so that shots with missed events do not dominate; plus the priors of the constants, ((c - c_0)/s)^2
+each. As the fit approaches the noise, m decreases and the priors count less. With the derivatives
+J_c and J_p of the distances by the constants and by one shot's strike, the strike follows a step dc
+of the constants by -(J_p^T W J_p)^-1 J_p^T W J_c dc. Inserted into the normal equations of dc, this
+leaves (variable projection)
 
     sum over shots of (J_c^T W J_c - J_c^T W J_p (J_p^T W J_p)^-1 J_p^T W J_c) dc = - sum of (J_c^T
     W d - J_c^T W J_p (...)^-1 J_p^T W d).
 
-A step of Levenberg and Marquardt's method is taken where the cost falls after every strike has
-descended. The first seconds come first: later samples follow from earlier events, and small errors
-of the constants have grown there beyond what a descent brings back. As a shot's cost jumps where
-events appear and vanish, all strikes are searched anew now and then. At the end Newton's steps by
-derivatives in double precision lead into the minimum (`finish`).
+A step of Levenberg and Marquardt's method is accepted if the cost decreases after every strike has
+descended. The first seconds are fitted first, because later samples depend on earlier events, and
+small errors of the constants grow beyond the range of a descent. Because a shot's cost jumps when
+events appear and vanish, all strikes are searched again from time to time. At the end Newton steps
+with derivatives in double precision lead into the minimum (`finish`).
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ PRIORS = {
     "restitution_log": (0.01, -0.2, 0.2),
     "mu_log": (0.01, -0.2, 0.2),
 }
-# What a table is, and not a law: with deviations so wide that five shots tell more than these.
+# Properties of a table, not laws: with deviations so wide that five shots outweigh them.
 TABLE = {
     "restitution_cushion": 0.12,
     "mu_cushion": 0.12,
@@ -71,7 +71,7 @@ TABLE = {
     "slope_y": 1e-3,
 }
 _STEEPEST = 2.5e-3  # of a slope along x or y, so that balls come to rest
-# How large errors are beside each other on synthetic recordings, whose truth is known.
+# Relative sizes of errors on synthetic recordings, whose truth is known.
 _SHAPE = {
     "mu_slide": 1.2e-3,
     "mu_roll": 1.5e-5,
@@ -89,7 +89,7 @@ _SHAPE = {
     "slope_x": 3e-6,
     "slope_y": 3e-6,
 }
-_WIDE = 10.0  # a range that is wider says nothing of the deviation of a constant
+_WIDE = 10.0  # a wider range does not determine the deviation of a constant
 # the deviation of a prior of other constants over the width of their range, and _SHAPE over the
 # deviation
 _OTHER = 0.1
@@ -111,8 +111,8 @@ LEAST = 8  # shots, that errors follow from
 
 
 def prior(name: str, begin: float = 0.0) -> tuple[float | None, float, float]:
-    """The deviation of the prior of a constant that begins with a value, None where it has to be
-    given, and its bounds.
+    """The deviation of a constant's prior for an initial value, or None if it must be given, and
+    its bounds.
     """
     if name in PRIORS:
         return PRIORS[name]
@@ -124,11 +124,11 @@ def prior(name: str, begin: float = 0.0) -> tuple[float | None, float, float]:
 
 
 def damped(square: Doubles) -> Doubles:
-    """J_p^T W J_p, (..., 6, 6), made so much larger that it can be inverted where no sample tells a
-    number of the strike.
+    """J_p^T W J_p, (..., 6, 6), increased enough to be inverted if no sample determines a parameter
+    of the strike.
 
-    More would hold the strikes back, whose numbers depend on each other: constants then creep along
-    a valley, and stop in it.
+    A larger increase would hold back the strikes, whose parameters depend on each other; constants
+    would then creep along a valley and stop in it.
     """
     diagonal, larger = np.arange(6), square.copy()
     larger[..., diagonal, diagonal] = square[..., diagonal, diagonal] * (1.0 + 1e-8) + 1e-12
@@ -136,9 +136,9 @@ def damped(square: Doubles) -> Doubles:
 
 
 class Search:
-    """The search for constants by some shots, `rows`, that begin with `strikes`, (shots, 6).
+    """The search for constants with the shots `rows`, starting from `strikes`, (shots, 6).
 
-    `priors` has the mean and the deviation of each constant to find.
+    `priors` contains the mean and the deviation of each constant to find.
     """
 
     def __init__(
@@ -161,7 +161,7 @@ class Search:
         return {**self.plays.constants, **dict(zip(self.names, values.tolist()))}
 
     def cost(self, values: Doubles, strikes: Doubles, iterations: int) -> tuple[float, Doubles]:
-        """Of constants, after the strikes have descended; and these."""
+        """The cost of constants after the strikes have descended, and the strikes."""
         self.plays.set(self.constants(values))
         strikes, sums = descend(self.plays, self.rows, strikes, self.ends, iterations)
         prior = self.prior_cost * float((((values - self.first) / self.scale) ** 2).sum())
@@ -170,8 +170,8 @@ class Search:
         ) + prior, strikes
 
     def step(self, damping: float, cost: float) -> tuple[float, float]:
-        """A step; the cost after it, which is that before where none was found, and the damping for
-        the next.
+        """Take a step; returns the cost after it, unchanged if no step was found, and the next
+        damping.
         """
         self.plays.set(self.constants(self.values), dict(zip(self.names, _STEP * self.scale)))
         most = MOST * self.counts
@@ -218,7 +218,7 @@ class Search:
         return cost, damping
 
     def anew(self, seed: int) -> None:
-        """Searches all strikes anew, and takes those that are better."""
+        """Search all strikes again, and keep the better ones."""
         self.plays.set(self.constants(self.values))
         current = self.plays.misfit(self.rows, self.strikes, self.plays.ends[self.rows], -np.inf)[
             :, 0
@@ -228,8 +228,8 @@ class Search:
         self.strikes[better] = found[better]
 
     def weigh(self) -> float:
-        """What the samples are off by says how much a shot and a prior count: the median over the
-        shots of the cost of a sample.
+        """Set the weights of shots and priors from the median over the shots of the cost per
+        sample.
         """
         sums = self.plays.misfit(self.rows, self.strikes, self.ends, -np.inf)
         self.counts = np.maximum(sums[:, 2], 1.0)
@@ -241,11 +241,11 @@ class Search:
         return middle
 
     def equations(self) -> tuple[Doubles, Doubles, dict[int, Doubles]]:
-        """The normal equations of all shots by derivatives in double precision, from which the
-        strikes are eliminated, in deviations.
+        """The normal equations of all shots from derivatives in double precision, without the
+        strikes, in deviations.
 
-        Their matrix, (n, n), with the priors; each shot's gradient, (shots, n); and by the shot how
-        its strike follows, (6, n + 1): by the constants, and for itself.
+        Returns their matrix, (n, n), with the priors; each shot's gradient, (shots, n); and for
+        each shot the response of its strike, (6, n + 1), to the constants and its own step.
         """
         plays, n = self.plays, len(self.names)
         plays.set(self.constants(self.values))
@@ -262,7 +262,7 @@ class Search:
             if size_of_cost >= MOST:
                 continue  # it does not count in the search either
             root = root * (1.0 + size_of_cost / self.middle)
-            # a derivative says nothing beyond its reach
+            # a derivative is meaningless beyond its reach
             moved = (C.reshape(len(size), -1) ** 2).sum(axis=1)
             W = np.repeat(np.minimum(1.0, _FARTHEST**2 / np.maximum(moved, 1e-12)) / root, 2)[
                 :, None
@@ -276,8 +276,8 @@ class Search:
         return whole, np.array(gradients).reshape(-1, n), follow
 
     def moved(self, part: float, step: Doubles, follow: Mapping[int, Doubles], seed: int) -> Search:
-        """The search a part of a Newton step farther, where each strike follows, or stays where
-        that is better, or is found anew.
+        """The search after a fraction of a Newton step; each strike is updated, kept or searched
+        again, whichever is best.
         """
         trial = copy.copy(self)
         trial.values = np.clip(self.values + part * self.scale * step, self.low, self.high)
@@ -297,12 +297,11 @@ class Search:
         return trial
 
     def finish(self, seed: int, rounds: int) -> list[Any]:
-        """Newton's steps by derivatives in double precision, as long as half of the shots come
-        nearer by them.
+        """Newton steps with derivatives in double precision, as long as half of the shots improve.
 
-        The differences of `step` have the noise of single precision, and creep where a small change
-        of a strike moves a shot far: on synthetic recordings they end up to seven standard errors
-        from the truth, and one to three of these steps end within one.
+        The finite differences of `step` have the noise of single precision, and creep if a small
+        change of a strike moves a shot far. On synthetic recordings they end up to seven standard
+        errors from the truth; after one to three of these steps the error is below one.
         """
         self.ends = self.plays.ends[self.rows]
         middle = self.weigh()
@@ -366,17 +365,17 @@ class Search:
         return [self.values.tolist(), self.strikes.tolist(), self.middle, self.prior_cost]
 
     def resume(self, found: Sequence[Any]) -> None:
-        """Goes on from what a stage found."""
+        """Continue from the result of a stage."""
         self.values, self.strikes = np.array(found[0]), np.array(found[1])
         self.middle, self.prior_cost = found[2:]
 
 
 def without_slip(search: Search) -> Search:
-    """The same search before its first stage, for a friction between balls that does not change
-    with the slip: law_a alone.
+    """The same search before its first stage, with a friction that does not depend on slip: only
+    law_a.
 
-    From a law with slip a search may stop at several times the noise where the friction has none,
-    since law_a and law_b follow each other.
+        If the true friction does not depend on slip, a search that starts from a law with slip may
+        stop at several times the noise, because law_a and law_b are correlated.
     """
     priors = {
         name: (mean, scale)
@@ -396,9 +395,7 @@ STAGES = 5  # the last horizon is searched again and again
 
 
 def left(search: Search) -> Doubles:
-    """What a search leaves of each constant: the more the farther the misfit is above that of the
-    noise.
-    """
+    """The remaining error of each constant, which grows with the misfit above the noise."""
     above = min(math.sqrt(0.25 * search.middle) / search.noise, 6.0)
     shape = np.array(
         [

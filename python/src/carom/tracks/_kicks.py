@@ -1,15 +1,15 @@
-"""Kicks: what the models get wrong at each contact of recorded shots.
+"""Kicks: the errors of the models at each contact of recorded shots.
 
-A kick is a small change of the motion just after a contact, five numbers over the speed V before
-it, as loops.h has them. The cost of a shot with kicks y is that of `_strikes`, and PRICE (y/s)^2
-for each: s are the deviations of CUSHION and BALLS. From the strikes that are known Levenberg and
+A kick is a small change of the motion just after a contact: five numbers relative to the speed V
+before it, as in loops.h. The cost of a shot with kicks y is the cost of `_strikes` plus PRICE
+(y/s)^2 for each kick, with the deviations s of CUSHION and BALLS. From known strikes, Levenberg and
 Marquardt's method descends over the strike and the kicks of the first 16 contacts, with more and
-more of the samples. No chaos is left, as the track pins the balls at every contact.
+more of the samples. There is no chaos, because the track fixes the balls at every contact.
 
 There the cost is c + 2 g d + d^T H d for a change d of strike and kicks, with g = J^T W d and H =
-J^T W J. So the noise of the samples moves the kicks by (H + D)^-1 J^T noise, where D is
-diag(PRICE/s^2), and 0 for the strike. The noise of the places of rest, which are held, moves them
-as in `_covariance`.
+J^T W J. The noise of the samples therefore moves the kicks by (H + D)^-1 J^T noise, where D is
+diag(PRICE/s^2), and 0 for the strike. The noise of the initial positions, which are fixed, moves
+them as in `_covariance`.
 """
 
 from __future__ import annotations
@@ -54,14 +54,14 @@ def contacts(plays: Plays, row: int, numbers: Doubles) -> Records:
 
 
 def deviations(met_contacts: Records) -> Doubles:
-    """s of the kicks of contacts, (CONTACTS, KICKS): beyond the last those of a cushion."""
+    """s of the kicks of contacts, (CONTACTS, KICKS); after the last contact the cushion's."""
     found = np.tile(CUSHION, (CONTACTS, 1))
     found[: len(met_contacts)][met_contacts["type"] == lib.CAROM_EVENT_BALL_BALL] = BALLS
     return found
 
 
 def _held(met_contacts: Sequence[Records]) -> Doubles:
-    """What the square of each number costs, (shots, numbers)."""
+    """The cost of the square of each parameter, (shots, numbers)."""
     price = np.zeros((len(met_contacts), 6 + KICKS * CONTACTS))
     for k, events in enumerate(met_contacts):
         price[k, 6:] = PRICE / deviations(events).ravel() ** 2
@@ -87,8 +87,8 @@ def find(plays: Plays, strikes: Doubles) -> Doubles:
 
 @dataclass(frozen=True)
 class Quadratic:
-    """The cost of a shot near the strike and the kicks that were found; the numbers of contacts
-    that did not happen are left out.
+    """The cost of a shot near the strike and the kicks that were found, without the parameters of
+    contacts that did not occur.
     """
 
     row: int
@@ -107,7 +107,7 @@ class Quadratic:
         return self.cost < self.count * _WORST**2
 
     def inverse(self, price: Doubles) -> Doubles:
-        """Of H and a price of each number; what no sample tells stays where it is."""
+        """The inverse of H with the price of each parameter; parameters without samples stay fixed."""
         M = self.H + np.diag(price)
         scale = np.sqrt(M.diagonal()) + 1e-30
         return np.asarray(
@@ -117,10 +117,10 @@ class Quadratic:
 
 
 def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
-    """Of the shots that are played to their ends and have contacts."""
+    """The quadratics of the shots that are played to their ends and have contacts."""
     balls = plays.centres.shape[1]
     variations = plays.some(range(len(numbers)))
-    # constants are the places of rest here, each moved towards the middle of the table
+    # here the constants are the initial positions, each moved towards the middle of the table
     steps = np.where(plays.centres < 0.5 * np.array(plays.table_size), _REST, -_REST)
     moved = [plays.layouts[0]]
     for ball in range(balls):
@@ -201,7 +201,7 @@ OUTPUTS = {
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Kicks(Arrays):
-    """What the models get wrong at each contact; see `carom.fit.Fit.kicks`."""
+    """The errors of the models at each contact; see `carom.fit.Fit.kicks`."""
 
     contacts: Records  # (n,) of `contact`
     rmse: Doubles  # (shots,): with kicks, m; NaN of shots without a play
@@ -214,13 +214,13 @@ class Kicks(Arrays):
     tables: tuple[list[list[str]], list[list[str]]]
 
     def to_list(self) -> list[dict[str, Any]]:
-        """The contacts, of numbers that JSON has."""
+        """Return the contacts, for JSON."""
         return [
             {name: play[name].tolist() for name in contact.names or ()} for play in self.contacts
         ]
 
     def markdown(self) -> str:
-        """The tables."""
+        """Return the tables as Markdown."""
         lines = []
         for table in self.tables:
             lines += [f"| {' | '.join(cells)} |" for cells in table]
@@ -231,8 +231,8 @@ class Kicks(Arrays):
         return "\n".join(lines)
 
     def marks(self, shot: int) -> list[tuple[Doubles, float, str, str]]:
-        """Of the contacts of a shot: where, how large (m), and in words which kick stands out, at
-        length and for a picture.
+        """Return marks for the contacts of a shot: position, size (m), and the dominant kick as a
+        long and a short text.
         """
         marks = []
         for play in self.contacts[self.contacts["shot"] == shot]:
@@ -255,7 +255,9 @@ class Kicks(Arrays):
 
 
 def report(plays: Plays, strikes: Doubles, shots: Sequence[int], count: int) -> Kicks:
-    """Of strikes on the plays' clocks; shots[k] of `count` recordings is the plays' shot k."""
+    """The kicks for strikes on the plays' clocks; shots[k] of `count` recordings is the plays' shot
+    k.
+    """
     found = find(plays, strikes)
     numbers, rmse = np.full((count, found.shape[1]), np.nan), np.full(count, np.nan)
     numbers[shots], rmse[shots] = found, plays.rmse(found)
@@ -268,7 +270,7 @@ def report(plays: Plays, strikes: Doubles, shots: Sequence[int], count: int) -> 
         if fits_near
         else ([], [])
     )
-    # shots that kicks do not explain either say nothing of their contacts
+    # shots that kicks do not explain have no information on their contacts
     good = [k for k, play in enumerate(fits_near) if play.good]
     tables = [
         _table(
@@ -319,7 +321,7 @@ def _contacts(play: Quadratic, plays: Plays, number: int) -> tuple[Records, Doub
     slip = along - np.where(cushion, 0.0, plays.radius * (a["w"][:, 2] + b["w"][:, 2]))
     records["v_n"], records["v"] = into, np.where(cushion, np.hypot(*v.T), into)
     records["angle"] = np.degrees(np.arctan2(np.abs(along), into))
-    # how the noise moves the kicks, and which share of them the track tells
+    # how the noise moves the kicks, and the fraction of them that the track determines
     inverse = play.inverse(play.price)
     still = np.repeat(shot.still, 2)
     spread = inverse @ (play.H + (play.rest / still) @ play.rest.T) @ inverse
@@ -347,10 +349,11 @@ def _contacts(play: Quadratic, plays: Plays, number: int) -> tuple[Records, Doub
 def _means(
     found: Sequence[Quadratic], chosen: Sequence[Array], turns: Sequence[Doubles]
 ) -> tuple[Doubles, Doubles]:
-    """What all chosen contacts have in common: five kicks, beside those of each one by itself, and
-    their errors by the scatter of the shots.
+    """The mean kicks of all chosen contacts, five numbers, and their errors from the scatter of the
+    shots.
 
-    A kick that a track tells in part alone is too small, and its mean with it; this one is not.
+    They are fitted in addition to the separate kick of each contact. A kick that a track determines
+    only partly is too small, and so is the mean of such kicks; this estimate is not.
     """
     middle = 2.0 * float(np.median([play.cost / play.count for play in found]))
     whole, slopes = np.zeros((KICKS, KICKS)), []
@@ -376,7 +379,7 @@ _NORMALS = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])  # into 
 
 
 def _side_of(normals: Doubles) -> NDArray[np.intp]:
-    """Which of _RAILS has a normal, each of (n, 2)."""
+    """The index in _RAILS of each normal of (n, 2)."""
     along = normals @ _NORMALS.T
     return np.where(along.max(axis=1) > 1.0 - 1e-9, along.argmax(axis=1), len(_NORMALS))
 
@@ -387,7 +390,7 @@ _SPEEDS, _ANGLES = (0.0, 0.5, 1.0, 2.0, np.inf), (0.0, 30.0, 60.0, 90.0)
 def _table(
     found: Sequence[Quadratic], tables: Sequence[Records], turns: Sequence[Doubles], cushion: bool
 ) -> list[list[str]]:
-    """What the kicks of cushions or of balls have in common, the names of the columns first."""
+    """The mean kicks of cushions or balls as a table, the names of the columns first."""
     kicks: Records = np.concatenate([np.zeros(0, contact), *tables])
     of_kind = (kicks["rail"] >= 0) == cushion
     groups = [("all", of_kind)]

@@ -1,20 +1,20 @@
-"""A player from film: how strokes that were meant alike differ.
+"""The errors of a player from recorded strokes with the same intention.
 
-Strokes of one group have the same layout, up to some centimetres, and were meant to be the same.
-Of each, a fit gives y: the logarithm of the ball's speed, the direction of the cue (degrees), and
-where the tip met the ball, a = - R w_z / (2.5 v) and b = R w_roll / (2.5 v) in radii, with the
-variances m of the strike. The cue points beside the way of the ball by the squirt of a. A direction
-is measured from the line to the ball that the struck one meets first, so that the places of the
-balls, which differ from stroke to stroke, change little of it.
+Strokes of one group have the same layout, up to some centimetres, and the same intention. Of each,
+a fit gives y: the logarithm of the ball's speed, the direction of the cue (degrees), and where the
+tip met the ball, a = - R w_z / (2.5 v) and b = R w_roll / (2.5 v) in radii, with the variances m of
+the strike. The cue's direction differs from the ball's path by the squirt of a. A direction is
+measured from the line to the ball that the struck ball hits first, which makes it insensitive to
+the differences between the layouts.
 
 The strokes of a group scatter about their unknown mean with the variances s^2 g^2 + m, s being the
 player's error and g its growth with the speed. With the mean integrated out the likelihood is
 
-    log L(s) = - 1/2 sum over groups of (sum of log(s^2 g^2 + m) + log sum of w + sum of w (y - y')^2),
+    log L(s) = - 1/2 sum over groups of (sum of log(s^2 g^2 + m) + log sum of w + sum of w (y -
+    y')^2),
 
-with weights w = 1 / (s^2 g^2 + m) and y' the mean by them. The likely s follow from it, with all
-of them alike before, and so do the likely ratings: those of a player with a Fargo rating are its
-four errors at once.
+with weights w = 1 / (s^2 g^2 + m) and the weighted mean y'. The posterior of s follows with a
+uniform prior, and so does the posterior of the rating, which determines all four errors at once.
 """
 
 from __future__ import annotations
@@ -40,9 +40,7 @@ _GRID = 400
 
 
 class Likely(NamedTuple):
-    """The mean of the likely numbers, and the interval that has 95 % of them, 2.5 % on each
-    side.
-    """
+    """The posterior mean and the central 95 % interval."""
 
     mean: float
     low: float
@@ -51,15 +49,15 @@ class Likely(NamedTuple):
 
 @dataclass(frozen=True)
 class Player:
-    """The errors of a player, by strokes that were meant alike."""
+    """The errors of a player, from strokes with the same intention."""
 
-    speed_share: Likely  # Of the speed, as a share of it
+    speed_share: Likely  # Relative error of the speed
     phi: Likely  # Of the direction, degrees
     a: Likely  # Of the tip to the side, radii
     b: Likely  # Of the tip up and down, radii
-    rating: Likely  # The Fargo rating whose player errs like this, 200 to 850
+    rating: Likely  # The Fargo rating with these errors, 200 to 850
     groups: list[list[int]]  # The shots of each group
-    record: Records  # As `carom.plan` takes it: these errors, and otherwise the rated player
+    record: Records  # For `carom.plan`: the rated player with these errors
 
     def __str__(self) -> str:
         def told(likely: Likely, unit: str) -> str:
@@ -75,7 +73,7 @@ class Player:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Of numbers that JSON has."""
+        """Return the errors, for JSON."""
         found: dict[str, Any] = {
             name: getattr(self, name)._asdict() for name in (*_NAMES, "rating")
         }
@@ -85,7 +83,7 @@ class Player:
 
 
 def _squirt(a: float, b: float) -> float:
-    """By which angle a ball leaves beside the usual cue, degrees."""
+    """The squirt of the usual cue, degrees."""
     room = max(np.hypot(a, b) / 0.9, 1.0)  # a strike that is found may be beyond the ball's edge
     kind = balls([[0.0, 0.0]], game="billiard")["kind"][0]
     v = struck(cue(phi=0.0, a=a / room, b=b / room, game="billiard"), kind)["v"]
@@ -93,7 +91,7 @@ def _squirt(a: float, b: float) -> float:
 
 
 def _stroke(fit: Any, shot: int) -> tuple[Doubles, Doubles, float]:
-    """y of a stroke, the variances of its numbers, and the speed of the ball, m/s."""
+    """y of a stroke, its variances, and the speed of the ball, m/s."""
     strike = fit.strikes[shot]
     v, spin = strike[:2], strike[2:5]
     speed = float(np.hypot(*v))
@@ -130,7 +128,7 @@ def _stroke(fit: Any, shot: int) -> tuple[Doubles, Doubles, float]:
 
 
 def groups_of(fit: Any) -> list[list[int]]:
-    """Shots that count whose balls lie alike, and whose strikes are alike."""
+    """Groups of usable shots with similar layouts and strikes."""
     groups: list[list[int]] = []
     for shot in np.flatnonzero(fit.counts).tolist():
         for group in groups:
@@ -151,14 +149,14 @@ def groups_of(fit: Any) -> list[list[int]]:
 
 
 def _likelihood(y: Doubles, variance: Doubles) -> float:
-    """Of the values y of a group, without their mean."""
+    """The likelihood of the values y of a group, with their mean integrated out."""
     w = 1.0 / variance
     middle = float(w @ y / w.sum())
     return float(-0.5 * (np.log(variance).sum() + np.log(w.sum()) + w @ (y - middle) ** 2))
 
 
 def _likely(values: Doubles, logarithms: Doubles) -> Likely:
-    """The mean and the interval of values on a grid, by the logarithms of their likelihoods."""
+    """The mean and the interval of values on a grid, from their log likelihoods."""
     mass = np.exp(logarithms - logarithms.max())
     part = np.cumsum(mass) / mass.sum()
     low, high = np.interp([0.025, 0.975], part, values)
@@ -170,12 +168,11 @@ def player_of(fit: Any, groups: Sequence[Sequence[int]] | None = None) -> Player
     chosen = groups_of(fit) if groups is None else [list(map(int, group)) for group in groups]
     wrong = [shot for group in chosen for shot in group if not fit.counts[shot]]
     if wrong:
-        raise ValueError(f"groups: shot {fit.recordings[wrong[0]].id} has no strike to compare")
+        raise ValueError(f"groups: shot {fit.recordings[wrong[0]].id} has no strike; leave it out")
     if sum(len(group) - 1 for group in chosen) < LEAST:
         raise ValueError(
-            f"groups: {sum(map(len, chosen))} strokes in {len(chosen)} groups tell no errors; a "
-            f"player repeats strokes, of which {LEAST} and more differ from the first of their "
-            f"kind: balls within {1e3 * NEAR:.0f} mm, the same aim and speed"
+            f"groups: {sum(map(len, chosen))} strokes in {len(chosen)} groups are too few; at least {LEAST} "
+            f"repetitions are required, with the balls within {1e3 * NEAR:.0f} mm and the same aim and speed"
         )
     strokes = [[_stroke(fit, shot) for shot in group] for group in chosen]
     parts = [[np.array(part) for part in zip(*group)] for group in strokes]

@@ -1,13 +1,13 @@
-"""What shots tell of each constant, and what they do not.
+"""Profile likelihoods: how well shots determine each constant.
 
-The profile of a constant is the cost of the shots, without the priors, as that constant moves and
-all others and the strikes follow. One deviation of a prior costs `prior_cost`, which therefore is
-the unit of evidence: the 95 % interval ends where the profile is 3.84 of these units above its
-least. A constant whose interval is as wide as that of its prior is not told by these shots.
+The profile of a constant is the cost of the shots, without the priors, as a function of this
+constant, with all others and the strikes refitted. One deviation of a prior costs `prior_cost`, the
+unit of evidence: the 95 % interval ends where the profile is 3.84 units above its minimum. If the
+interval is as wide as the prior's, the shots do not determine the constant.
 
-A point of a profile that costs less than the search's end is a better start: the search goes on
-from there (`best`). Profiles reach three deviations to each side, so they find what a search from
-the prior's middle cannot reach while its misfit, and with it the weight of the prior, is large.
+If a point of a profile costs less than the end of the search, the search continues from there
+(`best`). Profiles extend three deviations to each side. They therefore find solutions that a search
+from the prior's mean cannot reach while its misfit, and so the prior's weight, is large.
 """
 
 from __future__ import annotations
@@ -23,22 +23,25 @@ from carom.tracks._joint import Search
 LEVEL = 3.84  # of the chi-squared distribution with one degree of freedom, 95 %
 NORMAL = 1.96  # deviations of the same
 _REACH = 3.0  # deviations of the prior to each side
-_TOLD = 0.7  # of the width that the prior alone has: an interval that is wider tells nothing
+_TOLD = 0.7  # fraction of the prior's width above which an interval has no information
 _BETTER, _HALF = 1.0, 0.5  # another start must be better by this unit, or by this part of the cost
 _COUNTED = 0.5  # a shot with less weight is named
 
 
 @dataclass(frozen=True)
 class Profiles:
-    """Of each constant its 95 % interval, or None; and where a search should go on, if not here."""
+    """The 95 % interval of each constant, or None; and a better start of the search, if there is
+    one.
+    """
 
     intervals: dict[str, tuple[float, float] | None]
     best: tuple[Doubles, Doubles] | None  # constants and strikes
 
 
 def _cost(search: Search, move: Doubles, follow: dict[int, Doubles]) -> tuple[float, Search]:
-    """The cost without priors after a move of the constants, in deviations, and the search there;
-    each strike follows or stays, whichever is better.
+    """The cost without priors after a move of the constants, in deviations, and the search there.
+
+    Each strike is refitted or kept, whichever is better.
     """
     trial = copy.copy(search)
     trial.values = np.clip(search.values + search.scale * move, search.low, search.high)
@@ -57,7 +60,7 @@ def _cost(search: Search, move: Doubles, follow: dict[int, Doubles]) -> tuple[fl
 
 
 def profiles(search: Search) -> Profiles:
-    """The profiles of a search that is done."""
+    """The profiles of a finished search."""
     whole, _, follow = search.equations()
     count, unit = len(search.names), search.prior_cost
     data = whole - unit * np.eye(count)
@@ -100,7 +103,7 @@ def profiles(search: Search) -> Profiles:
 
 
 def light(search: Search) -> list[tuple[int, float]]:
-    """The shots of a search that count for less than half as they misfit, and their weights."""
+    """The shots with less than half weight because of their misfit, and their weights."""
     sums = search.plays.misfit(search.rows, search.strikes, search.plays.ends[search.rows], -np.inf)
     weights = 1.0 / (1.0 + sums[:, 0] / search.counts / search.middle)
     typical = max(float(np.median(weights)), 1e-9)

@@ -1,9 +1,9 @@
-"""Reads tracks as people and trackers write them, and says what it took and what it left out.
+"""Reads tracks in the formats of people and trackers, and reports the interpretation.
 
-A file costs an error only if no row of it is usable. A row that is wrong is left out: the balls of
-one picture are seen or not, times come in order, and places are on the table. What is left out is
-counted by its reason, and the first row of each reason is named. What a file does not say, such as
-its unit, is taken from the extents of its places against the table.
+Only a file without any usable row is an error. Invalid rows are skipped: for example rows out of
+order of time, or positions off the table. Skipped rows are counted by reason, with the first row of
+each. Missing information, such as the unit, is inferred from the extents of the positions relative
+to the table.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from carom._rows import unknown_value
 from carom.dtypes import Doubles
 from carom.tracks import _constants
 from carom.tracks._recordings import ON_TABLE, Recording, TrackError, exchanged, is_inside
@@ -120,8 +121,9 @@ _ORDERED = 0.8  # share of a ball's rows in order, below which all are sorted
 
 
 class Reading(list[Recording]):
-    """The recordings of a file, and `notes`: what was taken and what was left out, a sentence
-    each. A file that is as `read` documents it, without a row left out, has none.
+    """The recordings of a file, and `notes`: sentences on inferred information and skipped rows.
+
+    A file in the documented format without skipped rows has no notes.
     """
 
     def __init__(self, recordings: Iterable[Recording] = (), notes: Iterable[str] = ()) -> None:
@@ -131,12 +133,10 @@ class Reading(list[Recording]):
 
 @dataclass
 class _Notes:
-    """What is said of a file: sentences, and for each reason how many rows are left out and the
-    first of them.
-    """
+    """The notes on a file: sentences, and for each reason the number of skipped rows and the first."""
 
-    unit: str = ""  # of the places, as the titles name it
-    picture: str = ""  # the column of the numbers of pictures, where they are the times
+    unit: str = ""  # of the positions, from the titles
+    picture: str = ""  # the column of frame numbers, if they are the times
     sentences: list[str] = field(default_factory=list)
     rows: dict[str, list[str]] = field(default_factory=dict)
 
@@ -153,7 +153,7 @@ class _Notes:
 
 @dataclass(frozen=True)
 class _Row:
-    """A sample as it stands in a file."""
+    """A sample as it is in a file."""
 
     place: str  # the line, for messages
     shot: str
@@ -179,8 +179,7 @@ def _text(path: Path) -> str:
             return file.read()
     except (UnicodeDecodeError, lzma.LZMAError, EOFError, gzip.BadGzipFile) as error:
         raise TrackError(
-            f"{path}: {error}; a text file is needed, compressed only if its name ends in .xz or "
-            f".gz"
+            f"{path}: {error}; use a text file, compressed only if its name ends in .xz or .gz"
         ) from None
 
 
@@ -189,10 +188,10 @@ def _text(path: Path) -> str:
 
 @dataclass(frozen=True)
 class _Columns:
-    """Where the fields of a row stand, and the units that the titles name."""
+    """The columns of the fields of a row, and the units in the titles."""
 
     titles: list[str]
-    places: dict[str, int]  # of shot, ball, t, picture and state, where they exist
+    places: dict[str, int]  # of shot, ball, t, frame and state, if they exist
     balls: list[tuple[str, int, int]]  # a label, "" for the ball column's, and x and y
     unit: str
     time_unit: str
@@ -221,7 +220,7 @@ def _pair(name: str) -> tuple[str, str] | None:
 
 
 def _columns(row: Sequence[str]) -> _Columns | None:
-    """The columns that a line of titles names; None without a place x, y."""
+    """The columns of a line of titles; None without x and y."""
     named = [_title(cell) for cell in row]
     names = [name for name, _ in named]
     places: dict[str, int] = {}
@@ -254,7 +253,7 @@ def _number(cell: str) -> float:
 
 
 def _split(path: Path, text: str) -> tuple[Any, str]:
-    """What splits the lines of a table into cells: found by the line of titles."""
+    """The separator of the cells of a table, from the line of titles."""
     first = text.splitlines()[:40]
     for delimiter in (",", ";", "\t", " "):
         how: Any = {"delimiter": delimiter, "skipinitialspace": delimiter == " "}
@@ -262,13 +261,13 @@ def _split(path: Path, text: str) -> tuple[Any, str]:
             return csv.reader(io.StringIO(text, newline=""), **how), delimiter
     titles = first[0].strip()[:60] if first else ""
     raise TrackError(
-        f"{path}, line 1: {titles!r} names no columns of places and times; a line must name the "
-        f"columns shot,ball,t,x,y, in any order, or frame in place of t, or t,x1,y1,x2,y2"
+        f"{path}, line 1: {titles!r} names no columns of positions and times; a line must name the "
+        f"columns shot,ball,t,x,y, in any order, or frame instead of t, or t,x1,y1,x2,y2"
     )
 
 
 def _is_present(columns: _Columns, row: Sequence[str], states: set[str]) -> bool:
-    """Whether the state of a row, if it has one, says that the ball lies where it is seen."""
+    """Whether a row without a state, or with a state that means visible, is used."""
     if "state" not in columns.places:
         return True
     column = columns.places["state"]
@@ -281,7 +280,7 @@ def _is_present(columns: _Columns, row: Sequence[str], states: set[str]) -> bool
 
 
 def _say_columns(columns: _Columns, notes: _Notes) -> None:
-    """Says which columns are taken, where they are not the documented ones."""
+    """Note the columns in use if they differ from the documented ones."""
     titles, places = columns.titles, columns.places
     if {"shot", "ball", "t", "x", "y"} <= {title.strip() for title in titles}:
         return
@@ -408,7 +407,7 @@ def _json_rows(path: Path, text: str, notes: _Notes) -> Iterator[_Row]:
 
 
 def _homography(corners: Sequence[tuple[float, float]], table: tuple[float, float]) -> Doubles:
-    """The matrix, (3, 3), that takes four corners in a picture to those of the table."""
+    """The matrix, (3, 3), that maps four corners in an image to the table's."""
     targets = [(0.0, 0.0), (table[0], 0.0), table, (0.0, table[1])]
     A, b = [], []
     for (u, v), (x, y) in zip(corners, targets):
@@ -417,12 +416,14 @@ def _homography(corners: Sequence[tuple[float, float]], table: tuple[float, floa
     try:
         numbers = np.linalg.solve(np.array(A), np.array(b))
     except np.linalg.LinAlgError:
-        raise ValueError("corners: three of the four lie on one line") from None
+        raise ValueError(
+            "corners: three of the four are on one line; pass the corners of the noses"
+        ) from None
     return np.append(numbers, 1.0).reshape(3, 3)
 
 
 def _closest(rows: Sequence[_Row], places: Doubles) -> float:
-    """The least distance between two balls that are seen at the same time."""
+    """The smallest distance between two balls at the same time."""
     least, seen = math.inf, dict[tuple[str, float], list[tuple[str, Doubles]]]()
     for row, place in zip(rows, places):
         others = seen.setdefault((row.shot, row.t), [])
@@ -435,7 +436,7 @@ def _closest(rows: Sequence[_Row], places: Doubles) -> float:
 
 @dataclass(frozen=True)
 class _Area:
-    """A table on which places lie."""
+    """The area of a table, for checking positions."""
 
     size: tuple[float, float]  # extents of x and y, m
     radius: float  # of the balls, m
@@ -443,7 +444,7 @@ class _Area:
     is_named: bool  # whether the word of the table gives its extents
 
     def share(self, places: Doubles) -> float:
-        """Which share of places is on the table, which may lie along x or y."""
+        """The fraction of positions on the table, which may be along x or y."""
         return max(
             float(np.mean(is_inside(turned, self.size, self.radius, self.pockets)))
             for turned in (places, places[:, ::-1])
@@ -460,10 +461,10 @@ def _area(table: str | tuple[float, float] | None, radius: float | None) -> _Are
 def _found_scale(
     places: Doubles, rows: Sequence[_Row], area: _Area, notes: _Notes
 ) -> tuple[float, Doubles]:
-    """The unit of places, m, and where their origin lies, in that unit, by the table's extents.
+    """The unit of positions, m, and their origin in this unit, from the table's extents.
 
-    Of several units that fit, the one is taken in which balls come as near as two radii; else the
-    largest, which leaves the least of the table empty.
+    Of several possible units, the one is chosen in which the closest balls are two radii apart;
+    otherwise the largest, which leaves the smallest part of the table empty.
     """
     if area.share(places) >= ON_TABLE:
         return 1.0, np.zeros(2)
@@ -489,13 +490,13 @@ def _found_scale(
 def _on_table(
     path: Path, rows: Sequence[_Row], places: Doubles, area: _Area, notes: _Notes
 ) -> tuple[list[_Row], Doubles]:
-    """The rows whose places are on the table, turned where it lies along the other axis."""
+    """The rows with positions on the table, rotated if the table is along the other axis."""
     size, radius = area.size, area.radius
     if exchanged(places, size, radius, area.pockets):
         if not area.is_named:
             raise TrackError(
-                f"{path}: the places fit a table of {size[1]:g} x {size[0]:g} m: are the table's "
-                f"extents in the order of x and y?"
+                f"{path}: the positions fit a table of {size[1]:g} x {size[0]:g} m; pass the table's "
+                f"extents in the order of x and y"
             )
         places = np.column_stack([size[0] - places[:, 1], places[:, 0]])
         notes.sentences.append("places are turned by 90 degrees, as their x runs along the table")
@@ -516,7 +517,7 @@ def _on_table(
 
 
 def _ordered(times: Doubles) -> NDArray[np.intp]:
-    """The rows of the longest part of times that increases; of equal times the first."""
+    """The rows of the longest increasing subsequence of times; the first of equal times."""
     tails: list[float] = []
     indices: list[int] = []
     before: list[int] = []
@@ -538,8 +539,9 @@ def _ordered(times: Doubles) -> NDArray[np.intp]:
 def _recordings_of(
     rows: Sequence[_Row], places: Doubles, rate: float, notes: _Notes
 ) -> list[Recording]:
-    """The recordings of samples, in the order of the file; rows out of the order of time are left
-    out, or sorted where they are many.
+    """The recordings of samples, in the order of the file.
+
+    Rows out of order of time are skipped, or sorted if there are many.
     """
     shots: dict[str, dict[str, list[int]]] = {}
     for k, row in enumerate(rows):
@@ -570,32 +572,32 @@ def _recordings_of(
 
 
 def _unit_of(unit: float | str | None) -> float | None:
-    """The length of a unit, m; None where the file is to tell it."""
+    """The length of a unit, m; None if it is inferred from the file."""
     if unit is None or unit == "px":
         return None
+    given = unit
     if isinstance(unit, str):
         unit = UNITS.get(_UNIT_NAMES.get(unit, unit), math.nan)
     if isinstance(unit, bool) or not isinstance(unit, (int, float)) or not 0.0 < unit < math.inf:
         raise ValueError(
-            f"unit: a length above 0, in m, is needed, or one of {', '.join(UNITS)}, px, not "
-            f"{unit!r}"
+            unknown_value("unit", given, [*UNITS, "px"]) + ", or a positive length in m"
         )
     return float(unit)
 
 
 def _check(rate: float | None, origin: Any, corners: Any, table: Any, unit: Any) -> None:
-    """Refuses arguments of `read` that are wrong."""
+    """Raise an error for invalid arguments of `read`."""
     if rate is not None and not 0.0 < rate < math.inf:
-        raise ValueError(f"rate: a number of pictures a second above 0 is needed, not {rate!r}")
+        raise ValueError(f"rate: {rate!r} is not a positive number of frames per second")
     if origin is not None and not np.isfinite(np.asarray(origin, np.float64)).all():
-        raise ValueError(f"origin: two finite numbers are needed, not {origin!r}")
+        raise ValueError(f"origin: {origin!r} are not two finite numbers")
     if corners is not None and (np.shape(corners) != (4, 2) or table is None):
         raise ValueError(
-            "corners: four places and the table's extents are needed, of the corners (0, 0), "
-            "(W, 0), (W, L) and (0, L)"
+            "corners: not four positions, or table is missing; pass the positions of the corners (0, 0), "
+            "(W, 0), (W, L), (0, L), and the table"
         )
     if unit == "px" and corners is None:
-        raise ValueError("unit: pixels need corners, the places of the four corners of the noses")
+        raise ValueError("unit: 'px' needs corners, the positions of the four corners of the noses")
 
 
 def read(
@@ -613,40 +615,41 @@ def read(
     Parameters
     ----------
     path : path
-        A table of text with the columns shot, ball, t, x, y (s and m), a row a sample; or, if the
-        name has .jsonl or .ndjson in it, JSON Lines, a shot a line: {"id": 1, "tracks": {"1": [[t,
-        x, y], ...], ...}}. Either may be compressed (.xz, .gz). Tables of trackers are read too:
-        separated by commas, semicolons, tabs or spaces; with decimal commas; with other names of
-        columns, such as frame, track_id, cx, x_in or "x (mm)"; with a pair of columns for each ball
-        (x1, y1, ... or cue_x, cue_y, ...); with a state (visible, hidden, pocketed); and exports of
-        Tracker, whose first line names the track. Without a column of shots, all rows are one.
+        A text table with the columns shot, ball, t, x, y (s and m), one row per sample; or, if the
+        name contains .jsonl or .ndjson, JSON Lines with one shot per line: {"id": 1, "tracks":
+        {"1": [[t, x, y], ...], ...}}. Both may be compressed (.xz, .gz). Tables of trackers are
+        accepted too: separated by commas, semicolons, tabs or spaces; with decimal commas; with
+        other column names, such as frame, track_id, cx, x_in or "x (mm)"; with a pair of columns
+        for each ball (x1, y1, ... or cue_x, cue_y, ...); with a state (visible, hidden, pocketed);
+        and exports of Tracker, whose first line names the track. Without a column of shots, all
+        rows belong to one shot.
     table, radius : optional
-        The word of a table, such as "9ft", or the extents (W, L) of x and y, and the radius of the
-        balls, m: with the table, a centre that is more than 60 mm outside its bounds is left out,
-        and the file's unit and origin are found where none is given. Places whose x runs along the
-        table of a word are turned by 90 degrees.
+        A built-in table, such as "9ft", or the extents (W, L) of x and y, and the radius of the
+        balls, m. With a table, centres more than 60 mm outside its bounds are skipped, and the
+        file's unit and origin are inferred if they are not given. Positions with x along a built-in
+        table are rotated by 90 degrees.
     unit : float or str, optional
         Length of the unit of x and y, m, or "m", "cm", "mm", "inches" or "px".
     origin : (float, float), optional
-        Where the corner of the noses lies in the file, in its own unit.
+        Position of the corner of the noses in the file, in the file's unit.
     rate : float, optional
-        Pictures a second, if t counts pictures: 30 or 120.
-    corners : four places, optional
-        Where the corners (0, 0), (W, 0), (W, L), (0, L) of the noses lie in pixels, or in any other
-        unit: places are mapped to the table as a camera without distortion sees its plane.
+        Frames per second, if t counts frames: 30 or 120.
+    corners : four (x, y), optional
+        The corners (0, 0), (W, 0), (W, L), (0, L) of the noses in pixels or any other unit.
+        Positions are then mapped to the table by a perspective transformation.
 
     Returns
     -------
     Reading
-        A list of recordings, whose `notes` say what was taken and what was left out.
+        A list of recordings, with `notes` on inferred information and skipped rows.
 
     Raises
     ------
     TrackError
-        No row is usable, or the table's extents are exchanged. The message says where, and what
-        would be right.
+        No row is usable, or the table's extents are exchanged. The message contains the line and a
+        remedy.
     ValueError
-        An argument is wrong.
+        An argument is invalid.
     OSError
         The file cannot be read.
     """
@@ -658,7 +661,7 @@ def read(
     try:
         rows = list((_json_rows if is_json else _table_rows)(path, text, notes))
     except csv.Error as error:
-        raise TrackError(f"{path}: {error}; a table of text is needed") from None
+        raise TrackError(f"{path}: {error}; use a table of text") from None
     if not rows:
         raise TrackError("; ".join([f"{path}: no samples are usable", *notes.lines()]))
     places = np.array([(row.x, row.y) for row in rows])
@@ -671,7 +674,9 @@ def read(
         )
     else:
         if length is None and notes.unit == "px":
-            raise TrackError(f"{path}: places are in pixels: corners says where the table lies")
+            raise TrackError(
+                f"{path}: positions are in pixels; pass corners, the positions of the table's corners"
+            )
         if length is None and notes.unit in UNITS:
             length = UNITS[notes.unit]
             if length != 1.0:

@@ -1,10 +1,9 @@
-"""Recorded shots, and what a camera does to them: the noise of the places, false detections, balls
-that change names.
+"""Recorded shots, and the artefacts of cameras: noise, false detections, and swapped names.
 
-All of it is told from the rows alone: no shot is simulated. A ball goes no faster than it was seen
-to go just before or after a row. So a row is false that neither the rows before it nor those after
-it reach, while these reach each other; and where two balls at once go to places that they cannot
-reach, each to the other's, their names were swapped.
+All artefacts are detected from the rows, without simulating shots. A ball is not faster than it was
+just before or after a row. A row is therefore false if it is out of reach from the rows before and
+after it, while these are in reach of each other. If two balls simultaneously jump to each other's
+positions, which are out of reach, their names were swapped.
 """
 
 from __future__ import annotations
@@ -56,7 +55,7 @@ _BLOCK = 3  # false detections one after another, at most
 
 
 class TrackError(ValueError):
-    """A file of tracks is wrong. The message says what is wrong, where, and what would be right."""
+    """A file of tracks is invalid; the message contains the line and a remedy."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,13 +69,13 @@ class Recording:
 
     @functools.cached_property
     def still(self) -> list[int]:
-        """How many rows each ball has before it moved, shape (balls,)."""
+        """The number of rows of each ball before it moved, shape (balls,)."""
         return [self._still(track) for track in self.tracks]
 
     @functools.cached_property
     def rest(self) -> Doubles:
-        """Where the balls lay before the strike, m, shape (balls, 2): the mean of a ball's rows
-        before it moved.
+        """The initial positions of the balls, m, shape (balls, 2): the mean of the rows before they
+        moved.
         """
         return np.array(
             [track[:still, 1:].mean(axis=0) for track, still in zip(self.tracks, self.still)]
@@ -84,8 +83,8 @@ class Recording:
 
     @functools.cached_property
     def moves(self) -> Doubles:
-        """The time of each ball's first row away from its place of rest, s, shape (balls,); inf if
-        it never moves.
+        """The time of each ball's first row away from its initial position, s, shape (balls,); inf
+        if it never moves.
         """
         return np.array(
             [(*track[still:, 0], math.inf)[0] for track, still in zip(self.tracks, self.still)]
@@ -93,14 +92,15 @@ class Recording:
 
     @functools.cached_property
     def cue(self) -> int:
-        """The index of the ball that was struck: the one that moves first; of those that move
-        within 60 ms, the one whose way looks the least as if another had hit it: a ball that is hit
-        goes away from the other.
+        """The index of the struck ball: the one that moves first.
+
+        Of balls that begin to move within 60 ms, it is the one whose path looks least like the
+        result of a hit: a ball that is hit moves away from the other.
         """
         moves = self.moves
         if not np.isfinite(moves).any():
             raise TrackError(
-                f"shot {self.id}: no ball moves by more than {self.away * 1e3:.3g} mm, so there is no strike"
+                f"shot {self.id}: no ball moves by more than {self.away * 1e3:.3g} mm, so there is no strike to fit"
             )
         first = np.flatnonzero(moves <= moves.min() + 0.06)
         ways = [self.tracks[k][self.still[k], 1:] - self.rest[k] for k in first]
@@ -123,8 +123,8 @@ class Recording:
 
     @functools.cached_property
     def moving(self) -> list[NDArray[np.intp]]:
-        """Of each ball the rows that tell a motion: each is farther than `away` from the one
-        before, the first from the place of rest.
+        """The moving rows of each ball: each is farther than `away` from the one before, and the
+        first from the initial position.
         """
         found = []
         for track, rest_time in zip(self.tracks, self.rest):
@@ -143,12 +143,12 @@ class Recording:
 
     @property
     def away(self) -> float:
-        """m: a ball that is farther than this from its place of rest has moved."""
+        """Distance from the initial position above which a ball has moved, m."""
         return max(MOVED, _NOISES * self.noise)
 
     def _still(self, track: Doubles) -> int:
-        """How many rows at the beginning of a track are at its place of rest: about the first row,
-        and then the mean of the first few.
+        """The number of rows at the initial position: near the first row, then near the mean of the
+        first few.
         """
         rest, most = track[0, 1:], max(MOVED, 1.5 * _NOISES * self.noise)
         for _ in range(3):
@@ -158,15 +158,13 @@ class Recording:
         return still
 
 
-# ---- Places
+# ---- Positions
 
 
 def is_inside(
     places: Doubles, table: Sequence[float], radius: float, pockets: Doubles | None = None
 ) -> NDArray[np.bool_]:
-    """Whether centres lie on the table, or hardly outside, or in a pocket; (n, 2) are their
-    centres.
-    """
+    """Whether centres, (n, 2), are on the table, slightly outside, or in a pocket."""
     low, high = radius - OUTSIDE, np.array(table) - radius + OUTSIDE
     inside = ((low <= places) & (places <= high)).all(axis=-1)
     if pockets is not None and len(pockets):
@@ -176,7 +174,7 @@ def is_inside(
 
 
 def exchanged(places: Doubles, table: tuple[float, float], radius: float, pockets: Doubles) -> bool:
-    """Whether the extents of a table are those of y and x."""
+    """Whether the extents of a table are exchanged."""
     return bool(
         is_inside(places, table, radius, pockets).mean() < ON_TABLE
         and is_inside(places[:, ::-1], table, radius, pockets).mean() >= ON_TABLE
@@ -192,8 +190,8 @@ class Noise:
 
     value: float  # the standard deviation of a coordinate: the root of the mean of both squares
     axes: tuple[float, float]  # of x and of y
-    rest: float  # by the rows at rest alone; 0 without any
-    is_frozen: bool  # whether a film repeats the places of balls at rest
+    rest: float  # from the rows at rest; 0 without any
+    is_frozen: bool  # whether a film repeats the positions of balls at rest
 
 
 def _spread(values: Doubles) -> float:
@@ -202,9 +200,9 @@ def _spread(values: Doubles) -> float:
 
 
 def _misfits(recordings: Sequence[Recording]) -> tuple[Doubles, Doubles, Doubles]:
-    """How far a row lies from the quadratic through it and two rows on each side, over what noise
-    gives it, of x and y; the way through these rows over what a slow ball goes; and how far the
-    last is from the first, m.
+    """For each row: its residuals in x and y from the quadratic through five rows, relative to
+    noise; the path through these rows relative to a slow ball's; and the distance from the first to
+    the last, m.
     """
     misfits, ways, moves = [np.zeros((0, 2))], [np.zeros(0)], [np.zeros(0)]
     for shot in recordings:
@@ -236,8 +234,8 @@ def moving_scatter(recordings: Sequence[Recording]) -> float:
 
 
 def noise_of(recordings: Sequence[Recording]) -> Noise:
-    """The noise: by the rows at rest, or by those of slow balls where too few are; by those of
-    slow balls that move where a film freezes the others; NOISE without any.
+    """The noise, from rows at rest, or from slow balls if there are too few; if a film freezes
+    balls at rest, from slow moving balls; NOISE without any.
     """
     misfits, ways, moves = _misfits(recordings)
     slow = misfits[ways < 1.0]
@@ -270,9 +268,10 @@ def noise_of(recordings: Sequence[Recording]) -> Noise:
 
 
 def until_pocketed(shot: Recording, table: Table) -> Recording:
-    """A recording in which the track of a ball ends where it falls: at its first row in a pocket,
-    or behind the pockets, that is the last or followed by another such row. A ball without rows
-    before is left out.
+    """A recording in which each track ends when its ball falls.
+
+    This is the first row in or behind a pocket that is the last row or is followed by another such
+    row. A ball without rows before it is removed.
     """
     if len(table.pockets) == 0:
         return shot
@@ -300,10 +299,9 @@ def _reached(
     noise: float,
     ends: tuple[Any, Any] | None = None,
 ) -> NDArray[np.bool_]:
-    """Whether a ball goes from row `first` to row `last`, by its speed just before and just after
-    two rows, `ends`, which are these.
+    """Whether a ball can move from row `first` to row `last` at its speed around the rows `ends`.
 
-    A ball without rows for long lies still.
+    A ball without rows for a long time is at rest.
     """
     t, r = track[:, 0], track[:, 1:]
     dt = np.diff(t)
@@ -323,7 +321,7 @@ def _reached(
 
 
 def without_false(track: Doubles, noise: float) -> Doubles:
-    """A track without the rows that are false."""
+    """A track without its false rows."""
     for block in (1, 2, 1, _BLOCK, 1):
         n = len(track)
         if n < block + 4:
@@ -355,12 +353,12 @@ def without_false(track: Doubles, noise: float) -> Doubles:
 def without_swaps(
     tracks: Sequence[Doubles], noise: float
 ) -> tuple[list[Doubles], list[tuple[int, int, float]]]:
-    """Tracks with their names put right, and which two were swapped from which time on."""
+    """Tracks with corrected names, and which two were swapped from which time."""
     mended, swaps = list(tracks), list[tuple[int, int, float]]()
     reach = 0.04 + 6.0 * noise
 
     def place(track: Doubles, k: int, time: float) -> Doubles:
-        """Where a ball is at a time by its row k and the one before."""
+        """The position of a ball at a time, from its row k and the one before."""
         dt = track[k, 0] - track[k - 1, 0] if k else math.inf
         velocity = (track[k, 1:] - track[k - 1, 1:]) / dt if dt < 0.2 else np.zeros(2)
         point: Doubles = track[k, 1:] + velocity * min(time - track[k, 0], 0.1)
@@ -402,8 +400,8 @@ def without_swaps(
 
 
 def sound(recordings: Sequence[Recording], noise: float) -> tuple[list[Recording], list[list[str]]]:
-    """Recordings with the noise that they have, without false rows and swapped names; and what was
-    mended in each.
+    """Recordings with their noise, without false rows and swapped names; and the corrections in
+    each.
     """
     mended: list[Recording] = []
     notes: list[list[str]] = []
@@ -422,13 +420,13 @@ def sound(recordings: Sequence[Recording], noise: float) -> tuple[list[Recording
     return mended, notes
 
 
-# ---- How the table lies
+# ---- Alignment with the table
 
 
 @dataclass(frozen=True)
 class Lie:
-    """How tracks lie on the table: places are turned about (0, 0), scaled and moved, and bent by a
-    lens or by a camera that looks askew.
+    """The alignment of tracks with the table: positions are rotated about (0, 0), scaled and
+    shifted, and distorted by a lens or an oblique camera.
     """
 
     angle: float = 0.0  # degrees, from x to y
@@ -446,7 +444,7 @@ class Lie:
     bent: float = 0.0  # m: how far a corner is off by that, at most
 
     def places(self, r: Doubles) -> Doubles:
-        """Places put right."""
+        """Corrected positions."""
         turn = math.radians(self.angle)
         back = (
             np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
@@ -455,7 +453,7 @@ class Lie:
         return np.asarray((r - self.shift) @ back - self.field(r))
 
     def field(self, r: Doubles) -> Doubles:
-        """How far places are off by the lens and the slant of the camera."""
+        """The displacement of positions by the lens and the obliqueness of the camera."""
         q = r - self.middle
         return np.asarray(q * (self.bend[0] * (q * q).sum(axis=-1) + q @ self.bend[1:])[..., None])
 
@@ -471,7 +469,7 @@ class Lie:
 
 
 def _averaged(track: Doubles) -> Doubles:
-    """Rows of one bin of time each, in which noise turns nothing round."""
+    """Rows averaged over bins of time, in which noise causes no turns."""
     _, first = np.unique(np.floor(track[:, 0] / _BIN), return_index=True)
     return np.asarray(
         np.add.reduceat(track, first, axis=0) / np.diff(np.append(first, len(track)))[:, None]
@@ -479,8 +477,8 @@ def _averaged(track: Doubles) -> Doubles:
 
 
 def _turns(track: Doubles, axis: int, noise: float) -> Doubles:
-    """Where the coordinate of an axis turns round, at cushions among others: rows of its value, the
-    other one, and its speed before.
+    """The turning points of the coordinate along an axis, for example at cushions: rows of its
+    value, the other coordinate, and its speed before.
     """
     gap = 1e-4
     if noise > _NOISY:
@@ -514,8 +512,8 @@ def _turns(track: Doubles, axis: int, noise: float) -> Doubles:
 
 
 def _least(off: Doubles, A: Doubles) -> tuple[Doubles, Doubles, float]:
-    """The numbers for which A @ numbers is next to `off`, with less weight where it is far; their
-    covariance; the usual distance, m.
+    """Robust least squares: the parameters for which A @ parameters fits `off`, their covariance,
+    and the typical residual, m.
     """
     weight: Doubles = np.ones(len(A))
     numbers: Doubles = np.zeros(A.shape[1])
@@ -534,8 +532,8 @@ def _least(off: Doubles, A: Doubles) -> tuple[Doubles, Doubles, float]:
 def _impacts(
     recordings: Sequence[Recording], table: tuple[float, float], radius: float
 ) -> tuple[NDArray[np.intp], Doubles]:
-    """Impacts on cushions: rail 0 (x = 0), 1 (x = W), 2 (y = 0) or 3 (y = L), and how far the turn
-    lies beyond a radius from it, along its axis, with the row of least squares of `lie_of`.
+    """Impacts on cushions: rail 0 (x = 0), 1 (x = W), 2 (y = 0) or 3 (y = L), the offset of the
+    turn from one radius along its axis, and the row of least squares of `lie_of`.
     """
     middle = (0.5 * table[0], 0.5 * table[1])
     rails, rows = [np.zeros(0, np.intp)], [np.zeros((0, 9))]
@@ -562,8 +560,9 @@ def _impacts(
 def beyond_rails(
     recordings: Sequence[Recording], table: tuple[float, float], radius: float
 ) -> dict[int, tuple[float, int]]:
-    """Of each rail at which two balls or more turn, how far beyond it they do, m, and how many;
-    without rails at which they turn as near as their scatter.
+    """For each rail at which two or more balls turn, the offset of the turns, m, and their number.
+
+    Rails with offsets within the scatter are omitted.
     """
     rails, rows = _impacts(recordings, table, radius)
     found = {}
@@ -578,13 +577,13 @@ def beyond_rails(
 
 
 def lie_of(recordings: Sequence[Recording], table: tuple[float, float], radius: float) -> Lie:
-    """How the tracks lie on the table, by the places of impacts on cushions: the linear least
-    squares of eight numbers.
+    """The alignment of tracks with the table from impacts on cushions: linear least squares of
+    eight parameters.
 
-    A turn at the cushion x = c lies at c = (1 - s) x + turn y + a + depth v - q_x (k |q|^2 + g q):
-    s of the scale, a of the shift, q from the middle of the table, and the nose gives way by
-    `depth` times the speed v. Places far from what the others tell count less. k and g count where
-    the impacts tell them from 0 by more than their errors can.
+    A turn at the cushion x = c satisfies c = (1 - s) x + turn y + a + depth v - q_x (k |q|^2 + g
+    q), with the scale s, the shift a, and q relative to the middle of the table; the nose yields by
+    `depth` times the speed v. Outliers have less weight. k and g are used if they differ
+    significantly from 0.
     """
     middle = (0.5 * table[0], 0.5 * table[1])
     _, A = _impacts(recordings, table, radius)

@@ -1,9 +1,9 @@
 """The search for the strike of a recorded shot among the many minima of its cost.
 
-A small change makes a ball miss another, so the cost of `_strikes` has many minima. The models are
-off by centimetres besides. So the strike that follows the first second best need not lead to the
-one that follows the whole shot best, and a search loses that one if it narrows its choice as more
-and more samples count. Therefore candidates of three kinds meet in contests over the whole shot:
+A small change makes a ball miss another, so the cost of `_strikes` has many minima, and the models
+have errors of centimetres. The strike that fits the first second best is therefore not always near
+the one that fits the complete shot best, and a search that narrows its choice as samples are added
+can lose the latter. Candidates of three kinds therefore compete over the complete shot:
 
 1. starts of many spins, after a short descent by the samples of the first second;
 2. the survivors of each horizon, the samples of the first 0.9, 2, 4 and 8 s: offspring of the
@@ -12,11 +12,11 @@ and more samples count. Therefore candidates of three kinds meet in contests ove
    shot is fitted to its noise.
 
 In a contest all candidates are played, the best of them descend a few iterations, and the best of
-these descend further. Offspring are drawn from the normal distribution that the normal equations of
-a parent give, by the whole shot or by its first second alone, at many widths.
+these descend further. Offspring are drawn from the normal distribution of a parent's normal
+equations, for the complete shot or only its first second, at many widths.
 
-All shots have the same draws. So a strike does not depend on the shots beside it, and those of a
-result do not depend on the seed of a fit, which the search for constants alone takes.
+All shots use the same draws. A strike therefore does not depend on the other shots, nor on the seed
+of a fit, which only the search for constants uses.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ Stages = tuple[tuple[int, int], ...]  # how many candidates of a shot descend, a
 
 @dataclass(frozen=True)
 class _Effort:
-    """How many candidates of a shot a search takes."""
+    """The number of candidates of a search per shot."""
 
     starts: int  # whose spins lie between those of the grid
     horizons: tuple[tuple[float, int, int], ...]  # s, how many descend, and how many survive
@@ -110,8 +110,8 @@ def _join(parts: list[_Candidates]) -> _Candidates:
 
 
 def _best(shots: Integers, strikes: Doubles, costs: Doubles, keep: int) -> NDArray[np.intp]:
-    """The rows of the `keep` best strikes of each shot, without those that are near a better one;
-    in the order of the shots.
+    """The rows of the `keep` best strikes of each shot, in the order of the shots, without strikes
+    close to a better one.
     """
     rows = np.lexsort((costs, shots))
     ranks = np.arange(len(rows)) - np.searchsorted(shots[rows], shots[rows])
@@ -136,8 +136,9 @@ def _survivors(
     stages: Stages,
     huber: float = HUBER,
 ) -> _Candidates:
-    """Of strikes in any order, by the samples up to end[shot]: in each stage so many of the best of
-    a shot descend so many iterations.
+    """The survivors of strikes in any order, judged by the samples up to end[shot].
+
+    In each stage a number of the best strikes of a shot descend a number of iterations.
     """
     sums = screened = plays.misfit(shots, strikes, end[shots], -np.inf, huber=huber)
     for descending, iterations in stages:
@@ -153,9 +154,7 @@ def _survivors(
 def _offspring(
     parents: _Candidates, each: int, widths: tuple[float, float], random: np.random.Generator
 ) -> tuple[Integers, Doubles]:
-    """Strikes drawn about those of parents; parents of the same rank in their shots have the same
-    draws.
-    """
+    """Strikes drawn around their parents; parents of equal rank in their shots use the same draws."""
     square, _ = _strikes.normal(parents.sums)
     values, axes = np.linalg.eigh(square)
     speed = np.hypot(parents.strikes[:, :1], parents.strikes[:, 1:2])
@@ -187,7 +186,7 @@ def _starts(plays: Plays) -> tuple[Integers, Doubles, Doubles]:
 
 
 def _first_ends(plays: Plays) -> Doubles:
-    """Until when the first samples of each shot go, s."""
+    """The end of the first samples of each shot, s."""
     return np.asarray(np.minimum([first_end(shot) for shot in plays.recordings], plays.ends))
 
 
@@ -233,11 +232,11 @@ def find(
     *,
     squares: bool = False,
 ) -> tuple[Doubles, Doubles]:
-    """The strikes of all shots, (shots, 6), and their costs, (shots,): infinite where no start
-    could be played.
+    """The strikes of all shots, (shots, 6), and their costs, (shots,), infinite without a playable
+    start.
 
-    With `squares`, those of the least plain squares, which the RMSE is made of, by a thorough
-    search; without, those of the least cost, by a quick one. `seed` gives other draws.
+    With `squares` a thorough search minimises plain squares, which define the RMSE; otherwise a
+    quick search minimises the cost. `seed` selects other draws.
     """
     random = np.random.default_rng(seed)
     count, huber, effort = len(plays.recordings), HUBER, _THOROUGH if squares else _QUICK

@@ -1,14 +1,15 @@
-"""Recorded shots as plays of a strike, and the descent of a strike to the least squares.
+"""Recorded shots as plays of a strike, and the least-squares descent of a strike.
 
-Unknown of a shot are six numbers p: v_x, v_y and R w_x, R w_y, R w_z of the struck ball just after
-the strike (m/s), and the time of the strike (s), on a clock that begins with the last sample of the
-struck ball at rest. The cost is the sum over all samples of all balls of the pseudo-Huber loss 2
-c^2 (sqrt(1 + d^2/c^2) - 1) of the distance d between recorded and played place, c = 1 cm: a
-quadratic for small distances, linear for large ones, which are those after an event that the play
-misses. Levenberg and Marquardt's step is dp = -(J^T W J + l diag(J^T W J))^-1 J^T W d.
+The unknowns of a shot are six parameters p: v_x, v_y and R w_x, R w_y, R w_z of the struck ball
+just after the strike (m/s), and the time of the strike (s), on a clock that begins with the last
+sample of the struck ball at rest. The cost is the sum over all samples of all balls of the
+pseudo-Huber loss 2 c^2 (sqrt(1 + d^2/c^2) - 1) of the distance d between recorded and played
+position, c = 1 cm: quadratic for small distances, and linear for large ones, which follow an event
+that the play misses. Levenberg and Marquardt's step is dp = -(J^T W J + l diag(J^T W J))^-1 J^T W
+d.
 
-`starts` has the strikes that the first rows allow, and `_search` the way from these to the least of
-the many minima. The plays of all strikes of all shots are one batch, in C.
+`starts` returns the strikes that the first rows allow, and `_search` finds the lowest of the many
+minima from these. The plays of all strikes of all shots are one batch, in C.
 """
 
 from __future__ import annotations
@@ -60,10 +61,10 @@ FIRST = 0.9  # s: the first samples of a search
 
 
 class Plays:
-    """Recorded shots, ready to be played with given constants: all of them, for all shots.
+    """Recorded shots, prepared for playing with given constants.
 
-    `table` is the word of a table or has the extents of x and y, m; `radius` is that of the balls,
-    m; `threads` is as in `carom.simulate_batch`.
+    `table` is a built-in table or the extents of x and y, m; `radius` is the radius of the balls,
+    m; `threads` is as for `carom.simulate_batch`.
     """
 
     def __init__(
@@ -87,7 +88,7 @@ class Plays:
             [track[track[:, 0] >= begin] - (begin, 0.0, 0.0) for track in shot.tracks]
             for shot, begin in zip(recordings, self.origins)
         ]
-        # shots of fewer balls than another end in places that no ball is at
+        # shots with fewer balls are padded with positions without balls
         self.balls = np.array([len(shot.balls) for shot in recordings], np.int32)
         self.centres = np.zeros((len(recordings), max(self.balls, default=0), 2))
         for shot, centres in zip(recordings, self.centres):
@@ -100,8 +101,8 @@ class Plays:
         self.set(constants)
 
     def set(self, constants: Mapping[str, float], steps: Mapping[str, float] | None = None) -> None:
-        """Takes other constants, and steps of the differences by those that `misfit` is to have
-        derivatives of.
+        """Set the constants, and the finite-difference steps of those that `misfit` differentiates
+        by.
         """
         steps = steps or {}
         self.constants = dict(constants)
@@ -119,8 +120,8 @@ class Plays:
         )
 
     def _samples(self, tracks: Sequence[Sequence[Doubles]]) -> tuple[Doubles, NDArray[np.int64]]:
-        """The samples of all balls of all shots, one after the other, and where those of each begin,
-        balls that a shot does not have among them.
+        """The concatenated samples of all balls of all shots, and the start of each ball, including
+        balls that a shot does not have.
         """
         lengths = np.zeros(self.centres.shape[:2], np.int64)
         for shot, row in zip(tracks, lengths):
@@ -136,7 +137,7 @@ class Plays:
         )
 
     def _of_c(self, strikes: Doubles, stride: int = 1, huber: float = HUBER) -> Any:
-        """The recordings for C, to be played by strikes with so many numbers."""
+        """The recordings for C, for strikes with a number of parameters."""
         return ffi.new(
             "carom_python_tracks *",
             {
@@ -161,14 +162,13 @@ class Plays:
     def played(
         self, row: int, strike: Doubles, times: Doubles | None = None
     ) -> tuple[Records, Doubles]:
-        """The events of a play of one shot, on the play's clock, whose states `after` are those
-        before kicks; and the places of the balls at ascending times of the plays' clock, (balls, n,
-        2).
+        """Play one shot; return its events on the play's clock, with states `after` that exclude
+        kicks, and the positions of the balls at ascending times of the plays' clock, (balls, n, 2).
 
         Raises
         ------
         CaromError
-            The play ends in an error.
+            The play fails.
         """
         strike, when = (
             np.ascontiguousarray(strike),
@@ -201,11 +201,11 @@ class Plays:
         huber: float = HUBER,
         stride: int = 1,
     ) -> Doubles:
-        """Costs, and normal equations where the cost is below `most`, of n plays: see loops.h.
+        """Costs of n plays, with normal equations if the cost is below `most`; see loops.h.
 
-        Shape (n, 3 + m + m (m + 1)/2), m = 6 and the number of steps. Play k is of recording of[k],
-        by strikes[k], with the samples up to until[k], s. Kicks of contacts follow each strike: m
-        has five more for each.
+        Shape (n, 3 + m + m (m + 1)/2), where m is 6 plus the number of steps. Play k is recording
+        of[k] with strikes[k] and the samples up to until[k], s. Kicks of contacts follow each
+        strike and add five to m each.
         """
         numbers = strikes.shape[1] + len(self.steps)
         sums = np.empty((len(shots), 3 + numbers + numbers * (numbers + 1) // 2))
@@ -245,8 +245,8 @@ class Plays:
         return sums
 
     def rmse(self, strikes: Doubles) -> Doubles:
-        """Root of the mean squared distance over the samples of each shot that tell a motion, m,
-        shape (shots,); inf where the play is in error.
+        """Root mean squared distance over the moving samples of each shot, m, shape (shots,); inf
+        if the play fails.
         """
         moving = copy.copy(self)
         moving.samples, moving.first = self._samples(
@@ -265,11 +265,11 @@ _ROUNDS = 400  # of pushes: a rack of 15 balls seen with 0.5 mm of noise takes s
 
 
 def apart(rest: Doubles, table: Table, radius: float) -> Doubles:
-    """Places of rest that balls can have: within the cushions, out of the pockets and not
-    overlapping. What a camera sees is off by a millimetre.
+    """Valid initial positions: within the cushions, outside pockets, and without overlaps.
 
-    Balls that overlap are pushed apart, half of it each, one pair after the other, until none does:
-    in a rack a push makes another overlap, which is smaller.
+    Positions from a camera have errors of a millimetre. Overlapping balls are pushed apart, half of
+    the overlap each, one pair after another until none overlaps; in a rack each push causes
+    another, smaller overlap.
     """
     centres = np.array(rest, np.float64)
     pairs = [
@@ -295,7 +295,7 @@ def apart(rest: Doubles, table: Table, radius: float) -> Doubles:
 
 
 def inward(table: Table) -> Doubles:
-    """The unit normals of the rails of a table, (rails, 2), to the side where balls are."""
+    """The unit normals of the rails of a table, (rails, 2), towards the balls."""
     along = table.rails["q"] - table.rails["p"]
     line = table.rails["line"][:, :2]
     known = (table.rails["line"] != 0.0).any(axis=1, keepdims=True)
@@ -305,9 +305,7 @@ def inward(table: Table) -> Doubles:
 
 
 def _within(centres: Doubles, table: Table, radius: float) -> Doubles:
-    """Centres moved off the noses of cushions, which they may be behind, off jaws and out of
-    pockets.
-    """
+    """Centres moved away from noses and jaws, even from behind them, and out of pockets."""
     if len(table.pockets) == 0:
         return np.clip(
             centres, radius + 1e-9, np.array([table.width, table.length]) - radius - 1e-9
@@ -334,8 +332,8 @@ _BROKEN, _AT_ONCE, _AFTER_CONTACT = 4, 0.15, 0.05
 
 
 def _contact(shot: Recording) -> tuple[float, int]:
-    """The time at which the first ball beside the struck one moves, s, or inf, and how many begin to
-    move at about that time.
+    """The time at which the first ball other than the struck one moves, s, or inf, and how many
+    begin to move at about that time.
     """
     moves = np.delete(shot.moves, shot.cue)
     time = float(min(moves, default=np.inf))
@@ -343,9 +341,10 @@ def _contact(shot: Recording) -> tuple[float, int]:
 
 
 def is_break(shot: Recording) -> bool:
-    """Whether the struck ball breaks up a pack. What follows depends on gaps between balls that no
-    camera sees: at places seen with 0.5 mm of noise, the true strike of a break at 6 m/s is off by
-    50 to 190 mm after 1 s.
+    """Whether the struck ball breaks up a pack.
+
+    The result of a break depends on gaps that no camera resolves: at positions with 0.5 mm of
+    noise, the true strike of a break at 6 m/s has an error of 50 to 190 mm after 1 s.
     """
     return bool(np.isfinite(shot.moves).any()) and _contact(shot)[1] >= _BROKEN
 
@@ -372,12 +371,11 @@ def _line(rows: Doubles) -> tuple[Doubles, Doubles]:
 def _off_rails(
     shot: Recording, table: tuple[float, float], radius: float
 ) -> list[tuple[float, float, float]]:
-    """Speeds, directions and times of strikes at a rail so near that the first motion which a
-    camera shows may be the one away from it.
+    """Speeds, directions and times of strikes at a rail that is so near that the first recorded
+    motion may be the rebound.
 
-    The ball is seen to leave a rail with a speed w across it, and is within reach of it. Then it
-    may have gone there with _REBOUND times w, and the time of the strike is that before the way to
-    the rail and back to where it is seen.
+    The ball leaves a rail with a speed w across it, within reach of it. It may have arrived with
+    _REBOUND times w; the time of the strike then precedes the path to the rail and back.
     """
     track, rest = shot.tracks[shot.cue], shot.rest[shot.cue]
     elapsed = track[:, 0] - shot.moves[shot.cue]
@@ -412,7 +410,7 @@ def starts(shot: Recording, table: tuple[float, float], radius: float) -> Double
     second_start = min(
         (time for ball, time in enumerate(shot.moves) if ball != cue), default=np.inf
     )
-    # samples under way, up to 80 ms, a picture and more before another ball is seen to move
+    # moving samples, up to 80 ms, at least a frame before another ball is seen to move
     picture = (
         float(np.median(np.diff(track[still : still + 12, 0]))) if len(track) > still + 1 else 0.02
     )
@@ -437,8 +435,8 @@ def starts(shot: Recording, table: tuple[float, float], radius: float) -> Double
         if known > 1
         else track[still, 0] - 0.5 * picture
     )
-    # few samples before the first hit tell the direction roughly, noise as much as it is, and one
-    # does not tell the speed
+    # a few samples before the first hit determine the direction as roughly as their noise, and a single
+    # one does not determine the speed
     rough = 0.108 if known <= 2 else 0.016 if known == 3 else 0.0
     rough = max(rough, 2.0 * min(shot.noise / (max(speed, 0.3) * float(np.sqrt(t @ t))), 0.1))
     turns = np.linspace(-rough, rough, 13 if rough > 0.05 else 5) if rough > 0.008 else np.zeros(1)
@@ -463,7 +461,7 @@ def _grid(
     sides: Doubles,
     follows: Doubles,
 ) -> Doubles:
-    """Strikes about a speed, a direction and a time, with spins over the speed."""
+    """Strikes around a speed, a direction and a time, with spins relative to the speed."""
     turn, fast, side, follow = (
         grid.ravel() for grid in np.meshgrid(turns, faster, sides, follows, indexing="ij")
     )
@@ -483,7 +481,7 @@ def allowed(strikes: Doubles) -> Doubles:
 
 
 def at_bound(strike: Doubles) -> str:
-    """Which number of a strike on the clock of its play is at its bound, if one is."""
+    """The parameter of a strike, on the clock of its play, that is at its bound, if any."""
     within = allowed(np.array([strike - 1e-6, strike + 1e-6]))[[0, 1], :] - (
         strike - 1e-6,
         strike + 1e-6,
@@ -516,10 +514,10 @@ def descend(
     """Levenberg and Marquardt's method from each strike: the strikes found, (n, numbers), and the
     sums of `misfit` there.
 
-    An iteration is one play of each start that is not done; where the cost falls, one more of each
-    number for the next step. `held`, (n, numbers), is what the square of a number costs, as kicks
-    that follow the six of a strike do; without, nothing does. `sums` are those of `misfit` at the
-    strikes, where they are known.
+    An iteration plays each unfinished start once, and if its cost decreases, once more per
+    parameter for the next step. `held`, (n, numbers), is the cost of the square of each parameter,
+    such as kicks after the six parameters of a strike; default: none. `sums` are the sums of
+    `misfit` at the strikes, if they are known.
     """
     strikes = allowed(strikes)
     n, numbers = strikes.shape
@@ -566,11 +564,11 @@ def descend(
 def derivatives(
     plays: Plays, row: int, strike: Doubles, names: list[str], rest: bool = True
 ) -> tuple[Doubles, Doubles, Doubles, Doubles]:
-    """Of one shot: distances of all samples, (2 n,), and their derivatives by the strike, (2 n, 6),
-    by constants, by places of rest.
+    """For one shot: the distances of all samples, (2 n,), and their derivatives by the strike, (2
+    n, 6), by constants, and with `rest` by initial positions.
 
-    The last ones are left out without `rest`. They are tangents of the whole shot in double
-    precision. The time of the strike is on the clock of the plays.
+    The derivatives are tangents of the complete shot in double precision. The time of the strike is
+    on the clock of the plays.
     """
     tracks, struck = plays.tracks[row], int(plays.struck[row])
     balls = plays.layouts[0, row, : plays.balls[row]].copy()

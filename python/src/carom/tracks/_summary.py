@@ -1,4 +1,4 @@
-"""What a fit gives: its numbers, and a page of them, one HTML file with its pictures in it."""
+"""The results of a fit, and their report: a single HTML file with its figures."""
 
 from __future__ import annotations
 
@@ -49,10 +49,10 @@ _STYLE = (
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """Recorded shots, and what they were fitted by."""
+    """The result of a fit: the recorded shots with their strikes and constants."""
 
     recordings: list[Recording]
-    table: str | tuple[float, float]  # The word of a table, or the extents of x and y, m
+    table: str | tuple[float, float]  # A built-in table, or the extents of x and y, m
     radius: float  # m
     cushion_model: ShotCushion
     constants: dict[
@@ -74,18 +74,17 @@ class Fit:
     # often a camera sees balls at rest; NaN without a play
     rmse: Doubles
     train: list[bool] | None = None  # Which shots the constants were fitted to, if not all
-    fitted: tuple[str, ...] = ()  # The constants that whole shots told
+    fitted: tuple[str, ...] = ()  # The constants fitted to complete shots
     # (fitted, fitted): Of these; the roots of its diagonal are their `spread`. None where fewer
     # than 8 shots tell.
     covariance: Doubles | None = None
     warnings: Sequence[
         str
-        # What holds of all shots: a crooked table, constants at their bounds, a misfit far above the
-        # noise
+        # Remarks on all shots: a rotated table, constants at their bounds, a misfit far above the noise
     ] = ()
-    game: Game | None = None  # Whose constants stand for those that were not given
-    # Of each constant that whole shots were to tell: its 95 % interval by the profile of the cost;
-    # None where these shots do not tell it
+    game: Game | None = None  # The game that supplies constants that were not given
+    # The 95 % interval of each constant fitted to complete shots, from the profile of the cost; None if
+    # the shots do not determine it
     intervals: dict[str, tuple[float, float] | None] = field(default_factory=dict)
 
     @property
@@ -101,7 +100,7 @@ class Fit:
 
     @property
     def counts(self) -> list[bool]:
-        """Which shots count."""
+        """Which shots are used."""
         return [
             status.partition(":")[0] in ("ok", "mended", "rough", "doubtful")
             for status in self.status
@@ -115,24 +114,24 @@ class Fit:
         return np.asarray(np.array(self.counts) & np.array(part), np.bool_)
 
     def counted(self, train: bool | None = None) -> Doubles:
-        """The RMSE of the shots that count, m: of all, of those that constants were fitted to, or
-        of the others.
+        """The RMSE, m, of all used shots, of the ones to which constants were fitted, or of the
+        others.
         """
         rmse: Doubles = self.rmse[self._counted(train)]
         return rmse
 
     @property
     def median_rmse(self) -> float:
-        """m, over the shots that count."""
+        """Median RMSE of the used shots, m."""
         return float(np.median(self.counted())) if len(self.counted()) else float("nan")
 
     @property
     def p90_rmse(self) -> float:
-        """m: 9 in 10 of the shots that count are better."""
+        """90th percentile of the RMSE of the used shots, m."""
         return float(np.percentile(self.counted(), 90)) if len(self.counted()) else float("nan")
 
     def shot(self, i: int) -> Shot:
-        """Shot i played; its clock begins at the strike, `strikes[i, 5]`.
+        """Play shot i; its clock begins at the strike, `strikes[i, 5]`.
 
         Raises
         ------
@@ -145,12 +144,14 @@ class Fit:
     def _struck(
         self, i: int, strikes: Doubles, moved: Doubles | float, changed: Mapping[str, Doubles]
     ) -> tuple[Table, Records]:
-        """The table, and the balls of shot i just after each of the strikes, from places of rest
-        that are moved, with changed constants.
+        """The table, and the balls of shot i just after each of the strikes, with shifted initial
+        positions and changed constants.
         """
         recording = self.recordings[i]
         if not np.isfinite(self.strikes[i]).all():
-            raise ValueError(f"shot {recording.id}: no strike was found: {self.status[i]}")
+            raise ValueError(
+                f"shot {recording.id}: no strike was found ({self.status[i]}); choose another shot"
+            )
         centres = [
             _strikes.apart(places, self.ground.table, self.radius)
             for places in recording.rest + np.zeros((len(strikes), 1, 1)) + moved
@@ -164,11 +165,11 @@ class Fit:
         return self.ground.table, balls
 
     def strike_covariance(self, i: int) -> Doubles:
-        """The covariance of the six numbers of `strikes[i]`, shape (6, 6), the constants being
-        right: by derivatives of the shot.
+        """Return the covariance of the six parameters of `strikes[i]`, shape (6, 6), for exact
+        constants.
 
-        It has the noise of the samples, by what they leave over, and that of the places of rest,
-        which contacts magnify.
+        It is computed from derivatives of the shot. It includes the noise of the samples, from
+        their residuals, and of the initial positions, which contacts magnify.
 
         Raises
         ------
@@ -187,11 +188,11 @@ class Fit:
         )
 
     def draws(self, i: int, count: int, seed: Seed = 0) -> tuple[Table, Records, Doubles]:
-        """Shot i as it may have been, for `simulate_batch`: table, layouts just after the strike,
-        (count, balls), and times of the strike, s.
+        """Draw versions of shot i within its errors, for `simulate_batch`.
 
-        Constants are drawn by `covariance`, where there is one, places of rest by the noise, and
-        strikes that follow both.
+        Returns the table, layouts just after the strike, (count, balls), and times of the strike,
+        s. Constants are drawn from `covariance`, if there is one, initial positions from the noise,
+        and strikes given both.
 
         Raises
         ------
@@ -215,38 +216,42 @@ class Fit:
         return (*self._struck(i, strikes, moved, self.changed(changes)), strikes[:, 5])
 
     def design(self, count: int = 3, *, seed: Seed = 0) -> list[Design]:
-        """Further shots to play and to film, each the one of 60 drawn ones that would tell the
-        constants best after those before it; as text they say what to play.
+        """Design further shots to play and record; printed, they are instructions.
+
+        Each is the one of 60 random shots that determines the constants best, given the ones before
+        it.
 
         Raises
         ------
         ValueError
-            No constant was fitted by whole shots.
+            No constant was fitted to complete shots.
         """
         return design(self, _whole(count, "count", least=1), seed_of(seed))
 
     def player(self, groups: Sequence[Sequence[int]] | None = None) -> Player:
-        """The errors of the player, by strokes that were meant alike, with intervals; as a rating,
-        and as the player of plans (`record`).
+        """Estimate the errors of the player, with intervals, from repeated strokes.
+
+        Also returns them as a rating, and as a player for plans (`record`).
 
         Parameters
         ----------
         groups : sequence of sequences of int, optional
-            The shots of each kind, from 0. Without: those whose balls lie within 30 mm and whose
-            strikes go within 6 degrees and 30 % of the speed of the first one's.
+            The shots, from 0, of each group with the same intention. Default: shots with balls
+            within 30 mm, and strikes within 6 degrees and 30 % of the speed, of the first one's.
 
         Raises
         ------
         ValueError
-            Too few strokes repeat others, or one has no strike.
+            There are too few repeated strokes, or a shot has no strike.
         """
         return player_of(self, groups)
 
     @functools.cached_property
     def model_error(self) -> float:
-        """The errors of the models over those that recorded matches have, at most 1: by the kicks
-        of the shots that constants were fitted to, as far as their tracks tell them; 1 where fewer
-        than 20 kicks are told.
+        """The errors of the models relative to those in recorded matches, at most 1.
+
+        They are estimated from the kicks of the shots to which constants were fitted. 1 if the
+        tracks determine fewer than 20 kicks.
         """
         kicks = self.kicks().contacts
         if self.train is not None:
@@ -266,55 +271,59 @@ class Fit:
     def forecast(
         self, shot: int | Recording, *, after: float, draws: int = 200, seed: Seed = 0
     ) -> Forecast:
-        """What comes after the first seconds of a shot, as far as these tell it.
+        """Forecast a shot from its first seconds.
 
         Parameters
         ----------
         shot : int or Recording
             The index of a shot of this fit, or a recording of the same table.
         after : float
-            So many seconds from the first motion of a ball are known; the strike is fitted to
-            their rows alone, and later rows are not looked at.
+            Duration of the known part, s from the first motion of a ball. The strike is fitted to
+            its rows; later rows are not used.
         draws : int
-            Of the strike, of the constants (by `covariance`) and of the places of rest. From 2 s on
-            the regions of 200 were compared with recorded shots: docs/understanding/reality.md.
+            Number of draws of the strike, the constants (from `covariance`) and the initial
+            positions. docs/understanding/reality.md compares the regions of 200 draws, for 2 s and
+            more, with recorded shots.
         seed : int or numpy.random.Generator
 
         Returns
         -------
         Forecast
-            Its `positions` are the draws, its `regions` where balls will be.
+            `positions` returns the draws, and `regions` circles that contain the balls.
 
         Raises
         ------
         ValueError
-            No strike was found, or no row is known after the first.
+            No strike was found, or there are no rows after the first.
         """
         whole = self.recordings[shot] if isinstance(shot, int) else shot
         whole = until_pocketed(whole, self.ground.table)
         if not 0.0 < after < np.inf:
-            raise ValueError(f"after: it must be positive and finite, in s, not {after!r}")
+            raise ValueError(f"after: {after!r} s is not positive and finite")
         draws, seed = _whole(draws, "draws", least=10), seed_of(seed)
         return forecast(self, whole, after, draws, seed)
 
     def changed(self, changes: Doubles) -> dict[str, Doubles]:
-        """The fitted constants, off by numbers of shape (n, fitted), within their bounds."""
+        """The fitted constants, shifted by amounts of shape (n, fitted), within their bounds."""
         return {
             name: np.clip(self.constants[name] + off, *_joint.prior(name)[1:])
             for name, off in zip(self.fitted, changes.T)
         }
 
     def positions(self, i: int, times: ArrayLike) -> Doubles:
-        """The centres of shot i's balls as played at times of the recording's clock, m, shape (...,
-        balls, 2); at rest before the strike.
+        """Return the centres of shot i's balls as played, m, at times of the recording's clock.
+
+        Shape (..., balls, 2); before the strike the balls are at rest.
         """
         moments = np.asarray(times, np.float64)
         return self.shot(i).positions(np.maximum(moments - self.strikes[i, 5], 0.0))[..., :2]
 
     def off(self, train: bool | None = None) -> Doubles:
-        """How far the plays of shots that count are off, shape (samples of moving balls, 3): how
-        many contacts were before, of all balls, the distance (m), and a weight, by which shots
-        count alike. Of all shots, of those that constants were fitted to, or of the others.
+        """Return the residuals of used shots, shape (samples of moving balls, 3).
+
+        The columns are the number of preceding contacts of all balls, the distance (m), and a
+        weight that makes shots count equally. For all shots, the ones to which constants were
+        fitted, or the others.
         """
         found = [np.zeros((0, 3))]
         for k in np.flatnonzero(self._counted(train)):
@@ -347,13 +356,14 @@ class Fit:
         return np.concatenate(found)
 
     def bands(self, train: bool | None = None) -> Doubles:
-        """The residuals of fitted strikes: within which distances, m, 68 and 95 % of the samples of
-        another shot are whose strike is fitted to all of its samples. Shape (rows, 3); first a
-        number of contacts, from which a row holds. Of n shots the shares are (n + 1)/n as large, as
-        another one may be farther off than all of them.
+        """Return the distances, m, that contain 68 and 95 % of the samples of a new shot with a
+        fitted strike.
 
-        They are no forecast: the samples after the first seconds of a shot are several times as far
-        off where the strike knows these seconds alone. `forecast` gives regions for them.
+        Shape (rows, 3): the number of contacts from which a row applies, and the two distances. For
+        n shots the shares are multiplied by (n + 1)/n, because a new shot may exceed all of them.
+
+        This is not a forecast: if the strike is fitted only to the first seconds, later errors are
+        several times larger. Use `forecast` for these.
         """
         off, bands = self.off(train), []
         larger = 1.0 + 1.0 / max(off[:, 2].sum(), 1.0)
@@ -374,14 +384,14 @@ class Fit:
         return np.array(bands).reshape(-1, 3)
 
     def covered(self, bands: Doubles, train: bool | None = None) -> Doubles:
-        """Which shares of the samples are within bands: 68 and 95 %, where the bands are true."""
+        """Return the fractions of the samples within bands: 68 and 95 % for correct bands."""
         off = self.off(train)
         band = np.maximum(np.searchsorted(bands[:, 0], off[:, 0], side="right") - 1, 0)
         return np.asarray(off[:, 2] @ (off[:, 1:2] <= bands[band, 1:]) / off[:, 2].sum())
 
     def kicks(self) -> Kicks:
-        """What the models get wrong at each contact of the shots that count: the small changes of
-        the motion just after it, kicks, with which the shots go as they were recorded.
+        """Find the kicks of the used shots: small changes of the motion just after each contact
+        with which the shots match their recordings. They measure the errors of the models.
         """
         rows = [k for k, counts in enumerate(self.counts) if counts]
         plays = self._plays(rows)
@@ -399,11 +409,11 @@ class Fit:
         )
 
     def plot(self, i: int, kicks: Kicks | None = None) -> pictures.Picture:
-        """Shot i: lines as played, dots as recorded.
+        """Draw shot i: lines as played, dots as recorded; `svg` of the result is the text of a
+        file.
 
-        Its `svg` is the text of a file. With kicks, as played with them: each contact has a circle,
-        the larger the more of the RMSE it has, and those of more than 3 mm the kick that stands
-        out.
+        With kicks, the shot is played with them. Each contact then has a circle that grows with its
+        contribution to the RMSE, and above 3 mm the dominant kick as text.
         """
         shot: Any = self.shot(i)
         marks = []
@@ -428,7 +438,7 @@ class Fit:
         )
 
     def to_dict(self, kicks: Kicks | None = None) -> dict[str, Any]:
-        """What the command writes, of numbers that JSON has."""
+        """Return the result as the command writes it, for JSON."""
         shots: list[dict[str, Any]] = []
         for recording, strike, status, rmse in zip(
             self.recordings, self.strikes, self.status, self.rmse
@@ -489,6 +499,10 @@ def _ticks(low: float, high: float) -> list[float]:
     ]
 
 
+def _dashed(dashes: str) -> str:
+    return f' stroke-dasharray="{dashes}"' if dashes else ""
+
+
 class _Chart:
     """A chart with axes, as SVG."""
 
@@ -534,13 +548,26 @@ class _Chart:
                     f'<circle cx="{point[0]:.1f}" cy="{point[1]:.1f}" r="2" fill="{_MARK}" fill-opacity="0.45"/>'
                 )
 
-    def line(self, x: Doubles, y: Doubles) -> None:
+    def line(self, x: Doubles, y: Doubles, dashes: str = "") -> None:
         points = " ".join(
             "{:.1f},{:.1f}".format(*self._at(a, b)) for a, b in zip(x.tolist(), y.tolist())
         )
         self.parts.append(
-            f'<polyline points="{points}" stroke="{_LINE}" stroke-width="2" fill="none"/>'
+            f'<polyline points="{points}" stroke="{_LINE}" stroke-width="2" fill="none"{_dashed(dashes)}/>'
         )
+
+    def legend(self, lines: Sequence[tuple[str, str]], dot: str) -> None:
+        """Names lines, each with its dashes, and dots, in a row at the top on the right."""
+        wide, y = 110.0, _ABOVE + 8.0
+        x = _WIDTH - wide * (len(lines) + 1)
+        for name, dashes in lines:
+            self.parts.append(
+                f'<path d="M{x:.1f},{y:.1f}h24" stroke="{_LINE}" stroke-width="2"{_dashed(dashes)}/>'
+            )
+            self._text(x + 30.0, y + 4.0, name, ' style="text-anchor:start"')
+            x += wide
+        self.parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="2" fill="{_MARK}"/>')
+        self._text(x + 8.0, y + 4.0, dot, ' style="text-anchor:start"')
 
     def bars(self, edges: Doubles, heights: Sequence[int]) -> None:
         for left, right, height in zip(edges[:-1].tolist(), edges[1:].tolist(), heights):
@@ -559,7 +586,7 @@ class _Chart:
 
 
 def histogram(fit: Fit) -> str:
-    """How many shots have which RMSE."""
+    """A histogram of the shots' RMSE."""
     rmse = 100.0 * fit.counted()
     end = float(_ticks(0.0, 1.05 * float(rmse.max()))[-1] or 1.0) if len(rmse) else 1.0
     end = max(end, float(rmse.max(initial=0.0)) * 1.001)
@@ -571,8 +598,8 @@ def histogram(fit: Fit) -> str:
 
 
 def bands(fit: Fit) -> str:
-    """How far off places are where strikes are fitted to all of them, over the contacts before
-    them, and within which distances 68 and 95 % are.
+    """A chart of the residuals of fitted strikes over the number of preceding contacts, with the 68
+    and 95 % bands.
     """
     unseen = None if fit.train is None else False
     off, rows = fit.off(unseen), fit.bands(None if fit.train is None else True)
@@ -586,16 +613,18 @@ def bands(fit: Fit) -> str:
         "residual of a fitted strike, cm",
     )
     chart.dots(shown[:, 0] + np.modf(0.618034 * np.arange(len(shown)))[0], 100.0 * shown[:, 1])
-    for column in (1, 2):
+    for column, dashes in ((1, ""), (2, "6 3")):
         chart.line(
             np.stack([rows[:, 0], ends], axis=1).ravel(),
             np.repeat(np.minimum(100.0 * rows[:, column], top), 2),
+            dashes=dashes,
         )
+    chart.legend([("68 % below", ""), ("95 % below", "6 3")], "one position")
     return chart.svg()
 
 
 def laws(fit: Fit) -> list[tuple[str, str]]:
-    """Pictures of what single events say, over what the fit plays with; each with its text."""
+    """Charts of the evidence of single events, with the fitted laws; each with its caption."""
     seen, constants = events(fit.recordings, fit.ground.size, fit.radius), fit.constants
     gravity = constants["gravity"]
     rolls = seen.pieces[seen.pieces["rolling"] & (seen.pieces["a_error"] < 0.03)]
@@ -644,9 +673,7 @@ def laws(fit: Fit) -> list[tuple[str, str]]:
 
 
 def summary_lines(fit: Fit) -> list[str]:
-    """What a reader of the result should know: the noise, what holds of all shots, and the shots
-    that are not ok.
-    """
+    """The summary of a result: the noise, the remarks on all shots, and the shots that are not ok."""
     lines = [
         f"balls of radius {1e3 * fit.radius:.5g} mm, constants of {fit.ground.game} unless given, "
         f"cushions: {fit.cushion_model}",
@@ -670,9 +697,7 @@ def summary_lines(fit: Fit) -> list[str]:
 
 
 def told_forecasts(seen: Sequence[Forecast]) -> str:
-    """How many of the later places lie in the regions of forecasts: all, and those that tell a
-    motion.
-    """
+    """The fractions of later positions in the regions of forecasts: of all, and of moving ones."""
     told = []
     for moving, places in ((False, "later places"), (True, "places of moving balls")):
         counts = [len(item.later(moving=moving)[0]) for item in seen]
@@ -689,8 +714,10 @@ def told_forecasts(seen: Sequence[Forecast]) -> str:
 def page(
     fit: Fit, name: str, kicks: Kicks | None = None, forecasts: Sequence[Forecast] = ()
 ) -> str:
-    """The page, of tracks of that name; with kicks, their tables too, and pictures of the shots as
-    played with them; with forecasts, a picture of the one with the median width.
+    """The report on tracks with a name.
+
+    With kicks it includes their tables, and figures of the shots played with kicks; with forecasts,
+    a figure of the forecast with the median width.
     """
     ok = [k for k, counts in enumerate(fit.counts) if counts]
     order = sorted(ok, key=lambda k: float(fit.rmse[k]))

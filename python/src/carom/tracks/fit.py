@@ -1,9 +1,9 @@
-"""Fitting carom to recorded shots: each shot's strike, and the constants of a table.
+"""Fit carom to recorded shots: the strike of each shot, and the constants of a table.
 
     python -m carom.fit TRACKS.csv --table snooker -o fit.json
 
-or, in Python, `carom.fit.fit(carom.tracks.read("TRACKS.csv"), "snooker")`.
-docs/using/fit.md explains the method and what the numbers mean.
+or, in Python, `carom.fit.fit(carom.tracks.read("TRACKS.csv"), "snooker")`. docs/using/fit.md
+explains the method and the results.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from typing import Any, NamedTuple, cast, get_args
 import numpy as np
 
 from carom._described import BallFriction, Game
-from carom._rows import Seed, listing, seed_of
+from carom._rows import Seed, listing, seed_of, unknown_name
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
 from carom.layouts import GAMES
@@ -78,7 +78,7 @@ def _priors(
     priors: Mapping[str, tuple[float, float]],
     values: Mapping[str, float],
 ) -> dict[str, tuple[float, float]]:
-    """Mean and deviation of each constant that whole shots are to tell."""
+    """Mean and deviation of the prior of each constant to fit to complete shots."""
     # a change with the speed is not sought where the cushion begins without one, nor a height where
     # it has no friction
     some = ("mu_cushion", "roll_loss", "restitution_log", "mu_log")
@@ -93,12 +93,12 @@ def _priors(
     unknown = [name for name in [*names, *priors] if name not in known]
     if unknown:
         raise ValueError(
-            f"free, priors: there is no constant {unknown[0]!r} to fit; known are {', '.join(known)}"
+            unknown_name("free, priors", "constant", unknown[0], known, "help(carom.fit.fit)")
         )
     for name, (mean, deviation) in priors.items():
         if not (math.isfinite(mean) and math.isfinite(deviation) and deviation > 0.0):
             raise ValueError(
-                f"priors: {name} must have a finite mean and a deviation above 0, not {mean!r}, {deviation!r}"
+                f"priors: {name}: {mean!r}, {deviation!r} are not a finite mean and a positive deviation"
             )
     found = {}
     for name in names:
@@ -106,18 +106,18 @@ def _priors(
         width = wider.get(name, width)
         if name not in _joint.PRIORS and not low <= values[name] <= high:
             raise ValueError(
-                f"free: {name} must begin at {low:g} to {high:g}, not at its default of {values[name]:g}: constants gives it"
+                f"free: {name} starts at its default {values[name]:g}, which is not {low:g} to {high:g}; pass a start in constants"
             )
         if name not in priors and width is None:
             raise ValueError(
-                f"free: {name} needs its mean and deviation in priors, as its range is wide and it begins with 0"
+                f"free: {name} has a wide range and starts at 0; pass its mean and deviation in priors"
             )
         found[name] = priors.get(name, (values[name], width or 0.0))
     return found
 
 
 class _Saved:
-    """The parts of a fit that are done, as JSON, kept in a file while the fit runs."""
+    """The finished parts of a fit, as JSON, kept in a file while the fit runs."""
 
     def __init__(self, path: Path | None, arguments: Sequence[Any]) -> None:
         shots, *others = arguments
@@ -135,7 +135,7 @@ class _Saved:
                 self.parts = saved["parts"] if saved["key"] == self.key else {}
 
     def get(self, name: str, compute: Callable[[], Any]) -> Any:
-        """A part, which is computed if it is not there."""
+        """A part, which is computed if it is missing."""
         if name not in self.parts:
             self.parts[name] = compute()
             if self.path is not None:
@@ -155,8 +155,9 @@ def _told_by_events(
     measured: Mapping[str, float],
     errors: Mapping[str, float],
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """The constants after single events, and their errors: what events tell worse than that it is a
-    table stays as given.
+    """The constants from single events, and their errors.
+
+    Constants that events determine no better than the prior are kept as given.
     """
     worse = [
         name for name in measured if errors.get(name, 0.0) > (_joint.prior(name)[0] or math.inf)
@@ -173,7 +174,7 @@ def _told_by_events(
 
 @dataclass(frozen=True)
 class _Job:
-    """What is asked of a fit, and what it keeps of its work."""
+    """The arguments of a fit, and its finished parts."""
 
     recordings: list[Recording]
     table: str | tuple[float, float]
@@ -211,7 +212,7 @@ def _strike(
 def _fit_to_events(
     job: _Job, fitted: Sequence[int], values: dict[str, float], remarks: list[str]
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """The constants that single events of these shots tell, and their errors."""
+    """The constants from single events of these shots, and their errors."""
     job.report("events", 0.0)
     shots = [job.recordings[k] for k in fitted]
 
@@ -230,8 +231,8 @@ def _fit_to_events(
 
 
 def _search_constants(job: _Job, first: _joint.Search) -> _joint.Search:
-    """Searches the constants, at first also without a change of the friction with the slip; returns
-    the search at its end.
+    """Search for the constants, at first also without a dependence of friction on slip; return the
+    finished search.
     """
     searches = {"": first}
     if set(first.names) >= _LAW and not _LAW & job.priors.keys():
@@ -251,7 +252,7 @@ def _search_constants(job: _Job, first: _joint.Search) -> _joint.Search:
 
 
 class _Told(NamedTuple):
-    """What shots tell of the constants."""
+    """The constants that shots determine."""
 
     values: dict[str, float]
     spread: dict[str, float]  # their errors
@@ -261,8 +262,8 @@ class _Told(NamedTuple):
 
 
 def _profiled(job: _Job, search: _joint.Search) -> dict[str, tuple[float, float] | None]:
-    """The intervals of the constants by their profiles; the search goes on from a point of these
-    that is better than where it ended.
+    """The intervals of the constants from their profiles; the search continues from a better point
+    of a profile, if there is one.
     """
     for number in range(_STARTS):
         found = profiles(search)
@@ -286,7 +287,7 @@ def _fit_to_shots(
     spread: dict[str, float],
     remarks: list[str],
 ) -> _Told:
-    """The constants that these shots as a whole tell."""
+    """The constants from complete shots."""
     plays = job.plays(fitted, values)
     found = job.saved.get(
         "strikes", lambda: _search.find(plays, job.seed, job.progress)[0].tolist()
@@ -347,62 +348,66 @@ def fit(
     state: Path | None = None,
     calibrate: bool = False,
 ) -> Fit:
-    """Fit recorded shots.
+    """Fit the strikes of recorded shots, and the constants of their table.
 
     Parameters
     ----------
     recordings : sequence of Recording
-        From `carom.tracks.read`. Shots may have different numbers of balls, and a track may end
-        before the shot does: where its ball falls into a pocket, its later rows do not count.
+        From `carom.tracks.read`. Shots may have different numbers of balls, and tracks may end
+        before the shot; rows after a ball fell into a pocket are ignored.
     table : str or (float, float)
-        The word of a table with its pockets and facings, such as "9ft" or "snooker", x along its
-        width and y along its length; or the extents of x and y of one without pockets, m.
+        A built-in table, such as "9ft" or "snooker", with x along its width and y along its length;
+        or the extents of x and y, m, of a table without pockets.
     radius : float, optional
-        Of the balls, m. Without: that of the game's balls.
+        Radius of the balls, m. Default: the game's.
     game : str, optional
-        Whose constants stand for those that are not given. Without: that of the table, and
-        "billiard" for extents.
+        The game that supplies constants that are not given. Default: the table's, or "billiard" for
+        extents.
     cushion_model, friction : str
-        As in `carom.simulate`.
+        As for `carom.simulate`.
     constants : mapping or `carom.dtypes.ball_kind`, optional
         Known constants.
     free : "none", "events", "table", "default", or names of constants
-        What is fitted besides each shot's strike. "none": nothing. "events": the constants that
-        single events tell: mu_slide, mu_roll, drag, restitution, and those of the cushion. What too
-        few events tell stays as given. "default": these first, and then all together with mu_spin,
-        law_a and law_b, by whole shots. "table": restitution_cushion, mu_cushion, nose_height,
-        mu_slide, mu_roll and drag, by whole shots, as what else a model has is a law that other
-        tables share: for few shots. Names: these constants alone, by whole shots: any field of
-        `carom.dtypes.ball_kind` but radius and mu_ball, also a cushion's own numbers.
+        The constants to fit in addition to the strikes. "none": no constants. "events": the
+        constants that single events determine: mu_slide, mu_roll, drag, restitution, and the
+        cushion's; those with too few events are kept as given. "default": these first, and then all
+        of them with mu_spin, law_a and law_b, to complete shots. "table": restitution_cushion,
+        mu_cushion, nose_height, mu_slide, mu_roll and drag to complete shots; this suits few shots,
+        because the other constants are laws that tables have in common. Names: only these
+        constants, to complete shots; any field of `carom.dtypes.ball_kind` except radius and
+        mu_ball.
     priors : mapping, optional
-        Mean and deviation of constants that are fitted by whole shots. Without: about the value
-        before, as wide as the constants of different tables are.
+        Mean and standard deviation of constants that are fitted to complete shots. Default: around
+        the initial value, as wide as the variation between tables.
     train : sequence of int, optional
-        The shots, from 0, that constants are fitted to; all without. The others then tell how well
-        the constants predict.
+        The shots, from 0, to which constants are fitted. Default: all. The others test the
+        predictions of the constants.
     seed : int or numpy.random.Generator
-        Of what the search for constants draws; strikes by known constants do not depend on it. In
-        one environment the bits depend on the seed alone.
+        Seed of the search for constants; strikes for known constants do not depend on it. In the
+        same environment the bits depend only on the seed.
     threads : int
-        Most threads: 0 is the calling one alone, -1 all processors.
+        Largest number of threads: 0 uses only the calling thread, -1 all processors.
     progress : callable(what, part), optional
-        Is told the name of the work and the part of it that is done, 0 to 1.
+        Called with the name of the step and its completed fraction, 0 to 1.
     state : path, optional
-        A file that keeps what is done so far. A fit that was interrupted goes on from there when it
-        is called again with the same arguments, and has the same bits; the file is removed at the
-        end.
+        A file for intermediate results. An interrupted fit continues from it when called again with
+        the same arguments, and returns the same bits. The file is removed at the end.
     calibrate : bool
-        Whether places are put right first where the table lies crooked in the tracks, is too large
-        or small, or bent: by impacts on cushions.
+        Whether to correct positions first if the table is rotated, wrongly scaled or distorted in
+        the tracks, from impacts on cushions.
+
+    Returns
+    -------
+    Fit
 
     Raises
     ------
     ValueError
-        An argument is wrong: which, and what would be right.
+        An argument is invalid; the message names it.
     """
     seed = seed_of(seed, 2**64 - 1)
     if not len(recordings):
-        raise ValueError("recordings: at least one shot is needed")
+        raise ValueError("recordings: there are none; pass at least one shot")
     ground = _constants.ground(table, radius, game)
     radius = ground.radius
     examination = examine(recordings, table, radius, train=train, calibrate=calibrate)
@@ -506,7 +511,7 @@ def fit(
 def _remarks(
     strike: Doubles, rmse: float, noise: float, radius: float, mended: Sequence[str]
 ) -> str:
-    """What there is to say of a strike that was found, or "ok"."""
+    """Remarks on a strike that was found, or "ok"."""
     remarks = [_quality(strike, rmse, noise, radius)]
     if mended:
         remarks.append(f"mended: {'; '.join(mended)}")
@@ -514,7 +519,7 @@ def _remarks(
 
 
 def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
-    """Why the play of a shot is doubtful or rough, or nothing."""
+    """Why the play of a shot is doubtful or rough, or an empty text."""
     above = rmse / noise / math.sqrt(2.0)
     if rmse > max(2.0 * radius, _MANY * noise):
         return f"doubtful: RMSE {100.0 * rmse:.1f} cm, {above:.0f} times that of the noise"
@@ -528,7 +533,7 @@ def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
 
 
 def _numbers(count: int, form: str) -> Callable[[str], tuple[float, ...]]:
-    """What reads an argument of some numbers, and says its form where it is wrong."""
+    """A reader of an argument with several numbers, whose error shows the form."""
 
     def read(text: str) -> tuple[float, ...]:
         try:
@@ -560,15 +565,15 @@ def _unit(text: str) -> float | str:
 
 
 def _read_object(path: Path, such: str) -> dict[str, Any]:
-    """An object of a JSON file: the constants of it, where it is what this command wrote."""
+    """An object from a JSON file, or its constants if this command wrote the file."""
     try:
         content: Any = json.loads(path.read_text(encoding="utf-8"))
     except ValueError as error:
-        raise TrackError(f"{path}: no JSON ({error})") from None
+        raise TrackError(f"{path}: not valid JSON ({error})") from None
     if isinstance(content, dict) and isinstance(content.get("constants"), dict):
         content = content["constants"]
     if not isinstance(content, dict):
-        raise TrackError(f"{path}: an object of constants is needed, such as {such}")
+        raise TrackError(f"{path}: not a JSON object of constants, such as {such}")
     return cast(dict[str, Any], content)
 
 
@@ -582,8 +587,9 @@ def _show(what: str, part: float) -> None:
 
 
 def _asked(option: str, work: Callable[[], Any], is_asked: object) -> Any:
-    """What an option asks of a fit; None, after a word, where these shots do not tell it: the fit
-    itself is written all the same.
+    """The result of an option of the command.
+
+    None, after a message, if the shots do not determine it; the fit is written in any case.
     """
     try:
         return work() if is_asked else None
@@ -593,8 +599,8 @@ def _asked(option: str, work: Callable[[], Any], is_asked: object) -> Any:
 
 
 def _forecasts(found: Fit, duration: float, seed: int) -> list[Forecast]:
-    """Of the shots that the constants were not fitted to, or of all; without those of which nothing
-    is known after the first seconds.
+    """Forecasts of the shots to which the constants were not fitted, or of all, except shots
+    without rows after the first seconds.
     """
     seen = []
     for k, shot in enumerate(found.recordings):
@@ -613,8 +619,10 @@ def _forecasts(found: Fit, duration: float, seed: int) -> list[Forecast]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command; its exit status is 0, 2 for bad usage or unreadable input, or 130 if it was
-    interrupted; then nothing is written.
+    """Run the command.
+
+    The exit status is 0; 2 for wrong usage or unreadable input; or 130 if interrupted, without
+    output.
     """
     parser = argparse.ArgumentParser(
         prog="python -m carom.fit", description="Fits recorded shots: each strike, and constants."

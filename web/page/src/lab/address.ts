@@ -1,5 +1,5 @@
-// The laboratory in the address: what differs from the defaults, strokes that are undone, the next
-// shot, and a link.
+// The laboratory in the address: what differs from the defaults, undone strokes, the next shot, and
+// a link.
 import { GAMES } from "../table/games.js";
 import { atHead } from "../table/head.js";
 import { wrong } from "../ui.js";
@@ -28,7 +28,7 @@ function stateOf(d: Desk): Record<string, string> {
   return settings;
 }
 
-/** Sets the desk to what an address says. */
+/** Sets the desk to the values in an address. */
 export function restore(d: Desk, query: URLSearchParams): void {
   const { controls } = d;
   const known = (key: string, among: readonly string[]): string =>
@@ -57,7 +57,7 @@ export function restore(d: Desk, query: URLSearchParams): void {
   if (refused) says(d, refused);
 }
 
-/** The addresses of before, by which shots are undone; `changed` tells whether there are some. */
+/** Earlier addresses, to undo shots; `changed` reports whether there are any. */
 export function undoing(d: Desk, changed: (past: boolean) => void) {
   let committed = "";
   const past: string[] = [];
@@ -81,7 +81,7 @@ export function undoing(d: Desk, changed: (past: boolean) => void) {
     restore(d, new URLSearchParams(previous));
     commit();
   }
-  /** Balls lie where this shot ends. A cue ball that fell comes back to the head string. */
+  /** The balls stay where this shot ends. A potted cue ball returns to the head string. */
   function nextShot(): void {
     const { shot, table, carom } = d;
     if (!shot) return;

@@ -1,4 +1,4 @@
-// The view Collision: the cue ball meets a ball at rest.
+// The view Collision: the cue ball hits a ball at rest.
 import type { Carom, Impact, Motion, Vec3 } from "carom";
 import { fit } from "../../../player/table.js";
 import { DEGREES } from "../table/drawing.js";
@@ -279,7 +279,7 @@ function draw(view: View, s: Setting, a: Motion, b: Motion): void {
   g.setTransform(dpr, 0, 0, dpr, 0, 0);
   g.fillStyle = color("cloth");
   g.fillRect(0, 0, width, height);
-  // The object ball is in the middle; the cue ball comes from the left.
+  // The object ball is in the middle; the cue ball arrives from the left.
   const radius = Math.min(width, height) / 7;
   view.scale = radius;
   view.origin = [width * 0.5, height * 0.5];

@@ -1,5 +1,5 @@
-// The desk of the laboratory: the balls as they lie, the controls of a stroke, and the shot that is
-// shown.
+// The desk of the laboratory: the positions of the balls, the controls of a stroke, and the current
+// shot.
 import {
   type Carom,
   type Cue,
@@ -23,7 +23,7 @@ export const CUSHIONS = ["han", ...[...about.keys()].filter((word) => word !== "
 
 /** The recording that is open, of which the laboratory shows one shot after the other. */
 export interface Reel {
-  /** Its buttons and words, and the button that opens a file. */
+  /** Its buttons and messages, and the button that opens a file. */
   readonly bar: HTMLElement;
   readonly open: HTMLElement;
   /** Lets files be dropped on an element. */

@@ -1,5 +1,5 @@
-// The laboratory by pointer and keys: what lies under a pointer, balls that are moved and turned,
-// the aim, and what is drawn for it.
+// Pointer and keys in the laboratory: finding what is under a pointer, moving and turning balls,
+// aiming, and drawing the aim.
 import type { ShotBall } from "carom";
 import { DEGREES, drawContact, drawStick, ring } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
@@ -33,7 +33,7 @@ interface Hand {
 
 // ---- Drawing ------------------------------------------------------------------------------------
 
-/** Balls that are not on the table wait on the wood beside it, in this order from the head. */
+/** Balls that are not on the table wait on the wood at its side, in this order from the head. */
 const waits = ({ balls }: Desk): number[] =>
   balls.flatMap(({ state }, k) => (onTable(state) ? [] : [k]));
 const waitsAt = ({ table }: Desk, index: number): Point => [
@@ -85,7 +85,7 @@ export function drawHand(d: Desk, g: CanvasRenderingContext2D): void {
 
 const position = ({ canvas, unplace }: Film, event: { clientX: number; clientY: number }): Point =>
   unplace(...pixelsOf(canvas, event));
-/** What lies under a pointer. A finger reaches farther. */
+/** What is under a pointer. A finger reaches farther. */
 function under(d: Desk, place: Point, finger: boolean): Grip {
   const reach = (finger ? 22 : 12) / d.film.scale;
   const distance = ([x, y]: readonly number[]): number => Math.hypot(x! - place[0], y! - place[1]);

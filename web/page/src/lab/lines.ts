@@ -1,5 +1,5 @@
-// Shots that come from elsewhere: lines of `carom shoot`, shots of recordings, and what a pocket
-// that is clicked asks for.
+// Shots from outside: lines of `carom shoot`, shots of recordings, and the aim at a pocket that was
+// clicked.
 import { fromLine, type Line, type Replayed, toLine } from "carom";
 import { pocketName } from "../../../player/words.js";
 import { GAMES, gameOf, type Read, TABLES } from "../table/games.js";
@@ -25,10 +25,11 @@ export function importLine(d: Desk): void {
     says(d, wrong(error));
   }
 }
-/** Lays the balls of a line and aims as it says. Throws where it cannot be read. */
+/** Sets up the balls and the aim of a line. Throws where the line cannot be read. */
 export function take(d: Desk, text: string): Read<Line> {
   const read = fromLine(d.carom, text);
-  if (read.cue.ball !== 0) throw new TypeError(texts.cueBallThisPage);
+  const { ball } = read.cue;
+  if (ball !== 0) throw new TypeError(texts.cueBallThisPage(ball));
   return use(d, gameOf(read, d.gameName));
 }
 function use<L extends Line>(d: Desk, read: Read<L>): Read<L> {

@@ -1,4 +1,4 @@
-// Curves beside each other, by uPlot: with marks for what is shown now, and a band.
+// Curves side by side, drawn by uPlot, with marks for the current values and a band.
 import uPlot from "uplot";
 import { color, el } from "../ui.js";
 
@@ -98,7 +98,7 @@ export function plot(
   };
 }
 
-/** A curve and points at x of their own, on one ascending axis. */
+/** A curve, and points at other values of x, on one ascending axis. */
 export const merged = (x: number[], y: Column, marks: readonly Mark[]): Column[] =>
   uPlot.join([
     [x, y],

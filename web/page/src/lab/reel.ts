@@ -1,5 +1,5 @@
-// A recording that was opened: its shots are played again, compared with what was recorded, and
-// shown one after the other.
+// A recording that was opened: its shots are replayed, compared with the recorded ones, and shown
+// one after another.
 import type { Replayed } from "carom";
 import { button, el, wrong } from "../ui.js";
 import { type Desk, type Reel, says } from "./desk.js";

@@ -1,4 +1,4 @@
-// What the laboratory shows of a shot: its film, its numbers.
+// What the laboratory shows of a shot: its film and its results.
 import { CaromError, type Cue, type Replayed } from "carom";
 import { facing, filmOf, pathsOf } from "../table/filmed.js";
 import { numberRows, wrong } from "../ui.js";

@@ -1,4 +1,4 @@
-// The view Laboratory: shots are aimed on it and played while one aims; their film and their
+// The view Laboratory: a shot is computed again while the player aims, with its film and its
 // events.
 import type { Carom } from "carom";
 import { player } from "../../../player/player.js";

@@ -1,7 +1,7 @@
-// A game as short as it can be sent: the acts of its players. All other lines of its recording
-// follow from these, because a stroke has the same bits wherever it is played. A stroke carries the
-// beginning of the hash of its line; this hash covers all lines before it, so that each number of
-// the game is checked.
+// A game in its shortest form for a link: the acts of its players. All other lines of its recording
+// follow from them, because a stroke has the same bits on every machine. A stroke carries the first
+// digits of the hash of its line; that hash covers all earlier lines, so every number of the game
+// is checked.
 import { type Choice, choices, type Cue, type Match } from "carom";
 import { texts } from "../texts/texts.js";
 
@@ -48,7 +48,7 @@ function strokeOf(fields: Fields, usual: Cue): Act {
   const isUsual = Object.keys(stick).length === 0;
   return isUsual ? ["stroke", hash, ball, aim] : ["stroke", hash, ball, aim, stick];
 }
-/** The act of a line; nothing of a line that follows from others. Throws where acts lack a word. */
+/** The act of a line, or undefined for a line that follows from others. Throws for other lines. */
 function actOf(line: string, usual: Cue): Act | undefined {
   const { shot, place, act } = JSON.parse(line) as Parsed;
   if (shot) return strokeOf(shot, usual);

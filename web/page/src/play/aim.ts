@@ -1,6 +1,6 @@
-// The table of a game by pointer and keys: a drag turns the aim, draws the stick or moves a ball
-// that may be moved; a tap aims at a place or a ball, calls a pocket, or where any ball may be struck
-// chooses it; two fingers, a double tap, or the wheel show a part of the table larger.
+// Pointer and keys on the table of a game. A drag turns the aim, pulls the stick or moves a ball in
+// hand; a tap aims at a point or a ball, calls a pocket, or chooses the ball to strike where the
+// rules allow several; two fingers, a double tap or the wheel enlarge the table.
 import type { Vec3 } from "carom";
 import {
   circleOf,
@@ -68,7 +68,7 @@ interface Hand {
 
 const WHITE = "#ffffff";
 const MARK = "#ffe28a";
-/** How high a ring around a pocket lies, over its castings, m. */
+/** The height of a ring around a pocket, above its castings, m. */
 const RIM = 0.057;
 
 /**
@@ -134,12 +134,12 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   const pen = { g, scale: film.scale, place: film.place };
   const hasLetters = s.settings.numbers;
   const radius = play.balls[0]!.kind.radius * film.scale;
-  // A rack, and balls that are large enough to be read, have labels only where they are asked for.
+  // A rack, and balls large enough to read, have labels only if a setting turns them on.
   const isRead = (play.breaks || radius > READABLE) && !hasLetters;
   const letters = hasLetters ? texts.letters : {};
   const labels = isRead ? [] : labelsOf(play.names, letters);
   if (film.time > 0 || film.playing) {
-    // Balls that are too small to be read while they roll have their labels beside them.
+    // Balls that are too small to read while they roll have their labels next to them.
     const poses = radius < 8 || hasLetters ? s.filmed!.shots[0]!.poses(film.time) : [];
     return drawLabels(
       pen,
@@ -162,7 +162,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
 
 // ---- One pointer --------------------------------------------------------------------------------
 
-/** What lies under a pointer. A finger reaches farther. */
+/** What is under a pointer. A finger reaches farther. */
 function under(s: Session, place: Point, finger: boolean): Grip {
   const { balls, table } = s.play;
   const reach = (finger ? 20 : 10) / s.film.scale;
@@ -239,7 +239,7 @@ export function tap(s: Session, grip: Grip, place: Point): void {
 
 const middle = ([a, b]: Point[]): Point => [(a![0] + b![0]) / 2, (a![1] + b![1]) / 2];
 const apart = ([a, b]: Point[]): number => Math.hypot(a![0] - b![0], a![1] - b![1]);
-/** Shows the table so many times larger, with a place of it under a pixel. */
+/** Enlarges the table by a factor, with a point of it under a pixel. */
 function enlarge(film: Film, times: number, place: Point, under: Point): void {
   film.look(times, place);
   const centre = film.unplace(film.canvas.clientWidth / 2, film.canvas.clientHeight / 2);

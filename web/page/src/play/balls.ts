@@ -1,6 +1,6 @@
-// All balls as one mesh: each is a copy of one sphere with its colour and its number. Its stripe, its
-// circle and its dots are computed for each pixel, so that their edges are sharp however near it
-// is. The numbers come from one picture of sixteen.
+// All balls as one mesh: copies of one sphere with different colours and numbers. Stripes, circles
+// and dots are computed for each pixel, so that their edges stay sharp at any distance. The numbers
+// are read from one texture of sixteen.
 import * as THREE from "three";
 import { IVORY, type Pose } from "../../../player/words.js";
 import { canvasOf, shadowPicture } from "./surfaces.js";
@@ -11,7 +11,7 @@ export interface PaintedBall {
   colour: string;
 }
 
-/** How wide a number is in the picture, pixels. */
+/** The width of a number in the texture, pixels. */
 const CELL = 128;
 /** The numbers from 0 to 15, four by four: white on black. */
 function numbers(): THREE.CanvasTexture {
@@ -110,7 +110,7 @@ function lacquer(): THREE.MeshPhysicalMaterial {
 }
 
 const LEVEL = new THREE.Quaternion();
-/** A shadow on the cloth: its radius for that of its ball, and how dark it is. */
+/** A shadow on the cloth: its radius relative to the ball's, and its darkness. */
 const CONTACT = [1.32, 1] as const;
 const LAMP = [2.4, 0.35] as const;
 

@@ -1,5 +1,6 @@
-// The dialog that finds the cushions of a player's own pool table: a picture of three banks, where
-// each came back, and the two numbers that follow, which the browser keeps and a file can have.
+// The dialog that finds the cushions of a player's pool table from three banks: a drawing of the
+// banks, where each came back, and the two resulting constants, which the browser keeps and the
+// player can save as a file.
 import { type Carom, CaromError, type Table } from "carom";
 import { POOL_TABLE_NAMES, POOL_TABLES } from "../table/games.js";
 import { button, choice, dialog, el } from "../ui.js";
@@ -12,11 +13,11 @@ const BANKS = [0, 1, 2] as const;
 const COLOURS = ["#1f6fb2", "#b2361f", "#2a7d3a"];
 /** How far sights lie behind the noses, m. */
 const SIGHT = 0.094;
-/** A misfit above this is that of a misread bank. */
+/** A larger misfit means that a bank was misread. */
 const MISREAD = 2;
 
 export const ownCushion = (): string | undefined => stored(KEY);
-/** The two numbers of a cushion, in words. */
+/** The two constants of a cushion as text. */
 export const wordsOfCushion = (pair: string): string => {
   const [restitution, friction] = pair.split(",");
   return texts.restitutionFriction(restitution!, friction!);
@@ -52,7 +53,7 @@ function picture(carom: Carom, table: Table, back: readonly number[]): string {
   );
 }
 
-/** The dialog; `use` is told the numbers that the player keeps, as `cushion` of a game. */
+/** The dialog; `use` receives the constants that the player accepts, as `cushion` of a game. */
 export function calibrationPage(
   carom: Carom,
   use: (pair: string) => void,

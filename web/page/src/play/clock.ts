@@ -1,5 +1,5 @@
-// The shot clock of a game: how long whoever sits at this page has for a stroke. It runs while that
-// player may aim. When the time is over, the match rules a foul.
+// The shot clock of a game: how long the person at this page may take for a stroke. It runs while
+// that player may aim. When the time is over, the match rules a foul.
 import { el } from "../ui.js";
 import type { Session } from "./parts.js";
 import { free } from "./session.js";

@@ -1,4 +1,4 @@
-// The dialog of the coach: questions about this stroke, what one misses, and odds of a match.
+// The dialog of the coach: questions about this stroke, what the player misses, and match odds.
 import { onTable } from "../table/filmed.js";
 import { ballOf, percent, RATINGS } from "../table/words.js";
 import { button, choice, dialog, el } from "../ui.js";
@@ -91,7 +91,7 @@ function reviewPart(practise: (row: Reviewed) => void): { parts: HTMLElement[]; 
 }
 
 export function coachPage(s: Session): { root: HTMLDialogElement; open(): void } {
-  /** A button that closes the dialog and asks. */
+  /** A button that closes the dialog and asks the coach. */
   const asks = (text: string, id: string, ask: () => unknown): HTMLButtonElement =>
     button(
       text,

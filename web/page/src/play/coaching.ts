@@ -1,5 +1,5 @@
-// The coach at the table: the hint and the chances of the stroke that is aimed, and what a stroke
-// cost once it was played.
+// The coach at the table: hints, the chances of the aimed stroke, and the cost of a stroke after it
+// was played.
 import type {
   AimOf,
   Call,
@@ -50,14 +50,14 @@ const SAFETIES = 3;
 const RUN_OUT = { shots: 300, plays: 40 };
 /** Breaks of each break that is compared. */
 const BREAKS = 128;
-/** How near to its place a leave is, m. */
+/** The largest distance of a leave from its target, m. */
 export const NEAR = 0.2;
-/** How long the aim rests before its chances are asked for, ms. */
+/** How long the aim rests before its chances are computed, ms. */
 const PAUSE = 120;
 /** Beyond this off the aim, degrees, another ball or pocket was meant. */
 const FARTHEST = 10;
 
-/** A layout, and for whom a plan is asked. */
+/** A layout, and the player for whom it is planned. */
 interface Request {
   game: string;
   table: Table;
@@ -67,7 +67,7 @@ interface Request {
   options: PlanOptions;
 }
 
-/** The request for a plan: whoever sits here plays as his rating says. */
+/** The request for a plan: the person here plays with the errors of their rating. */
 function requestOf(play: Play, level: number): Request {
   const { against, game, seed } = play.setup;
   const rating = String(level);
@@ -161,7 +161,7 @@ function setAim(s: Session, { cue, place }: { cue: Cue; place: readonly number[]
   look(s);
   s.sketches = [];
   s.place = undefined;
-  s.hint = cue; // the words of the turn make room for the hint
+  s.hint = cue; // the turn line makes room for the hint
 }
 /** Puts the stroke of a hint on the table, with its call. */
 function setHint(s: Session, choice: PlanStroke): void {
@@ -178,7 +178,7 @@ function setHint(s: Session, choice: PlanStroke): void {
   s.showing.rest();
 }
 
-/** Draws safeties, of which one is aimed, and says what that does and how often the others win. */
+/** Draws safeties and aims one; the message describes it and how often the others win. */
 function showSafeties(s: Session, choices: readonly PlanStroke[], aimed: PlanStroke): void {
   setHint(s, aimed);
   s.sketches = safetySketches(s.play, choices);
@@ -206,7 +206,7 @@ async function adviseDrill(s: Session, name: string, isWanted: () => boolean): P
   says(s, texts.hintTheStrokeThat(wordsOfCue(found.cue), wordsOfLevel(s), share));
 }
 
-/** Draws the run-out behind a hint on the table, and tells it. */
+/** Draws the run-out after a hint on the table, and describes it. */
 async function tellRunOut(
   s: Session,
   { ball }: PlanStroke,
@@ -235,7 +235,7 @@ async function search(
 ): Promise<void> {
   if (!free(s)) return says(s, why(s));
   const generation = ++s.searchGeneration;
-  s.chancesGeneration++; // chances that come later do not hide the hint
+  s.chancesGeneration++; // chances that are computed later do not hide the hint
   s.asksPlace = false;
   const isWanted = (): boolean => generation === s.searchGeneration && free(s);
   says(s, begins);
@@ -266,7 +266,7 @@ const advise = (s: Session, question?: Question): Promise<void> =>
     const runsOut = !question && s.play.hasPockets && !s.play.breaks;
     if (runsOut) await tellRunOut(s, choice, hint, isWanted);
   });
-/** Sets the break of a rack that wins most, and says what the errors cost. */
+/** Aims the break that wins most, and reports what errors cost. */
 const adviseBreak = (s: Session): Promise<void> =>
   search(s, texts.lookingForTheBreak, async (isWanted) => {
     const { play } = s;
@@ -361,7 +361,7 @@ async function lookBack(
   }
 }
 
-/** What a stroke was worth before it, and what came; of games that have reviews. */
+/** The value of a stroke before and after it, in games that have reviews. */
 async function reviewOf(
   { table, balls, options }: Request,
   cue: Cue,
@@ -376,13 +376,15 @@ async function reviewOf(
     return undefined;
   }
 }
-/** What a stroke was worth to a player with the errors of its own, what came, and what it cost. */
+/** The value of a stroke for a player with these errors, its result, and its cost. */
 async function wordsOfCost(request: Request, cue: Cue, review: Review): Promise<string> {
-  // A review knows the worth of a stroke at a pocket alone.
+  // A review knows only the value of strokes at pockets.
   const { value } = review.ball >= 0 ? review : await chancesOf(request, cue);
   const cost = value - review.came;
   const words = cost < 0 ? texts.itWon(percent(-cost)) : texts.itCost(percent(cost));
-  return texts.whatCame(percent(value), percent(review.came), Math.abs(cost) < 0.005 ? "" : words);
+  const change = Math.abs(cost) < 0.005 ? "" : words;
+  const told = texts.whatCame(percent(value), percent(review.came), change);
+  return told.trim();
 }
 
 export const coaching = (s: Session): Coach => ({
@@ -397,7 +399,7 @@ export const coaching = (s: Session): Coach => ({
   review() {
     const request = requestOf(s.play, levelOf(s));
     return async (cue, call, aimer, isTold) => {
-      s.chancesGeneration++; // chances of this stroke that come later do not hide its review
+      s.chancesGeneration++; // chances of this stroke that are computed later do not hide its review
       const { play } = s;
       const ownStrokes = (): number => play.aims.filter((other) => other !== "opponent").length;
       const strokes = ownStrokes();
@@ -409,7 +411,7 @@ export const coaching = (s: Session): Coach => ({
       const advice = isCompared ? await lookBack(s.carom, request, cue, call, aimer) : "";
       const cost = review ? await wordsOfCost(request, cue, review) : "";
       if (play !== s.play || strokes !== ownStrokes()) return; // another stroke was played
-      // What is said since then stays: a hint, or what the page's player does.
+      // A newer message stays: a hint, or what the page's player does.
       const isSaid = s.words.message.textContent === wordsOfOutcome(s);
       s.verdict = [s.verdict, advice.trim(), cost].filter(Boolean).join(" ");
       if (isSaid) says(s, wordsOfOutcome(s));

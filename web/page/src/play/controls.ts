@@ -1,7 +1,7 @@
-// What a stroke is set by, beside the table: the part of the ball that the aim meets, the tip on a
-// ball that one touches, the power, a fine wheel for the aim, and Shoot. A pull of the cue plays as
-// it is let go, where the settings do not say that it only sets the power. A press of Shoot plays
-// the power that is set, however long it is; a press that ends beside the button plays nothing.
+// The controls of a stroke next to the table: the overlap of the balls along the aim, the tip on
+// the cue ball, the power, a fine wheel for the aim, and Shoot. Releasing a pulled cue plays the
+// stroke, unless a setting makes the pull set only the power. Shoot plays with the power that is
+// set, however long it is pressed; releasing it outside the button plays nothing.
 import { colourOf } from "../../../player/words.js";
 import { strokeControls } from "../table/stroke.js";
 import { button, drags, el, slider } from "../ui.js";
@@ -77,7 +77,7 @@ function wheelOf(turn: (steps: number) => void): HTMLElement {
 }
 
 const SLOWEST = 0.1;
-/** A pull that ends within this share of the way plays nothing: the cue is back at the ball. */
+/** A pull that ends within this fraction plays nothing: the cue is back at the ball. */
 const REST = 0.05;
 /** The power of a pull: fine near the ball. */
 const powerOf = (share: number): number =>
@@ -176,7 +176,7 @@ export function controls(s: Session): Controls {
       const { names, balls } = s.play;
       const { ball } = s.first!;
       const colour = colourOf(names[ball]!, ball, balls[ball]!.kind.radius);
-      // The cue ball lies over the one that it meets, as whoever aims sees both.
+      // The cue ball covers the ball that it hits, as the player sees both.
       const over = 2 * contact.side * (1 - contact.share);
       const cueBall = `<circle cx="${over}" r="1" fill="#fbfaf570" stroke="#000a" stroke-width="0.06"/>`;
       const target = ballMarkup(names[ball]!, colour, false);

@@ -29,7 +29,7 @@ const PROFILE: readonly Point[] = [
   [0.0105, 0.026],
   [0.013, Infinity],
 ];
-/** How much cloth a picture of its weave covers. */
+/** How much cloth a texture of its weave covers. */
 export const CLOTH_PICTURE: Point = [0.09, 0.09];
 
 /** One end of a cushion: its edge from the nose into the pocket, that pocket, and its wood. */
@@ -177,7 +177,7 @@ function behind(front: readonly Point[], outward: Point, far: number): Point[] {
     return [px + way * x, py + way * y];
   });
 }
-/** The rubber under the cloth; dark below the nose, where no light comes. */
+/** The rubber under the cloth; dark below the nose, where no light arrives. */
 export function cushionBody(cushion: Cushion): THREE.BufferGeometry[] {
   const { p, outward } = cushion;
   const front = frontOf(cushion);
@@ -209,7 +209,7 @@ export function shadeOf(cushion: Cushion): THREE.BufferGeometry {
     [-0.016, 0.18],
     [-0.05, 0],
   ];
-  // The darkness of a row stands in the height for a moment.
+  // The height holds the darkness of a row until the colours are made.
   const strip = stripOf(
     rows.map(([far, dark]) =>
       behind(front, cushion.outward, far).map(([x, y]): Place => [x, y, dark]),
@@ -220,7 +220,7 @@ export function shadeOf(cushion: Cushion): THREE.BufferGeometry {
   for (let k = 0; k < places.count; k++) places.setZ(k, 0.0007);
   return strip;
 }
-/** How far off a direction from a pocket's middle the nearest cushions stand, radians. */
+/** The angle between a direction from a pocket's centre and the nearest cushions, radians. */
 export function freeBeside(
   pocket: Pocket,
   radius: number,

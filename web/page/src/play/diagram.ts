@@ -1,5 +1,5 @@
-// A diagram to print and to send: balls before a stroke or after it, its path, diamonds, and notes.
-// Its link has all of that, and needs no game.
+// A diagram to print and to send: the balls before or after a stroke, its path, diamonds, and
+// notes. Its link contains everything, and needs no game.
 import { type Carom, CaromError, type Cue, type Shot, type ShotBall } from "carom";
 import { player } from "../../../player/player.js";
 import { drawLabels, drawStick, labelsOf } from "../table/drawing.js";
@@ -47,7 +47,7 @@ function wordsOfCue({ speed, phi, a, b, theta }: Cue): string {
   );
 }
 
-/** A diagram with the parts of its dialog. */
+/** A diagram with the elements of its dialog. */
 interface Diagram {
   readonly carom: Carom;
   readonly film: ReturnType<typeof player>;
@@ -196,9 +196,9 @@ async function unpacked(packed: string): Promise<Drawn> {
       drawn.cue.every(Number.isFinite)
     )
   )
-    throw new TypeError(texts.cueNumbersAreNeeded(SET.length));
+    throw new TypeError(texts.cueNumbersAreNeeded(JSON.stringify(drawn.cue), SET.length));
   if (drawn.ball !== undefined && !Number.isInteger(drawn.ball))
-    throw new TypeError(texts.aBallIsAWholeNumber);
+    throw new TypeError(texts.aBallIsAWholeNumber(JSON.stringify(drawn.ball)));
   if (typeof drawn.notes !== "string" || typeof drawn.at !== "string")
     throw new TypeError(texts.notesAndAtTexts);
   return drawn;

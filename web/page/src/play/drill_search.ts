@@ -1,5 +1,5 @@
-// The best stroke of a drill: strokes that make it are searched at the balls and pockets of its
-// goal, or in all directions, and the one that a player makes most often is chosen.
+// The best stroke of a drill: the search tries strokes at the balls and pockets of the goal, or in
+// all directions, and chooses the one with which a player makes the drill most often.
 import type { Carom, Cue, Player, ShotBall, ShotOptions, Table } from "carom";
 import { type Drill, judge } from "./drills.js";
 
@@ -75,7 +75,7 @@ export function* strokesFor(
 
 interface DrillStroke {
   cue: Cue;
-  /** The share of `plays` with the player's errors that made the drill, or went on with it. */
+  /** The fraction of `plays` with the player's errors that made or continued the drill. */
   chance: number;
   plays: number;
 }
@@ -105,7 +105,7 @@ export function drillStroke(
     if (isGood(cue)) found.push(cue);
     if (found.length === CANDIDATES) break;
   }
-  // The plays that choose the finalists are not those that are told.
+  // The plays that choose the finalists are not the ones that are reported.
   const finalists = found
     .map((cue) => ({ cue, share: shareOf(cue, FIRST_PLAYS, 1) }))
     .sort((a, b) => b.share - a.share)

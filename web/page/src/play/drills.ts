@@ -1,13 +1,11 @@
-// Drills: layouts with a name and what has to happen in one stroke, of data/drills.csv, and how
-// often each was made in this browser. A goal is a list of
-//     pot=N[@POCKET]   ball N falls, in that pocket         bank=N       and has met a cushion
-//                      before
-//     first=N          the cue ball meets ball N first       kick=N       after N cushions or more
-//     hit=N            it meets N balls or more              cushions=N   it meets N cushions or
-//                      more
-//     cue=X,Y,R        it ends within R of a place, m
-//     clear            a ball falls in each stroke, until none is left
-// The cue ball never falls, and no ball leaves the table.
+// Drills: layouts from data/drills.csv with a name and a goal for one stroke, and how often each
+// was made in this browser. A goal is a list of
+//     pot=N[@POCKET]   ball N falls, in that pocket         bank=N       after it hit a cushion
+//     first=N          the cue ball hits ball N first       kick=N       after N or more cushions
+//     hit=N            it hits N or more balls              cushions=N   it hits N or more cushions
+//     cue=X,Y,R        it stops within R of a point, m
+//     clear            each stroke pots a ball, until none is left
+// The cue ball must not fall, and no ball may leave the table.
 import type { Shot } from "carom";
 import { pocketName } from "../../../player/words.js";
 import { onTable } from "../table/filmed.js";
@@ -16,7 +14,7 @@ import { texts, translate } from "../texts/texts.js";
 export interface Drill {
   name: string;
   text: string;
-  /** Places of balls by their numbers, m. */
+  /** Positions of balls by their numbers, m. */
   balls: Map<number, readonly [number, number]>;
   goal: readonly (readonly [string, string])[];
   /** The rating that makes it in half of the tries. */
@@ -108,15 +106,18 @@ function wordsOfPlace(
   );
 }
 
-/** Whether a stroke made it, failed, or goes on; and of what failed, what was wanted and came. */
+/**
+ * Whether a stroke made the drill, missed it, or continues it; which parts of the goal failed, and
+ * what was wanted and what happened, in words.
+ */
 export function judge(
   { goal }: Drill,
   shot: Shot,
-): { outcome: "made" | "missed" | "on"; why: string[] } {
+): { outcome: "made" | "missed" | "on"; failed: string[]; why: string[] } {
   const { events, final, table } = shot;
-  if (!onTable(final[0]!)) return { outcome: "missed", why: [texts.theCueBallFell] };
+  if (!onTable(final[0]!)) return { outcome: "missed", failed: [], why: [texts.theCueBallFell] };
   if (final.some(({ label }) => label === "off"))
-    return { outcome: "missed", why: [texts.aBallLeftThe] };
+    return { outcome: "missed", failed: [], why: [texts.aBallLeftThe] };
   const meets = events.filter(({ type, a, b }) => type === "ball_ball" && (a === 0 || b === 0));
   const partner = ({ a, b }: (typeof events)[number]): number => (a === 0 ? b : a);
   const isCushion = ({ type }: (typeof events)[number]): boolean =>
@@ -177,9 +178,14 @@ export function judge(
   };
   if (goal[0]![0] === "clear") {
     if (!events.some(({ type }) => type === "ball_pocket"))
-      return { outcome: "missed", why: [texts.noBallFell] };
-    return { outcome: final.some((state, k) => k > 0 && onTable(state)) ? "on" : "made", why: [] };
+      return { outcome: "missed", failed: [], why: [texts.noBallFell] };
+    const areLeft = final.some((state, k) => k > 0 && onTable(state));
+    return { outcome: areLeft ? "on" : "made", failed: [], why: [] };
   }
-  const why = goal.flatMap(([word, value]) => (checks[word]!(value) ? [] : words[word]!(value)));
-  return { outcome: why.length === 0 ? "made" : "missed", why };
+  const failed = goal.filter(([word, value]) => !checks[word]!(value));
+  return {
+    outcome: failed.length === 0 ? "made" : "missed",
+    failed: failed.map(([word]) => word),
+    why: failed.map(([word, value]) => words[word]!(value)),
+  };
 }

@@ -1,5 +1,5 @@
-// The last view of a game, over the table: who won and why, the score, the best stroke, what the
-// game did to the rating, and what one does next.
+// The end of a game, shown over the table: who won and why, the score, the best stroke, the effect
+// on the rating, and what to do next.
 import { wordsOfPot } from "../table/words.js";
 import { button, el } from "../ui.js";
 import { type Deed, OPTIONS, type Play } from "./game.js";

@@ -1,5 +1,5 @@
-// What is seen of a game: the balls as they lie, with the stroke that is aimed; the film of a
-// stroke that was played; and what is told beside both.
+// What the player sees of a game: the balls at rest with the aimed stroke, the film of a played
+// stroke, and the messages that go with both.
 import { CaromError } from "carom";
 import { pocketName, product } from "../../../player/words.js";
 import { filmOf, lasts, onTable, type Path, pathsOf } from "../table/filmed.js";
@@ -30,7 +30,7 @@ function show(s: Pick<Session, "filmed" | "film" | "space">, film: Film): void {
   s.film.show(film);
   s.space.draw();
 }
-/** The time of the film has changed. */
+/** The playback time has changed. */
 export function moved(s: Session): void {
   const { film, shown, sound, space } = s;
   space.draw();
@@ -68,7 +68,7 @@ function rest(s: Session): void {
 
 // ---- Words and buttons --------------------------------------------------------------------------
 
-/** Brings the words, the controls and the buttons up to date. */
+/** Updates the messages, the controls and the buttons. */
 function update(s: Session): void {
   showWords(s);
   showContact(s);
@@ -78,7 +78,7 @@ function update(s: Session): void {
   film.canvas.setAttribute("aria-label", texts.tableFromAbove(text, words.turn.textContent));
 }
 
-/** Who plays the stroke that is filmed; its result is told after the film. */
+/** The player of the stroke in the film; its result is shown after the film. */
 function playerOnFilm({ play, seat, shown, continuation }: Session): string | undefined {
   const isFilmed = continuation !== undefined && shown && !play.practice;
   return isFilmed ? nameOf(play, shown.player, seat) : undefined;
@@ -100,16 +100,16 @@ function showWords(s: Session): void {
   const turn = player
     ? texts.playing(player, player === texts.you)
     : wordsOfTurn(play, seat, s.thinks, isHinted(s)) + wordsOfCall(s);
-  // A screen reader reads each change aloud, also to the same words.
+  // A screen reader announces each change, even to an identical text.
   if (words.turn.textContent !== turn) words.turn.textContent = turn;
   if (!player) words.score.textContent = wordsOfScore(play, seat, racksOf(play));
   s.plates.update();
 }
 
-/** The part of the ball that the aim meets, where the lines of the game may show it. */
+/** The overlap of the balls along the aim, where the setting of lines allows it. */
 function showContact(s: Session): void {
   const { play, first, stroke } = s;
-  // A stroke may meet a cushion alone.
+  // A stroke may hit only a cushion.
   const meetsBall = free(s) && first !== undefined && first.ball >= 0;
   if (!meetsBall || (!play.practice && linesOf(s) === "none")) return stroke.showContact(undefined);
   stroke.showContact(first, translate(play.names[first.ball]!));
@@ -171,7 +171,7 @@ function enableButtons(s: Session, mayAim: boolean, mayPush: boolean): void {
 
 // ---- Films --------------------------------------------------------------------------------------
 
-/** Shows a stroke that was played, and what comes after it. */
+/** Shows a stroke that was played, and then calls `next`. */
 function perform(s: Session, stroke: Stroke, next: () => void): void {
   s.end.hide();
   s.turnedBefore = s.turned;

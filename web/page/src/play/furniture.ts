@@ -1,6 +1,6 @@
-// The table of the scene, which never moves: slate with cloth and holes, cushions, wood with rounded
-// edges, pockets with castings or leather and their wells, lines, sights, and legs. Lengths in m, z
-// upwards from the cloth.
+// The fixed parts of the table in the scene: slate with cloth and holes, cushions, wood with
+// rounded edges, pockets with castings or leather and their wells, lines, sights, and legs. Lengths
+// are in m, z points upwards from the cloth.
 import * as THREE from "three";
 import { CUSHION, markingsOf, WOOD } from "../../../player/table.js";
 import type { Table } from "../../../player/words.js";
@@ -35,9 +35,9 @@ import {
 } from "./shapes.js";
 import { grain, type Style, weave } from "./surfaces.js";
 
-/** How much wood a picture of its grain covers, along it and across. */
+/** How much wood a texture of its grain covers, along and across. */
 const WOOD_PICTURE: Point = [1.3, 0.22];
-/** What lies flat on something else is drawn a little before it. */
+/** A flat part on top of another one is drawn slightly in front of it. */
 const INLAID = { polygonOffset: true, polygonOffsetFactor: -1 } as const;
 
 // ---- Wood
@@ -53,7 +53,7 @@ function wayOut({ width, length }: Table, { centre, radius }: Pocket): Point {
 /** The outline of the wood at one end of a cushion: around the pocket, and to the frame. */
 function woodAt(table: Table, { pocket, wood }: End): Point[] {
   if (!pocket) {
-    // A mitre goes on to the corner of the frame.
+    // A mitre continues to the corner of the frame.
     const corner = (coordinate: number, size: number): number =>
       coordinate < size / 2 ? -WOOD : size + WOOD;
     return [wood, [corner(wood[0], table.width), corner(wood[1], table.length)]];
@@ -101,7 +101,7 @@ function wellOf({ centre, radius }: Pocket, tint: readonly number[]): THREE.Buff
       }),
   );
 }
-/** Liners at the backs of pockets, from the slate up, and what lies on them: castings, or leather. */
+/** Liners at the backs of pockets, from the slate up, and castings or leather on them. */
 function pocketParts(table: Table, cushions: readonly Cushion[], hasCastings: boolean) {
   const parts = table.pockets.map((pocket) => {
     const { centre, radius } = pocket;
@@ -176,7 +176,7 @@ function drawnOn(table: Table): THREE.BufferGeometry[] {
 }
 /**
  * Sights let into the wood: long rails in eight parts, short ones in four; none on large tables.
- * Those of pool are diamonds, those of carom discs.
+ * Pool tables have diamonds, carom tables discs.
  */
 function sightsOf({ width, length, pockets }: Table): THREE.BufferGeometry[] {
   if (length > 3) return [];
@@ -205,7 +205,7 @@ function sightsOf({ width, length, pockets }: Table): THREE.BufferGeometry[] {
 export function furnish(scene: THREE.Object3D, table: Table, style: Style, isFine: boolean): void {
   const { width, length, pockets } = table;
   const threads = weave();
-  // Cloth has no gloss, and covers most of the picture: it is lit in the cheap way.
+  // Cloth has no gloss, and covers most of the frame: it is lit in the cheap way.
   const cloth = {
     color: style.cloth,
     map: threads,

@@ -1,7 +1,7 @@
-// A game on its way: a match of the library, and what the page shows beside it. The match rules,
-// says whose turn it is and what may be done, and writes the lines of a recording. Another page
-// reads these lines, plays their strokes and judges them again. A game is kept and sent as text:
-// what it begins with, and its lines. Practice has no match, because it has no rules.
+// A game in progress: a match of the library, and what the page shows with it. The match applies
+// the rules, reports whose turn it is and what is allowed, and writes the lines of a recording.
+// Another page reads these lines, plays their strokes and checks the rulings. A game is saved and
+// sent as text: its setup and its lines. Practice has no match, because it has no rules.
 import {
   type BallKind,
   type Bounds,
@@ -73,7 +73,7 @@ export interface Setup {
 const AIMERS = ["player", "hint", "line", "opponent"] as const;
 export type Aimer = (typeof AIMERS)[number];
 
-/** A stroke that was played, for its film; or what was instead of one, which has no shot. */
+/** A stroke that was played, for its film; or a choice or a late clock, which has no shot. */
 export interface Stroke {
   player: number;
   aimer: Aimer;
@@ -112,7 +112,7 @@ function deedOf({ player, balls, cue, shot }: Stroke): Deed {
       .length,
   };
 }
-/** What a text has beside the setup: lines, or strokes without rulings of an older page. */
+/** The content of a text after its setup: lines, or an older page's strokes without rulings. */
 interface Kept {
   lines?: Line[];
   aims?: string;
@@ -121,7 +121,7 @@ interface Kept {
 
 export const OPTIONS: ShotOptions = {};
 const isAct = (line: Line | undefined): line is Act => typeof line === "object";
-/** Whether a line is that of a clock that ran out, and whether it is a stroke. */
+/** Whether a line records a clock that ran out, and whether it records a stroke. */
 const isLate = (line: Line): boolean =>
   isAct(line) ? line[0] === "clock" : line.startsWith('{"act":{"act":4,');
 const isStroke = (line: Line): boolean =>
@@ -158,7 +158,7 @@ function tableNamed(carom: Carom, base: GameOf, name: string | undefined): Table
   if (!chosen || (name !== undefined && !isPool)) throw new TypeError(texts.tableThereIsNo(name!));
   return isPool ? carom.table(chosen[1], chosen[2]) : carom.table(base.table);
 }
-/** Whether the next stroke of a new game is one that its rules tell from others. */
+/** Whether the rules treat the first stroke of a new game differently. */
 const isOpening = (rules: GameState["rules"], { at }: Setup): boolean =>
   hasMember(rules, "opening") && at === undefined;
 /** The match of a game that begins with these balls. */
@@ -168,7 +168,7 @@ function matchOf(play: Play, { rules, opening, state }: Played): Match {
   const group = play.hasPockets ? "open" : "solids";
   const innings = setup.equalInnings ? { innings: 1 } : {};
   const { seats = SEATS[rules]?.[0] } = setup;
-  // What each seat has at first, as a match with the rack says it.
+  // The initial lives or balls of each seat, from a match with the rack.
   const user = seats === undefined ? {} : { user: carom.match(rules, table, { seats }).game.user };
   const game = {
     rules,
@@ -178,7 +178,7 @@ function matchOf(play: Play, { rules, opening, state }: Played): Match {
     ...innings,
     ...user,
   } as const;
-  // The cue ball of a layout lies where its text says.
+  // The text of a layout places its cue ball.
   const isLaid = setup.at !== undefined && onTable(balls[0]!.state);
   const hand = play.hasPockets && !isLaid ? (opening as Ruling["hand"]) : "no";
   return carom.match(game, table, {
@@ -188,7 +188,7 @@ function matchOf(play: Play, { rules, opening, state }: Played): Match {
     ...(seats !== undefined && { seats }),
   });
 }
-/** The match whose lines have been kept or sent. Of those of its beginning none is left. */
+/** The match of saved or sent lines. Removes the lines of its beginning from the list. */
 function matchRead(carom: Carom, lines: Line[]): Match {
   const match = carom.match();
   while (match.phase === "none" && typeof lines[0] === "string") {
@@ -220,7 +220,7 @@ export class Play {
   /** The ball that the player has chosen to strike. */
   #struck: number | undefined;
 
-  /** A game that begins, or that of lines, of which the first stroke and all behind it stay. */
+  /** A new game, or the game of these lines; the first stroke and all later lines stay in the list. */
   constructor(
     readonly carom: Carom,
     readonly setup: Setup,
@@ -255,7 +255,7 @@ export class Play {
   get winner(): number | undefined {
     return this.#match?.winner;
   }
-  /** Whether each seat plays for itself, with lives or balls of its own. */
+  /** Whether each seat plays for itself, with separate lives or balls. */
   get isOwn(): boolean {
     return !this.practice && this.setup.game in SEATS;
   }
@@ -277,14 +277,14 @@ export class Play {
     if (this.played?.rules !== "pyramid") return [0];
     return [...this.balls.keys()].filter((ball) => onTable(this.balls[ball]!.state));
   }
-  /** Where a cue ball in hand may be put, in a word and in m. */
+  /** Where a cue ball in hand may be placed: its name, and the bounds in m. */
   get hand(): Ruling["hand"] {
     return this.#match?.hand ?? "no";
   }
   get bounds(): Bounds | undefined {
     return this.#match?.bounds;
   }
-  /** The choices besides a stroke. */
+  /** The choices that the rules offer instead of a stroke. */
   get acts(): readonly Choice[] {
     return this.#match?.may ?? [];
   }
@@ -293,7 +293,7 @@ export class Play {
     return this.#match?.standing.points ?? [0, 0];
   }
   /**
-   * Whether the next stroke is the first of a rack, whether or not the rules tell it from others.
+   * Whether the next stroke is the first of a rack, even if the rules treat it like any other.
    */
   get breaks(): boolean {
     return (
@@ -431,7 +431,7 @@ export class Play {
       .map(({ state }) => ({ kind, state }));
     return setup.at === undefined ? rack : placesOf(setup.at, table, rack).balls;
   }
-  /** A cue ball in hand lies near the head spot until it is put elsewhere. */
+  /** A cue ball in hand is near the head spot until the player moves it. */
   #putInHand(): void {
     const { bounds, cueBall } = this;
     const isPut = bounds && isWithin(bounds, this.balls[cueBall]!.state);
@@ -475,7 +475,7 @@ export class Play {
   }
 }
 
-/** The parts of a text. Throws where an older page has kept it. */
+/** The parts of a text. Throws where an older page saved it. */
 function parsed(text: string): { setup: Setup; lines: Line[]; aims: string } {
   const { lines = [], aims = "", entries = [], ...setup } = JSON.parse(text) as Setup & Kept;
   if (entries.length > 0) throw new TypeError(texts.anOlderPageKept);
@@ -499,7 +499,7 @@ export function imported(carom: Carom, recording: string): Play {
   while (play.read(lines));
   return play;
 }
-/** The whole recording of the game of a text, with its end. */
+/** The complete recording of the game of a text, with its end. */
 export function recordingOf(carom: Carom, text: string): string {
   const match = carom.match();
   for (const line of read(carom, text).lines) match.read(line);

@@ -1,5 +1,5 @@
-// The list of the games that this browser keeps: one goes on with any of them, saves it as a file
-// that `carom verify` takes, opens such a file, or deletes a game.
+// The list of saved games: the player resumes one, saves it as a file for `carom verify`, opens
+// such a file, or deletes a game.
 import { GAMES, PLAYED } from "../table/games.js";
 import { button, el, wrong } from "../ui.js";
 import { imported, recordingOf } from "./game.js";
@@ -66,7 +66,7 @@ export function gamesList(
     }
     file.value = "";
   }
-  /** The first press says what the second one does. */
+  /** The first press shows what the second one does. */
   function deleteButton(game: SavedGame): HTMLButtonElement {
     const question = isLostByLeaving(game) ? texts.deleteItCountsAs : texts.deleteForGood;
     const deletion = button(texts.deleteWord, async () => {

@@ -1,5 +1,5 @@
-// What this browser keeps beside games: settings, counts and the log, as JSON under a key; and how a
-// text is packed into a link.
+// What this browser saves in addition to games: settings, counts and the log, as JSON under a key.
+// Also packs a text into a link.
 
 import type { Play, Setup } from "./game.js";
 import { wrong } from "../ui.js";
@@ -109,7 +109,7 @@ export async function unpack(packed: string): Promise<string> {
   }
 }
 
-/** Sends a link by what the machine has for that, or copies it. Returns what is to be told. */
+/** Shares a link with the device's own dialog, or copies it. Returns the message to show. */
 export async function send(
   url: string,
   title: string,

@@ -1,6 +1,6 @@
-// One's own rating on the scale of Fargo ratings by what was won and lost, as carom_rating_of() has
-// it. A drill is a game against the rating whose errors make it, by the best stroke that a search
-// found, in half of the tries: a convention.
+// The player's rating on the Fargo scale, from games won and lost, as carom_rating_of() estimates
+// it. A drill counts as a game against the rating that makes it in half of the tries with the best
+// stroke that a search found; this is a convention.
 import type { Carom, Score } from "carom";
 import type { Drill } from "./drills.js";
 import { isComputer } from "./game.js";
@@ -29,7 +29,7 @@ export function countGame(played: Counted, winner: number): void {
   const { game, against } = played.setup;
   if (isRated(played)) count(GAMES, `${game}/${against}`, winner === 0 ? [1, 0] : [0, 1]);
 }
-/** Games won and lost against each rating: those of a game and of an older page, or all. */
+/** Games won and lost against each rating: of one game and of older pages, or of all games. */
 function gamesOf(game?: string): Record<string, [number, number]> {
   const sums: Record<string, [number, number]> = {};
   for (const [key, [won, lost]] of Object.entries(tally(GAMES))) {

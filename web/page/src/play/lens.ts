@@ -35,7 +35,7 @@ export function project({ focal, bow, turn, eye }: Lens, point: Vector): Pixel {
   const scale = focal * (1 + bow * (a * a + b * b));
   return [scale * a, scale * b];
 }
-/** The place at a height that is seen at a pixel. */
+/** The point at a height that is seen at a pixel. */
 function placeAt({ focal, bow, turn, eye }: Lens, [u, v]: Pixel, height: number): Pixel {
   let a = u / focal;
   let b = v / focal;

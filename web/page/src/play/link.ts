@@ -1,5 +1,5 @@
-// A game by link: it is in the address, goes to the other one as a link, and pages of one machine
-// hear of each stroke, which they compare bit by bit.
+// A game by link: the address contains it, a link sends it to the other player, and pages on one
+// machine exchange each stroke and compare it bit by bit.
 import { wrong } from "../ui.js";
 import type { Play, Setup } from "./game.js";
 import { pack, send } from "./keep.js";
@@ -27,7 +27,7 @@ export function byLink(s: Session): Link {
     s.watching.leave();
     queue = lines.slice(known.length);
     ({ aims } = setup);
-    // After a film the next stroke follows.
+    // When the film ends, the next stroke follows.
     if (!s.film.playing && s.continuation === undefined) onward();
   }
   function onward(): void {
@@ -51,7 +51,7 @@ export function byLink(s: Session): Link {
     const hasPlayed = play.last?.player === seat;
     return hasPlayed ? "" : texts.itHasNothingNew;
   }
-  /** Pages of this machine send the text of a game when it has changed, or ask for it. */
+  /** Pages on this machine send the text of a changed game, or request it. */
   const others = new BroadcastChannel("carom-games");
   others.addEventListener("message", ({ data: { text } }: MessageEvent<{ text?: string }>) => {
     if (text !== undefined) heard(text);

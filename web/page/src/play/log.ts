@@ -1,4 +1,4 @@
-// The log of strokes: what was meant and what it cost, kept by the browser, and a page of them to
+// The log of strokes: the intention and the cost of each, saved by the browser, and a page to
 // print.
 import { GAMES, PLAYED } from "../table/games.js";
 import { percent } from "../table/words.js";

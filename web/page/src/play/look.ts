@@ -1,5 +1,5 @@
-// What one sees along the cue before a stroke of a game: where the cue ball first meets something,
-// and which pocket the ball that it meets heads for.
+// The view along the cue before a stroke of a game: where the cue ball first hits something, and
+// for which pocket the ball that it hits is heading.
 import type { Carom, Cue, EventType, Shot, ShotBall, ShotOptions, Table } from "carom";
 
 export interface Look {
@@ -68,7 +68,7 @@ export function lookAlong(
     return { place, ball: -1, start: [], way: [], share: 0, side: 1, ways: [] };
   const ball = side === 0 ? event.b : event.a;
   const { r: start, v: way } = event.after[1 - side]!;
-  // How far the ball lies to the left of the aim, in distances of the middles.
+  // How far the ball is to the left of the aim, in distances between the centres.
   const left =
     (v[0] * (start[1] - place[1]) - v[1] * (start[0] - place[0])) /
     (Math.hypot(v[0], v[1]) * Math.hypot(start[0] - place[0], start[1] - place[1]) || 1);

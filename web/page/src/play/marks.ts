@@ -1,4 +1,4 @@
-// Small pictures, drawn as SVG: a ball with its colour, stripe and number, and a rack of them.
+// Small drawings in SVG: a ball with its colour, stripe and number, and a rack of balls.
 import type { Carom } from "carom";
 import { colourOf } from "../../../player/words.js";
 import { onTable } from "../table/filmed.js";
@@ -25,7 +25,7 @@ export function ballMarkup(name: string, colour: string, hasNumber = true): stri
   );
   return parts.join("");
 }
-/** A picture of a square around the middle, hidden from readers of the screen. */
+/** A drawing of a square around the centre, hidden from screen readers. */
 function picture(side: number, markup: string): HTMLElement {
   const root = el("span.picture", { "aria-hidden": "true" });
   root.innerHTML = `<svg viewBox="${-side / 2} ${-side / 2} ${side} ${side}">${markup}</svg>`;

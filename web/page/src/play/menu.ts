@@ -1,4 +1,4 @@
-// The dialog of a new game: which one, against whom, and how the page plays it.
+// The dialog of a new game: which game, against whom, and the settings.
 import { words } from "carom";
 import { GAMES, hasMember, PLAYED, POOL_TABLE_NAMES, SEATS } from "../table/games.js";
 import { percent, RATINGS } from "../table/words.js";
@@ -15,7 +15,7 @@ import { begin } from "./opening.js";
 import { chooseLanguage, language, LANGUAGE_NAMES, texts, translate } from "../texts/texts.js";
 
 const KEY = "carom-settings";
-/** Games of the race whose odds are told. */
+/** Games of the race whose odds are shown. */
 const RACE = 7;
 const LINES: readonly (readonly [Settings["lines"], string])[] = [
   ["level", texts.byYourRating],
@@ -91,7 +91,7 @@ const markCard = (cards: HTMLElement, chosen: string): void =>
   cards
     .querySelectorAll("button")
     .forEach((card) => card.setAttribute("aria-pressed", String(card.value === chosen)));
-/** A choice that cards stand for: they are what one sees and what a reader of the screen hears. */
+/** A choice represented by cards, which are what the player sees and a screen reader announces. */
 function hide({ root, select }: ReturnType<typeof choice>): HTMLElement {
   root.classList.add("behind");
   root.setAttribute("aria-hidden", "true");
@@ -203,7 +203,7 @@ export function menu(
   const cloth = choice("new-cloth", texts.cloth, CLOTHS, describe);
   const cushion = choice("new-cushion", texts.cushions, [], describe);
   const effect = el("p#new-effect.note");
-  /** The cushions to choose from: those of the player's own table are calibrated. */
+  /** The cushions to choose from, with the calibrated ones of the player's table. */
   function listCushions(chosen: string): void {
     const pair = ownCushion();
     const options = [
@@ -234,7 +234,7 @@ export function menu(
   const note = el("p#new-note.note");
   const rules = el("p#new-rules");
   const rulesOf = el("details", el("summary", texts.theRules), rules);
-  /** Strokes against the page's player err a little, if nothing else is chosen. */
+  /** Strokes against the page's player have slight errors by default. */
   function chooseErrors(): void {
     errors.select.value = isComputer(against.select.value as Against) ? "800" : "0";
     describe();

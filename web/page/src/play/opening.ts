@@ -1,4 +1,4 @@
-// Which game is on the table: a new one, one that this browser keeps, or that of a link.
+// Which game is on the table: a new one, a saved one, or one from a link.
 import { drop } from "../far.js";
 import { parameters, wrong } from "../ui.js";
 import { Play, read, type Setup } from "./game.js";
@@ -25,7 +25,7 @@ export function start(s: Session, play: Play, id: string, seat: 0 | 1 = 0): void
   drop("plan");
   s.end.hide();
   s.end.rated = undefined;
-  // What is drawn of the film before is of the game before.
+  // What is still drawn belongs to the previous game.
   s.space.putAway();
   s.film.stop();
   s.film.look(1);
@@ -48,14 +48,14 @@ export function start(s: Session, play: Play, id: string, seat: 0 | 1 = 0): void
     asksPlace: false,
   });
 }
-/** What a game says as it begins. */
+/** The message at the start of a game. */
 function wordsOfStart({ setup, practice }: Play, training: Session["training"]): string {
   if (setup.drill !== undefined) return training.wordsOfStart(setup.drill);
   if (practice) return texts.dragBallsToLay;
   return texts.dragOnTheTable;
 }
 
-/** Begins a game under an id of its own; the one before is kept if anybody has played in it. */
+/** Begins a game with a new id; the previous one is saved if a stroke was played in it. */
 export function begin(s: Session, setup: Setup): void {
   const left = { id: s.id, play: s.watched ?? s.play };
   const isKept = left.id !== "" && isWorthKeeping(left.play);
@@ -76,7 +76,7 @@ export function begin(s: Session, setup: Setup): void {
   s.showing.rest();
 }
 
-/** Goes on with a game that was read, for one of both seats. */
+/** Resumes a game that was read, for one of both seats. */
 function goOn(s: Session, play: Play, id: string, seat: 0 | 1, isLink: boolean): void {
   start(s, play, id, seat);
   const begins = play.breaks || play.practice;
@@ -93,7 +93,7 @@ function goOn(s: Session, play: Play, id: string, seat: 0 | 1, isLink: boolean):
   else next(s);
 }
 
-/** Goes on with a game that was read from a file, under an id of its own. */
+/** Resumes a game that was read from a file, with a new id. */
 export function goOnWith(s: Session, play: Play): void {
   const id = newId();
   void holdGame(id);
@@ -116,7 +116,7 @@ async function watchLink(s: Session, packed: string): Promise<void> {
   goOnWith(s, read(s.carom, text));
   s.watching.enter();
 }
-/** Opens the game of a link under an id of its own. */
+/** Opens the game of a link, under the id of the link or a new one. */
 async function openLink(s: Session, packed: string, seat: 0 | 1): Promise<void> {
   const play = read(s.carom, await unpack(packed));
   const id = play.setup.against === "link" ? idOfLink(play.setup, seat) : newId();
@@ -124,7 +124,7 @@ async function openLink(s: Session, packed: string, seat: 0 | 1): Promise<void> 
   goOn(s, play, id, seat, true);
 }
 
-/** What was damaged of what this browser keeps beside games. */
+/** Which saved data other than games was damaged. */
 function wordsOfDamage(): string {
   if (damaged.size === 0) return "";
   const keys = [...damaged].map((key) => key.replace("carom-", ""));

@@ -1,5 +1,5 @@
-// What a game at the page is played by, and how it stands: the types of the session, which the
-// files of its parts share.
+// The types of a session, which its files share: the parts that play a game, and the state of the
+// game.
 import type { Call, Carom, Choice, Cue, PlanOptions, PlanStroke, Vec2 } from "carom";
 import type { player as filmPlayer } from "../../../player/player.js";
 import type { FlatView } from "../../../player/words.js";
@@ -57,7 +57,7 @@ export interface Controls {
 export interface Link {
   save(): void;
   send(): Promise<void>;
-  /** Asks other pages of this machine for the game. */
+  /** Requests the game from other pages on this machine. */
   ask(): void;
   /** Whether strokes of the other player were heard that are not shown yet. */
   waiting(): boolean;
@@ -78,7 +78,7 @@ export interface Training {
   readonly parts: HTMLElement[];
   wordsOfStart(name: string): string;
   drill(name: string): Drill;
-  /** Judges a try of a drill, and counts one that the player aimed alone. */
+  /** Judges a try of a drill, and counts it if the player aimed without a hint. */
   played(name: string, stroke: Stroke, isOwn: boolean): { text: string; repeats: boolean };
   /** One's own rating on the scale of a game. */
   rating(game: string): OwnRating;
@@ -105,7 +105,7 @@ export interface SpaceView {
   /** Looks from behind the cue, or from above again. */
   toggle(): Promise<void>;
   draw(): void;
-  /** Where a place is seen: from -1, the left edge, to 1, the right one. */
+  /** Where a point is seen: from -1, the left edge, to 1, the right one. */
   readonly sideOf: Side;
   close(): void;
 }
@@ -136,7 +136,7 @@ export interface EndView {
   hide(): void;
 }
 
-/** What the coach is asked for instead of the stroke that wins most, and what that does, in words. */
+/** A question to the coach other than the stroke that wins most, and its result as text. */
 export interface Question {
   options: Pick<PlanOptions, "goal" | "safeties">;
   words?: string;
@@ -147,11 +147,11 @@ export interface Coach {
   advise(question?: Question): Promise<void>;
   /** Sets the break that wins most. */
   adviseBreak(): Promise<void>;
-  /** Sets the stroke that leaves the cue ball near a place. */
+  /** Aims the stroke that leaves the cue ball near a point. */
   leaveNear(place: readonly [number, number]): Promise<void>;
   /** Aims a stroke that a hint has drawn. */
   take(choice: PlanStroke): void;
-  /** Says the chances of the stroke that is aimed. */
+  /** Shows the chances of the aimed stroke. */
   chances(): Promise<void>;
   /** Begins the review of a stroke of this layout; what it returns takes the stroke, and whether its
    * verdict is told.
@@ -180,7 +180,7 @@ interface Parts {
     | "sound",
     HTMLButtonElement
   >;
-  /** The choices of the rules besides a stroke. */
+  /** The choices that the rules offer instead of a stroke. */
   readonly choices: readonly (readonly [Choice, HTMLButtonElement])[];
   readonly stroke: Controls;
   readonly film: ReturnType<typeof filmPlayer>;
@@ -196,10 +196,10 @@ interface Parts {
   changed(): void;
 }
 
-/** How the game stands, and what is shown of it now. */
+/** The state of the game, and what is shown of it now. */
 export interface Progress {
   play: Play;
-  /** The whole game, of which `play` is a part while it is watched. */
+  /** The complete game, of which `play` is the watched part. */
   watched: Play | undefined;
   /** Under which the game is kept; "" before one is opened. */
   id: string;
@@ -207,13 +207,13 @@ export interface Progress {
   seat: 0 | 1;
   chosen: Chosen;
   special: "push" | "pass" | undefined;
-  /** What came of the last own stroke, and what it cost; "" where nothing is said. */
+  /** The result and the cost of the person's last stroke; "" for no message. */
   verdict: string;
-  /** The stroke of the last hint that was asked for at this stroke. */
+  /** The stroke of the last hint requested for this stroke. */
   hint: Cue | undefined;
   /** What is drawn behind the hint: the run-out, or other safeties. */
   sketches: readonly Sketch[];
-  /** Whether the next tap names the place of a leave; and the place of the leave that is hinted. */
+  /** Whether the next tap chooses the target of a leave; and the target of the hinted leave. */
   asksPlace: boolean;
   place: Vec2 | undefined;
   /** What the aim meets first. */
@@ -223,10 +223,10 @@ export interface Progress {
   thinks: boolean;
   /** The stroke of the page's player that is shown before it plays. */
   theirs: Cue | undefined;
-  /** What follows the film that is shown. */
+  /** The action after the current film. */
   continuation: (() => void) | undefined;
   shown: Stroke | undefined;
-  /** What the player of films shows. */
+  /** What the film player shows. */
   filmed: ReturnType<typeof filmOf> | undefined;
   sounded: number;
   /** Raised by what ends a search: another game, a stroke. */

@@ -74,11 +74,11 @@ export interface Pose {
 }
 type Vector = readonly [number, number, number];
 export interface Camera {
-  /** Where a ball lies whose middle is seen at a pixel, m. */
+  /** The position of a ball whose centre is seen at a pixel, m. */
   place(pixel: Pixel): Pixel;
-  /** Where the middle of a ball at a place is seen. */
+  /** Where the centre of a ball at a position is seen. */
   pixel(place: Pixel): Pixel;
-  /** The focal length, pixels; undefined where the picture does not tell it. */
+  /** The focal length, pixels; undefined where the photo does not determine it. */
   focal: number | undefined;
   /** The outline of a ball of a radius, m, around its middle, pixels. */
   outline(middle: Pixel, radius: number): Pixel[];

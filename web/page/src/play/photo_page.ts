@@ -1,5 +1,5 @@
-// The dialog of a table from a photo: a picture, four corners, and the balls by taps; the layout
-// lies on the table for practice.
+// The dialog that reads a table from a photo: the player marks four corners and the balls, and the
+// layout is set up for practice.
 import { colourOf } from "../../../player/words.js";
 import { ARROWS, pixelsOf } from "../table/grip.js";
 import { button, choice, dialog, drags, el, wrong } from "../ui.js";
@@ -46,17 +46,17 @@ interface Photo {
   /** Its pixels, for what marks snap to. */
   pixels: ImageData | undefined;
   corners: Pixel[];
-  /** By the lines of the table near the corners; where none are seen, the corners alone count. */
+  /** From the lines of the table near the corners, or only from the corners if none are seen. */
   camera: Camera | undefined;
   /** Where balls seem to lie that have no mark. */
   unmarked: Pixel[];
-  /** Marks of balls; where the colour does not tell which one, those that it may be. */
+  /** Marks of balls; where the colour is ambiguous, the candidates. */
   balls: { ball: number; pixel: Pixel; candidates?: number[] | undefined }[];
   cross: Pixel;
   held: ((pixel: Pixel) => void) | undefined;
 }
 
-/** Pixels of the picture for a pixel of the page. */
+/** Pixels of the photo per pixel of the page. */
 const scaleOf = ({ picture, canvas }: Photo): number =>
   picture ? picture.width / Math.max(canvas.getBoundingClientRect().width, 1) : 1;
 /** Width and length of the table of the photo, m. */
@@ -235,7 +235,7 @@ function snap(p: Photo): void {
     p.camera = found?.camera;
     if (found) p.corners = found.corners;
   } catch {
-    p.camera = undefined; // the marks are no table yet: draw() says so
+    p.camera = undefined; // the marks do not form a table yet: draw() reports it
   }
   look(p);
 }
@@ -255,12 +255,12 @@ function snapped(p: Photo, pixel: Pixel): Pixel {
     start === seen ? reach / 2 : reach,
   );
 }
-/** Gives the places of the balls, where all lie on the table; tells whether they do. */
+/** Passes on the positions of the balls if all are on the table; returns whether they are. */
 function finish(p: Photo): boolean {
   const { size, names, use } = p.host;
   const camera = cameraOn(p);
   if (!camera) return false;
-  // A table of another size: the same shares of width and length.
+  // A table of another size: the same fractions of width and length.
   const [sx, sy] = [0, 1].map((k) => size[k]! / sizeOf(p)[k]!) as [number, number];
   const places = p.balls.map((ball) => {
     const [x, y] = camera.place(ball.pixel);
@@ -304,7 +304,7 @@ function down(p: Photo, touched: Pixel): void {
   const up = (): void => {
     const held = p.held;
     p.held = undefined;
-    if (!held) return draw(p); // a second finger came
+    if (!held) return draw(p); // a second finger touched
     // What is dragged stays where it was put, which mends what snapped to something else. A tap
     // beside a mark is another ball.
     if (!moved && ball && farOf(ball.pixel) < TAP * scaleOf(p))

@@ -1,4 +1,4 @@
-// Two fingers show a part of a photo larger, and the place between them stays there.
+// Two fingers enlarge a photo; the point between them stays where it is.
 import type { Pixel } from "./photo.js";
 
 /** `began`: a second finger came; `changed`: the part is another one. */

@@ -1,5 +1,5 @@
-// Both seats above the table, with the game between them: names, ratings, points, racks of a race,
-// who is at the table, and which balls are left. A reader of the screen hears the score in words.
+// Both seats above the table with the game between them: names, ratings, points, racks of a race,
+// whose turn it is, and which balls are left. A screen reader hears the score as a sentence.
 import { onTable } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { el } from "../ui.js";
@@ -40,7 +40,7 @@ function ballsOf(play: Play, player: number): number[] {
   if (group === "open") return [];
   return [...(group === "solids" ? range(1, 7) : range(9, 15)), 8];
 }
-/** The balls that both play: those of a pool rack. */
+/** The balls that both players play: a pool rack. */
 function sharedBalls(play: Play): number[] {
   const isPool = play.hasPockets && play.balls.length <= 16 && play.names[0] === "cue";
   const hasGroups = ballsOf(play, 0).length > 0;

@@ -1,5 +1,5 @@
-// What practice has besides a table: drills with counts, and a table from a photo. Both are parts
-// of the dialog of a new game.
+// What practice offers in addition to a table: drills with counts, and a table from a photo. Both
+// are sections of the dialog of a new game.
 import type { AimOf, Carom, Table } from "carom";
 import { button, choice, el } from "../ui.js";
 import { atOf, drillsOf, judge } from "./drills.js";
@@ -142,7 +142,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
     },
     played(name, { shot, cue, balls }, isOwn) {
       const { goal, text } = drillOf(name);
-      const { outcome, why } = judge(drillOf(name), shot!);
+      const { outcome, failed, why } = judge(drillOf(name), shot!);
       // The aim at the ball that was to fall, in the pocket that it was nearest to.
       const value = (word: string): string | undefined =>
         goal.find((part) => part[0] === word)?.[1];
@@ -155,8 +155,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
         .map((pocket) => errors(carom, shot!.table, balls, cue, { ...way, pocket } as AimOf))
         .filter(({ phi }) => phi !== undefined)
         .sort((a, b) => Math.abs(a.phi!) - Math.abs(b.phi!));
-      const wasToFall = why.some((reason) => reason.includes("fall"));
-      const change = wasToFall ? wordsOfChange(off) : "";
+      const change = failed.includes("pot") ? wordsOfChange(off) : "";
       const review = outcome === "missed" ? ` ${why.join(" ")}${change}` : "";
       if (isOwn)
         keepRow({

@@ -1,4 +1,4 @@
-// What one misses: reviews of strokes of games, summed up by their kind in this browser.
+// What the player misses: reviews of strokes, summed by kind of stroke in this browser.
 import type { Review, ShotBall } from "carom";
 import { placesText } from "../table/places.js";
 import { type Setup, tableOf } from "./game.js";
@@ -6,7 +6,7 @@ import { keepText, keptValue } from "./keep.js";
 
 const KEY = "carom-reviews";
 
-/** Sums over the strokes of a kind; chances and costs are shares of a game. */
+/** Sums over the strokes of a kind; chances and costs are fractions of a game. */
 export interface Reviewed {
   strokes: number;
   successes: number;

@@ -1,5 +1,5 @@
-// Lines on the cloth of the scene: the aim, ways of balls, rings around what is called. All of them
-// are one mesh of ribbons that glow towards their sides, and lie under the balls.
+// Lines on the cloth of the scene: the aim, paths of balls, rings around what is called. They form
+// one mesh of ribbons that glow towards their edges, below the balls.
 import * as THREE from "three";
 import type { Line } from "../table/drawing.js";
 import { distance, type Point } from "./shapes.js";

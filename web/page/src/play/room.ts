@@ -1,5 +1,5 @@
-// The room of the scene: a lamp above the table with its shadows, boards that are seen near the
-// table, a dark wall far behind, and what balls, wood and metal reflect of it. Lengths in m.
+// The room of the scene: a lamp above the table with its shadows, floorboards near the table, a
+// dark wall far behind, and the reflections in balls, wood and metal. Lengths are in m.
 import * as THREE from "three";
 import type { Table } from "../../../player/words.js";
 import { painted } from "./shapes.js";
@@ -29,7 +29,7 @@ export function light(scene: THREE.Object3D, { width, length }: Table): THREE.Sp
   return lamp;
 }
 
-/** The floor, on which the light of the lamp lies around the table, and the wall. */
+/** The floor with the light of the lamp around the table, and the wall. */
 export function roomOf({ width, length }: Table): THREE.Object3D[] {
   const map = boards();
   map.repeat.set(7, 7);

@@ -1,6 +1,5 @@
-// The games that this browser keeps: each under an id of its own in IndexedDB, with what a list
-// shows of it. A tab has one game open and holds a lock on its id, so that no other tab plays the
-// same game.
+// The saved games: each has an id in IndexedDB, with what the list shows of it. A tab has one game
+// open and holds a lock on its id, so that no other tab plays the same game.
 import { createStore, del, get, set, values } from "idb-keyval";
 import type { Aimer, Setup } from "./game.js";
 import { stored, keepText } from "./keep.js";
@@ -10,7 +9,7 @@ export interface SavedGame {
   /** The game as text: its setup and its strokes. */
   text: string;
   setup: Setup;
-  /** Who aimed each stroke; games of an older page do not say it. */
+  /** Who aimed each stroke; games of older pages do not have it. */
   aims?: readonly Aimer[];
   score: string;
   strokes: number;

@@ -1,6 +1,7 @@
-// The table by three.js, seen from above, from behind the cue and as on television: furniture.ts and
-// room.ts have what stands still, balls.ts and stick.ts what moves, ribbons.ts the lines on the
-// cloth. A module by itself: the page has it compressed, and starts it behind its first view.
+// The table in three.js, seen from above, from behind the cue, and as on television. furniture.ts
+// and room.ts make what never moves, balls.ts and stick.ts what moves, ribbons.ts the lines on the
+// cloth. This module is a separate part: the page contains it compressed, and starts it after its
+// first view.
 import * as THREE from "three";
 import { WOOD } from "../../../player/table.js";
 import type { FlatView, Pose, Table } from "../../../player/words.js";
@@ -23,7 +24,7 @@ interface Shot {
   angle: number;
   framed: number;
 }
-/** Part of a picture, pixels from its corner. */
+/** Part of a frame, pixels from its corner. */
 export interface Frame {
   left: number;
   top: number;
@@ -31,7 +32,7 @@ export interface Frame {
   height: number;
 }
 const DEGREES = 180 / Math.PI;
-/** How high the camera of the view from above hangs: so high that its picture is nearly flat. */
+/** The height of the camera above the table: so high that its view is nearly flat. */
 const CEILING = 5;
 /** How fast a camera glides to another place: the share of its way that is left falls by e^-1 in this, s. */
 const GLIDE = 0.18;
@@ -42,7 +43,7 @@ const FARTHEST = 1.3;
 const LINE = 0.0035;
 /** The same from above, at most. */
 const FINE = 0.0045;
-/** How many pictures are drawn before one is timed: the first ones make programs and shadows. */
+/** How many frames are drawn before one is timed: the first ones compile programs and draw shadows. */
 const WARM = 2;
 
 /** From high behind an end of the table, from where all of it is seen within a frame. */
@@ -138,7 +139,7 @@ export class Scene {
     const camera = this.#camera;
     this.#isFlat = true;
     this.#shot = undefined;
-    // A line of a table that is small on the screen is no wider than a part of a ball.
+    // A line of a table that is small on the screen is at most a fraction of a ball wide.
     this.#pixel = Math.min(1 / scale, FINE);
     Object.assign(this.#fog, { near: 9, far: 30 });
     // From above, wood and metal would show nothing but the lamps.
@@ -148,7 +149,7 @@ export class Scene {
     camera.lookAt(...middle, 0);
     camera.updateMatrixWorld();
     camera.up.set(0, 0, 1);
-    // The middle of the table need not be in the middle of the picture.
+    // The centre of the table need not be in the centre of the frame.
     const near = 0.1;
     const share = near / (CEILING - 0.0286) / scale;
     const left = -(px + x) * share;
@@ -179,7 +180,7 @@ export class Scene {
     let back = Math.min(most, BEHIND);
     const eye = new THREE.Vector3();
     let seen = 0;
-    // The cue ball stays in the picture as well as the pocket, for which the eye goes back.
+    // The camera moves back until both the cue ball and the pocket are in the frame.
     for (; ; back += 0.1) {
       eye.set(place[0]! - back * along[0], place[1]! - back * along[1], height);
       if (pocket) seen = turned(Math.atan2(pocket[1]! - eye.y, pocket[0]! - eye.x) - direction);
@@ -241,7 +242,7 @@ export class Scene {
     return true;
   }
 
-  /** Lays the frame of a shot into the picture. */
+  /** Shows the frame of a shot. */
   #frameShot({ angle, framed }: Shot): void {
     const { clientWidth, clientHeight } = this.canvas;
     const { left, top, width, height } = this.#frame;
@@ -269,13 +270,13 @@ export class Scene {
     }
     this.#renderer.render(this.#scene, camera);
   }
-  /** Fewer pixels, and for the shadows of the lamp pictures of them below the balls. */
+  /** Fewer pixels, and drawn shadows below the balls instead of the lamp's. */
   coarsen(): void {
     this.#renderer.setPixelRatio(1);
     this.#lamp.castShadow = false;
     this.#balls.lampShadows = true;
   }
-  /** How long a picture takes, ms. */
+  /** How long a frame takes, ms. */
   measure(): number {
     const gl = this.#renderer.getContext();
     const pixel = new Uint8Array(4);
@@ -289,7 +290,7 @@ export class Scene {
     return performance.now() - start;
   }
 
-  /** Where a place is seen, pixels of the page; NaN: behind the camera. */
+  /** Where a point is seen, pixels of the page; NaN: behind the camera. */
   place(x: number, y: number, z: number): [number, number] {
     const point = new THREE.Vector3(x, y, z).project(this.#camera);
     return point.z > 1
@@ -308,7 +309,7 @@ export class Scene {
     const way = new THREE.Vector3(r[0]!, r[1]!, r[2]!).sub(this.#camera.position).normalize();
     return Math.abs(axis.dot(way)) > 0.6;
   }
-  /** The place at a height that is seen at a pixel of the page; none above the horizon. */
+  /** The point at a height that is seen at a pixel of the page; none above the horizon. */
   unplace(px: number, py: number, z: number): [number, number] | undefined {
     const eye = this.#camera.position;
     const way = new THREE.Vector3(

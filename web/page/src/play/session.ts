@@ -1,6 +1,6 @@
-// A game at the page: what its states share, and the stroke that is aimed in it. A stroke is aimed
-// by whoever sits here, the page's player thinks of one, a stroke is filmed, the other one is
-// waited for, or the game is over.
+// A game at the page: what its states share, and the stroke that is being aimed. In each state the
+// person here aims, the page's player thinks, a film runs, the page waits for the other player, or
+// the game is over.
 import type { Call, Carom, Cue, PlanOptions, Player } from "carom";
 import { onTable } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
@@ -13,7 +13,7 @@ import { texts } from "../texts/texts.js";
 
 export const NONE: Chosen = { ball: -1, pocket: -1, hitBall: -1 };
 export const SAFETY = -2;
-/** A stroke whose direction is so near to that of a hint, degrees, is the hint's. */
+/** A stroke within so many degrees of a hint's direction counts as the hint's. */
 const CORRECTED = 2;
 /** The angle between two directions, degrees. */
 const angleBetween = (a: number, b: number): number => Math.abs(((a - b + 540) % 360) - 180);
@@ -128,14 +128,14 @@ export function look(s: Session): void {
   s.first = lookAlong(carom, play.table, play.balls, cue, OPTIONS, showsWays);
 }
 
-/** Whom chances are told of. */
+/** The player whose chances are shown. */
 export function wordsOfLevel(s: Pick<Session, "play" | "training">): string {
   const level = levelOf(s);
   return s.training.rating(s.play.setup.game).isGuess
     ? texts.anUnratedPlayer(level)
     : texts.aAsYouAre(level);
 }
-/** The rating of whoever sits here: his own one, or that of his errors where they are larger. */
+/** The rating of the person here, or the rating of their errors where that is lower. */
 export function levelOf({ play, training }: Pick<Session, "play" | "training">): number {
   const { own, game } = play.setup;
   return Math.min(training.rating(game).rating, own === "0" ? 800 : Number(own));

@@ -1,9 +1,9 @@
 // Bodies of the scene from points of the plane: prisms with rounded edges, strips between lines,
-// and how pictures and colours lie on them. Lengths in m, z upwards from the cloth.
+// and the textures and colours on them. Lengths are in m, z points upwards from the cloth.
 import * as THREE from "three";
 
 export type Point = readonly [number, number];
-/** A place with its height. */
+/** A point with its height. */
 export type Place = readonly [number, number, number];
 
 export const distance = (a: Point, b: Point): number => Math.hypot(a[0] - b[0], a[1] - b[1]);
@@ -30,7 +30,7 @@ export const turned = (angle: number): number => Math.atan2(Math.sin(angle), Mat
 export const clamp = (x: number, low: number, high: number): number =>
   Math.min(Math.max(x, low), high);
 
-/** Parts of one material as one mesh: each mesh that is drawn costs a frame some time. */
+/** Merges parts of one material into one mesh, because each mesh adds to the time of a frame. */
 export function joined(geometries: THREE.BufferGeometry[], material: THREE.Material): THREE.Mesh {
   const parts = geometries.map((geometry) => (geometry.index ? geometry.toNonIndexed() : geometry));
   const geometry = new THREE.BufferGeometry();
@@ -75,7 +75,7 @@ export const box = (
   high: number,
 ): THREE.BufferGeometry =>
   new THREE.BoxGeometry(width, length, high - low).translate(x, y, (low + high) / 2);
-/** A part of a ring around a place, as a body. */
+/** A section of a ring around a point, as a body. */
 export function ringBody(
   centre: Point,
   [inner, outer]: readonly [number, number],
@@ -89,7 +89,7 @@ export function ringBody(
   ];
   return bodyOf(outline, low, high, round);
 }
-/** A strip between lines of as many places each, whose normals are smooth across it. */
+/** A strip between lines of equally many points, with normals that are smooth across it. */
 export function stripOf(rows: readonly (readonly Place[])[]): THREE.BufferGeometry {
   const count = rows[0]!.length;
   const index: number[] = [];
@@ -106,7 +106,7 @@ export function stripOf(rows: readonly (readonly Place[])[]): THREE.BufferGeomet
   strip.computeVertexNormals();
   return strip.toNonIndexed();
 }
-/** Gives each point of a body a colour, red, green, blue and opacity, by its place. */
+/** Sets a colour (red, green, blue, opacity) at each point of a body, by its position. */
 export function painted(
   body: THREE.BufferGeometry,
   colourAt: (place: Place) => readonly number[],

@@ -1,5 +1,5 @@
-// What the coach draws on the table behind a hint: a run-out with the zones where the cue ball may
-// land, and safeties with the ways of their balls. Each sketch has a number and a colour.
+// What the coach draws on the table after a hint: a run-out with the zones where the cue ball may
+// stop, and safeties with the paths of their balls. Each sketch has a number and a colour.
 import type { PlanStroke, SequenceStroke, ShotBall } from "carom";
 import { colourOfSketch, type Line, type Sketch } from "../table/drawing.js";
 import { pathsOf } from "../table/filmed.js";
@@ -12,7 +12,7 @@ const REACH = 0.06;
 
 const placeOn = ({ state: { r } }: ShotBall): [number, number] => [r[0], r[1]];
 
-/** The strokes of a run-out: the pot of each, and where the cue ball may come to rest after it. */
+/** The strokes of a run-out: the pot of each, and where the cue ball may stop after it. */
 export function runOutSketches({ table, balls }: Play, strokes: readonly SequenceStroke[]) {
   const sketches: Sketch[] = [];
   let layout: readonly ShotBall[] = balls;
@@ -30,7 +30,7 @@ export function runOutSketches({ table, balls }: Play, strokes: readonly Sequenc
   return sketches;
 }
 
-/** Safeties: the way of the cue ball to where it comes to rest, and those of the other balls. */
+/** Safeties: the paths of the cue ball and of the other balls until they stop. */
 export function safetySketches(play: Play, choices: readonly PlanStroke[]): Sketch[] {
   const { carom, table, balls, bounds } = play;
   return choices.map((choice, k) => {
@@ -53,7 +53,7 @@ export function safetySketches(play: Play, choices: readonly PlanStroke[]): Sket
 export const seenSketches = (s: Session): readonly Sketch[] =>
   isHinted(s) && s.film.time === 0 && !s.film.playing ? s.sketches : [];
 
-/** The stroke whose number is at a place, if any. */
+/** The stroke whose number is at a point, if any. */
 export function sketchedAt(s: Session, [x, y]: readonly number[]): PlanStroke | undefined {
   const isNear = ({ place }: Sketch): boolean => Math.hypot(place[0]! - x!, place[1]! - y!) < REACH;
   return seenSketches(s).find((sketch) => sketch.choice && isNear(sketch))?.choice;

@@ -1,19 +1,19 @@
-// Marks of a finger on a photo, moved to what they mean. A finger errs by some pixels of the page,
-// which are several of the photo.
-//   The table: three lines run along each side: the foot of the cushion, which is seen where the
+// Finger marks on a photo, moved to what they mean. A finger is off by some pixels of the page,
+// which are several pixels of the photo.
+//   The table: three lines run along each side: the foot of the cushion, which is visible where the
 // cushion shows its face; its nose; and the wood behind it. The face is darker than both the bed
 // and the top, and the wood differs from the cloth. First each side moves, at both ends, to where
-// edges lie along all its lines that are seen; the width of the top is the one that suits all sides.
-// Then the camera and its lens (lens.ts) are those whose lines are nearest to the edges that are
-// found along them. Many edges make up for noise, balls and pockets.
-//   Balls: the place where colours differ most across the outline of a ball.
+// edges are found along all its visible lines; the width of the top is the one that suits all
+// sides. Then the camera and its lens (lens.ts) are fitted so that their lines are nearest to the
+// edges found along them. Many edges make up for noise, balls and pockets.
+//   Balls: the point where colours differ most across the outline of a ball.
 import { cameraOfLens, type Edge, fitLens, type Lens, project, RAIL } from "./lens.js";
 import { type Camera, cameraOf, type Pixel, solve, USUAL_FOCAL } from "./photo.js";
 
 export type Picture = Pick<ImageData, "data" | "width" | "height">;
 type Colour = readonly [number, number, number];
 
-/** The colour at a place, between the pixels around it. */
+/** The colour at a point, interpolated between pixels. */
 function colourOf({ data, width, height }: Picture, x: number, y: number): Colour {
   const u = Math.min(Math.max(x - 0.5, 0), width - 1.001);
   const v = Math.min(Math.max(y - 0.5, 0), height - 1.001);
@@ -38,9 +38,9 @@ const NOSE = 0.0366;
 const RAILS = [0.042, RAIL, 0.058];
 /** How little edges far from a mark lose, of which each suits other errors of marks. */
 const PULLS = [4, 16];
-/** The share of a side at its ends, and beside a side pocket, where no edge is looked for. */
+/** The fraction of a side at its ends, and next to a side pocket, that is not searched for edges. */
 const MARGIN = 0.08;
-/** Places along a side, for the first look and for the last. */
+/** Points along a side, for the first search and for the last. */
 const FEW = 40;
 const MANY = 70;
 /** The colours that an edge parts are so far from it, pixels. */
@@ -48,7 +48,7 @@ const BESIDE = 2;
 /** A change of colour counts at most so much, of three channels of 255, and is none below FAINT. */
 const MOST = 60;
 const FAINT = 36;
-/** A face that is seen narrower than this, pixels, is taken for none that is seen. */
+/** A face that appears narrower than this, pixels, is treated as invisible. */
 const NARROW = 3;
 
 type Kind = "foot" | "nose" | "wood";
@@ -90,7 +90,7 @@ function sidesOf([width, length]: Pixel): Side[] {
 const shares = (count: number): number[] =>
   Array.from({ length: count }, (_, k) => MARGIN + ((1 - 2 * MARGIN) * (k + 0.5)) / count);
 
-/** A picture with what is looked for on it. */
+/** A photo with what is searched for on it. */
 class Table {
   readonly sides: Side[];
   constructor(
@@ -120,7 +120,7 @@ class Table {
     const foot = this.pixel(lens, side.point("foot", 0.5, 0));
     return (middle[0] - foot[0]) * out[0] + (middle[1] - foot[1]) * out[1];
   }
-  /** How much of an edge lies at a place. */
+  /** The strength of an edge at a point. */
   edge(kind: Kind, [x, y]: Pixel, [u, v]: Pixel): number {
     const inner = colourOf(this.picture, x - BESIDE * u, y - BESIDE * v);
     const outer = colourOf(this.picture, x + BESIDE * u, y + BESIDE * v);
@@ -140,7 +140,7 @@ function moveOf(table: Table, lens: Lens, side: Side, reach: number, pull: numbe
       .filter(side.has)
       .map((share) => ({ share, ...table.seen(lens, side, kind, share) })),
   }));
-  // Edges by place and distance, which all moves read.
+  // Edges by point and distance, which all moves read.
   const far = Math.ceil(1.5 * reach);
   const found = lines.map(({ kind, points }) =>
     points.map(({ share, middle, out }) => ({
@@ -307,7 +307,7 @@ function clothAround(picture: Picture, [x, y]: Pixel, outline: readonly Pixel[])
 /** The light of the cloth in the darkest shadow and in the brightest spot. */
 const SHADOW = 0.35;
 const BRIGHT = 1.3;
-/** A colour that is so far from those of the cloth is plainly none of them. */
+/** A colour this far from the cloth's colours is clearly not cloth. */
 const PLAIN = 40;
 /** How much of a ball a colour is, from 0 to 1: cloth in any light is none. */
 function share(colour: Colour, cloth: Colour): number {
@@ -319,7 +319,7 @@ function share(colour: Colour, cloth: Colour): number {
 }
 /** How far inside and outside an outline colours are compared, pixels. */
 const ACROSS = 1.6;
-/** A place with a lower score than this is that of no ball. */
+/** A point with a lower score than this has no ball. */
 const DISC = 0.3;
 /** From so many points of an outline on its middle is known. */
 const ENOUGH = 12;
@@ -355,7 +355,7 @@ export function snapDisc(
         if (found > most) [best, most] = [[x, y], found];
       }
   }
-  // A ball of the colour of the cloth has no other edge than that of its light.
+  // A ball in the cloth's colour has no edge except its highlight.
   const ends = (inner: Pixel, outer: Pixel): number =>
     100 * (shareAt(...inner) - shareAt(...outer));
   const changes = (inner: Pixel, outer: Pixel): number =>
@@ -402,7 +402,7 @@ function centred(
   }
   return [x, y];
 }
-/** Places where a ball is looked for are so far apart, m. */
+/** The distance between points that are searched for a ball, m. */
 const GRID = 0.012;
 /** How far around a ball there is cloth, of its radius; and from which score on one is seen. */
 const AROUND = 1.5;

@@ -1,7 +1,8 @@
-// The sound of what meets, by its impulse: clicks of balls, knocks of cushions, slate and pockets, and
-// the tip; the noise of balls that roll, by their speed; and a chord at the end of a game. Each is
-// made of decaying tones and noise, comes from where it is seen, and sounds in a small room; none is
-// loaded. Speakers of phones have little below 400 Hz: every voice has a good part above.
+// The sound of impacts, by their impulses: clicks of balls, knocks of cushions, slate and pockets,
+// and the tip; the noise of rolling balls, by their speed; and a chord at the end of a game. Each
+// sound is made of decaying tones and noise, is heard from where the impact is seen, and has the
+// echo of a small room; none is loaded. Phone speakers are weak below 400 Hz, so every voice is
+// loud enough above.
 import type { EventType, Shot, ShotEvent } from "carom";
 
 export interface Voice {
@@ -40,7 +41,7 @@ const TIP: Voice = {
   noise: [0.4, 0.006, 0.5],
   full: 1.2,
 };
-/** A knock on the liner, and leather that rustles as the ball comes to lie. */
+/** A knock on the liner, and leather that rustles as the ball stops. */
 const POCKET: Voice = {
   tones: [
     [120, 0.35, 0.08],
@@ -71,7 +72,7 @@ const VOICES: Partial<Record<EventType, Voice>> = {
 /** The chords of a game that is won and of one that is lost: tones, Hz. */
 const CHORDS = { won: [523.3, 659.3, 784, 1046.5], lost: [466.2, 415.3, 349.2] } as const;
 
-/** How many samples of a film's frame belong to each ball, and where its velocity is in them. */
+/** How many values of a film's frame each ball has, and where its velocity is among them. */
 const OF_BALL = 10;
 const VELOCITY = 3;
 /** The speed at which rolling is loudest, m/s, and how loud it is then. */
@@ -81,7 +82,7 @@ const ROLLING = 0.16;
 const ECHO = 0.4;
 const ECHO_DECAY = 0.09;
 const WET = 0.16;
-/** A frame of a film that is longer than this skips its sounds, s: they would come at once. */
+/** A frame of a film longer than this skips its sounds, s: all would play at once. */
 const LEAP = 0.5;
 
 /**
@@ -121,7 +122,7 @@ export function wave(
   });
 }
 
-/** Where a place of the table is seen: from -1, the left, to 1, the right. */
+/** Where a point of the table is seen: from -1, the left, to 1, the right. */
 export type Side = (place: ArrayLike<number>) => number;
 const panOf = (side: number): number => 0.8 * Math.min(Math.max(side || 0, -1), 1);
 
@@ -256,7 +257,7 @@ export class Sound {
     this.#mixer ??= new Mixer(this.#context);
     void this.#context.resume();
   }
-  /** Sounds what a shot does after one time of its film and until another, s. */
+  /** Plays the sounds of a shot between two times of its film, s. */
   play(shot: Shot, start: number, end: number, sideOf: Side): void {
     if (!this.isOn || !this.#mixer || end - Math.max(start, 0) > LEAP) return;
     for (const event of shot.events)

@@ -1,5 +1,5 @@
-// The table as a scene, below the flat view or in its stead, from behind the cue. It starts behind the
-// first view. A browser without WebGL, and a device that is too slow for it, keep the drawn table.
+// The table as a scene: below the flat view, or instead of it from behind the cue. It starts after
+// the first view. A browser without WebGL, or a device that is too slow, keeps the drawn table.
 import type { Cue, Vec3 } from "carom";
 import { trailsOf } from "../../../player/film.js";
 import { colourOf } from "../../../player/words.js";
@@ -35,9 +35,9 @@ const SWING = 0.09;
 /** How long it follows the ball, s, and how far, m. */
 const FOLLOW = 0.35;
 const FOLLOWS = 0.12;
-/** A picture from above that takes longer leaves the table drawn, ms. */
+/** If a frame from above takes longer, the table stays drawn, ms. */
 const TOO_SLOW = 70;
-/** So many pictures of a film that take longer than this on average make the scene coarser, ms. */
+/** If so many frames of a film take longer than this on average, the scene becomes coarser, ms. */
 const PICTURES = 40;
 const SLOW = 30;
 /** How high the eye may be behind the cue, m. */
@@ -156,7 +156,7 @@ export class Space implements SpaceView {
     this.felt.append(this.#over);
     return scene;
   }
-  /** Below the flat view, which has a name, the scene is a picture without one. */
+  /** Below the flat view, which has a label, the scene has none. */
   #name(): void {
     const { canvas } = this.#scene!;
     const named = { role: "img", tabindex: "0", "aria-label": texts.theTableFromBehind };
@@ -299,9 +299,13 @@ export class Space implements SpaceView {
     if (canvas.clientWidth === clientWidth && canvas.clientHeight === clientHeight) return;
     // The padding keeps free of controls what is between.
     const style = getComputedStyle(this.felt);
-    const [top, right, bottom, left] = ["Top", "Right", "Bottom", "Left"].map((side) =>
-      parseFloat(style[`padding${side}` as "paddingTop"]),
-    ) as [number, number, number, number];
+    const paddings = ["paddingTop", "paddingRight", "paddingBottom", "paddingLeft"] as const;
+    const [top, right, bottom, left] = paddings.map((side) => parseFloat(style[side])) as [
+      number,
+      number,
+      number,
+      number,
+    ];
     scene.size(clientWidth, clientHeight, {
       left,
       top,

@@ -1,4 +1,4 @@
-// How a game stands, in words: whose turn it is, on which balls, and the score.
+// The state of a game as sentences: whose turn it is, the balls on, and the score.
 import type { Ruling } from "carom";
 import { onTable } from "../table/filmed.js";
 import { ballOf } from "../table/words.js";
@@ -21,7 +21,7 @@ export const groupOf = (play: Play, player: number): string => {
 const ballsLeft = (play: Play, first: number, last: number): number =>
   play.balls.filter(({ state }, k) => k >= first && k <= last && onTable(state)).length;
 
-/** What has just happened, as far as it is not a plain change of turns. */
+/** The foul that was just played, if any. */
 function wordsOfFoul(play: Play, { player, ruling, isLate }: Stroke, seat: number): string {
   const name = nameOf(play, player, seat);
   if (isLate) return texts.fouls(name, name === texts.you, texts.theTimeIsOver);
@@ -31,7 +31,7 @@ function wordsOfFoul(play: Play, { player, ruling, isLate }: Stroke, seat: numbe
 
 const fell = ({ shot }: Stroke, ball: number): boolean =>
   shot?.events.some(({ type, a }) => type === "ball_pocket" && a === ball) === true;
-/** The games of two groups, in which the eight comes last. */
+/** The games with two groups, in which the eight is last. */
 export const isEight = ({ setup }: Play): boolean =>
   ["eightball", "blackball", "heyball"].includes(setup.game);
 
@@ -51,7 +51,7 @@ function wordsOfFinalScore({ points, winner }: Play, { foul, why }: Ruling): str
   if (isBehind && foul) return texts.theThirdFoulIn(translate(why));
   return texts.theScoreIs(points.join(" : ").replaceAll("-", "−"));
 }
-/** Why the game has ended, as far as the stroke tells more than the score. */
+/** Why the game ended, if the stroke explains more than the score does. */
 export function wordsOfEnd(play: Play): string {
   const { last, setup, played, winner } = play;
   if (winner !== undefined && last && !last.shot)
@@ -94,7 +94,7 @@ export function wordsOfTarget(play: Play): string {
 /** Whether whoever is at the table has the equalizing inning. */
 const isLastInning = ({ state }: Play): boolean => state.innings === 3;
 
-/** A group in words; that of blackball is of one colour. */
+/** The name of a group; in blackball a group is a colour. */
 function wordsOfGroup({ setup }: Play, group: string): string {
   const colours: Record<string, string> = { solids: "reds", stripes: "yellows" };
   return translate(setup.game === "blackball" ? colours[group]! : group);
@@ -151,7 +151,7 @@ export function wordsOfTurn(play: Play, seat: number, thinks: boolean, short = f
   return `${prefix}${wordsOfTable(play, name)}${aim}.${wordsOfHand(play)}${struck}`;
 }
 
-/** What came of a stroke: what fell, and the points where they are not those balls. */
+/** The result of a stroke: the potted balls, and the points where they are not equal to these. */
 export function wordsOfStroke(play: Play, stroke: Stroke, seat: number): string {
   const { player, shot, cue, ruling, isLate } = stroke;
   const name = nameOf(play, player, seat);
@@ -165,6 +165,7 @@ export function wordsOfStroke(play: Play, stroke: Stroke, seat: number): string 
   const { foul = true, points = 0 } = ruling ?? {};
   const hasScored = play.played?.points && points !== fallen.length;
   const scored = !foul && (hasScored || !play.hasPockets) ? texts.whoScored(name, points) : "";
+  if (!play.hasPockets && foul) return wordsOfFoul(play, stroke, seat).trim();
   if (!play.hasPockets || (scored && fallen.length === 0)) return scored;
   const pocketed = fallen.length > 0 ? fallen.join(texts.andWord) : texts.noBall;
   return `${texts.whoPocketed(name, pocketed)} ${scored}`.trim();

@@ -1,10 +1,11 @@
-// The cue of the scene: a body turned by its outline, and where it lies behind a ball. m.
+// The cue of the scene: a body turned from its outline, and its position behind a ball. Lengths are
+// in m.
 import type { Cue } from "carom";
 import * as THREE from "three";
 import type { Table } from "../../../player/words.js";
 import { CUE_LENGTH, cueSkin } from "./surfaces.js";
 
-/** A cue, how far its tip is from the middle of the cue ball, and where that lies, m. */
+/** A cue, the distance of its tip from the centre of the cue ball, and that ball's position, m. */
 export interface Stick {
   cue: Cue;
   gap: number;
@@ -35,7 +36,7 @@ const OUTLINE: readonly (readonly [number, number])[] = [
 export function stickMesh(): THREE.Mesh {
   const points = OUTLINE.map(([radius, back]) => new THREE.Vector2(radius, -back));
   const body = new THREE.LatheGeometry(points, 24);
-  // The picture lies by the length, and not by the points of the outline.
+  // The texture follows the length, and not the points of the outline.
   const places = body.getAttribute("position");
   const uv = body.getAttribute("uv");
   for (let k = 0; k < places.count; k++)

@@ -1,5 +1,5 @@
-// Surfaces made by rule, none of them loaded: weave of cloth, grain of wood, boards, walls, the skin
-// of a cue. Each is drawn once into a canvas, by the same numbers each time.
+// Surfaces that are computed, not loaded: weave of cloth, grain of wood, boards, walls, and the
+// finish of a cue. Each is drawn once into a canvas, from the same random numbers each time.
 import * as THREE from "three";
 import { coloursOf, disciplineOf } from "../../../player/table.js";
 import type { Table } from "../../../player/words.js";
@@ -44,7 +44,7 @@ function textureOf(canvas: HTMLCanvasElement, srgb = true): THREE.CanvasTexture 
   return map;
 }
 
-/** Worsted cloth: threads over and under each other, with some that stand out; grey, to be tinted. */
+/** Worsted cloth: threads over and under each other, some of them raised; grey, to be tinted. */
 export function weave(size = 256): THREE.CanvasTexture {
   const [canvas, g] = canvasOf(size, size);
   const pixels = g.createImageData(size, size);
@@ -146,7 +146,7 @@ export function boards(): THREE.CanvasTexture {
   return textureOf(canvas);
 }
 
-/** Where lamps stand on the panels of a wall: as high as one sees along a cue. */
+/** Where lamps are on the panels of a wall: at eye level behind a cue. */
 const LAMPS = 182;
 /** A wall behind the dark: panels, and lamps that wash it. */
 export function wall(): THREE.CanvasTexture {
@@ -204,7 +204,7 @@ export const CUE_LENGTH = 1.46;
 export function cueSkin(): THREE.CanvasTexture {
   const [canvas, g] = canvasOf(128, 1024);
   const next = random(5);
-  // From the tip, which is at the top: share of the length, colour.
+  // From the tip, which is at the top: fraction of the length, colour.
   const rowOf = (m: number): number => (1024 * m) / CUE_LENGTH;
   const band = (start: number, end: number, colour: string): void => {
     g.fillStyle = colour;

@@ -1,5 +1,5 @@
-// The turns of a game. Either the person at the page or the page's player plays a stroke. The page
-// then saves the game, shows the film of the stroke, and the next player comes to the table.
+// The turns of a game. The person at the page or the page's player plays a stroke. The page saves
+// the game and shows the film of the stroke; then the next player is at the table.
 import type { Call, PlanStroke, Choice } from "carom";
 import { far } from "../far.js";
 import { angleFrom, direction } from "../table/grip.js";
@@ -93,7 +93,7 @@ function wasBreak({ setup, strokes }: Play, stroke: Stroke): boolean {
   const isFirst = setup.at === undefined && strokes === 1;
   return stroke.state.opening === true || isFirst;
 }
-/** Saves the game after a stroke and shows its film; then the next player comes to the table. */
+/** Saves the game after a stroke and shows its film; then the next player is at the table. */
 function finishTurn(s: Session, stroke: Stroke): void {
   // The speed of a break does not suit the stroke after it.
   if (wasBreak(s.play, stroke) && !s.play.breaks) s.stroke.set({ speed: SPEED_AFTER_BREAK });
@@ -143,7 +143,7 @@ export function aimAtNearest({ play, stroke }: Pick<Session, "play" | "stroke">)
   if (nearest !== undefined)
     stroke.set({ phi: direction(angleFrom(cueBall, placeOfBall(nearest))) });
 }
-/** Says how a try of a drill went, and lays the balls for another try if the drill asks for it. */
+/** Shows the result of a try of a drill, and sets up the balls again if the drill repeats. */
 function judgeDrill({ play, training, words, carom }: Session): void {
   const { drill, at } = play.setup;
   if (drill === undefined || !play.last) return;
@@ -157,7 +157,7 @@ export function next(s: Session): void {
   const { link, play, training } = s;
   judgeDrill(s);
   if (link.waiting()) return link.onward();
-  // Words about the last stroke, and about a game that it ended.
+  // The result of the last stroke, and of the game if it ended.
   const { last, setup, isOver } = play;
   const isAgainstComputer = isComputer(setup.against);
   const outcome = wordsOfOutcome(s);
@@ -171,7 +171,7 @@ export function next(s: Session): void {
     if (!play.practice && !play.breaks && mine(s)) aimAtNearest(s);
     s.showing.rest();
   }
-  // After a stroke its review stays until the aim changes, so the chances are said before the first.
+  // The review of a stroke stays until the aim changes, so only the first stroke shows chances here.
   if (s.settings.coach && !last) void s.coach.chances();
 }
 
@@ -196,7 +196,7 @@ function callOfChoice({ table }: Play, choice: PlanStroke): Call | undefined {
   if (kind === "push") return kind;
   return pocket >= 0 && namesBall(table, choice) ? { ball, pocket } : undefined;
 }
-/** Shows for a moment what the page's player will do: the cue ball, the stick, and words. */
+/** Shows for a moment what the page's player will do: the cue ball, the stick, and a message. */
 async function announce(s: Session, choice: PlanStroke): Promise<void> {
   const { play, seat, film } = s;
   if (play.bounds) play.put(play.cueBall, ...(choice.place as [number, number]));

@@ -1,5 +1,5 @@
-// The view Play: a game on the table that fills the window; around it lie both seats, what a stroke
-// needs, and a drawer for the rest.
+// The view Play: the table fills the window; around it are both seats, the controls of a stroke,
+// and a drawer for the rest.
 import type { Carom, Choice } from "carom";
 import { player as filmPlayer } from "../../../player/player.js";
 import { drop } from "../far.js";
@@ -34,7 +34,7 @@ const wordsOf = (): Session["words"] => ({
   score: el("p#score.heard"),
   message: el("p#said", { role: "status" }),
 });
-/** The balls on the table in words, for whoever does not see them; read anew at each opening. */
+/** A list of the balls on the table, for people who do not see them; updated at each opening. */
 function listOfBalls(s: Session): HTMLDetailsElement {
   const list = el("ul#ball-list");
   const root = el("details", el("summary", texts.whereBallsLie), list);
@@ -182,7 +182,7 @@ function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typ
       sources.unshift([texts.theStrokeThatIs, play.balls, cueOf(s)]);
     diagram.open(play.setup, [...sources, [texts.theBallsAsThey, play.balls, undefined]]);
   };
-  // The first press says what the second one does.
+  // The first press shows what the second one does.
   const give = button(
     texts.concede,
     () => {
@@ -214,16 +214,16 @@ function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typ
   };
 }
 
-/** So long a text is shown, ms: three seconds, or as long as one reads it. */
+/** How long a message is shown, ms: three seconds, or the time to read it. */
 const readingTime = (text: string): number => Math.max(3000, 75 * text.length);
-/** What is said, over a part of the stage: it fades when it was read, or the table is touched. */
+/** Messages over the stage, which fade once they were read or the table is touched. */
 function fadingWords({ words }: Session, clock: HTMLElement, felt: HTMLElement): HTMLElement {
   let timer = 0;
   const fade = (): void => words.message.classList.add("read");
   const show = (): void => {
     const { message } = words;
     message.classList.remove("read");
-    // Only words that are cut off need a touch; others leave it to the table below them.
+    // Only a message that is cut off takes touches; others leave them to the table below.
     message.classList.toggle("cut", message.scrollHeight > message.clientHeight + 1);
     window.clearTimeout(timer);
     timer = window.setTimeout(fade, readingTime(message.textContent!));
@@ -306,7 +306,7 @@ export function playView(
   start(s, s.play, "");
   buttons.sound.setAttribute("aria-pressed", String(s.settings.sound));
   s.showing.rest();
-  // The drawn view is there at once; the scene comes below it.
+  // The drawn view appears at once; the scene follows below it.
   void s.space.prepare();
   const packed = parameters().get("d");
   const ready = resume(s)

@@ -1,5 +1,5 @@
-// A game is watched from its first stroke on: a bar goes forward and back, stroke by stroke, while
-// nobody plays. A link may open a game so. Behind the bar the game goes on where it stood.
+// Watching a game from its first stroke: a bar steps forward and back while nobody plays. A link
+// can open a game in this mode. Closing the bar resumes the game.
 import { button, el } from "../ui.js";
 import { read } from "./game.js";
 import type { Session, Watching } from "./parts.js";
@@ -15,7 +15,7 @@ export function watching(s: Session): Watching {
   const close = button(texts.closeWatch, leave, "#watch-close");
   const root = el("div#watch.row", { hidden: "" }, back, count, forth, close);
 
-  /** Shows the game behind so many strokes, the last of them with its film. */
+  /** Shows the game after so many strokes, the last of them with its film. */
   function show(strokes: number): void {
     const whole = s.watched;
     if (!whole) return;

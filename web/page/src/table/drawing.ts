@@ -1,7 +1,8 @@
-// What is drawn over the table while one aims: the stick, the ghost ball, lines, and rings around
+// What is drawn over the table during aiming: the stick, the ghost ball, lines, and rings around
 // balls.
 import type { Contact, Cue, PlanStroke, ShotBall } from "carom";
 import { line } from "../../../player/table.js";
+import { colourOfShot } from "../../../player/words.js";
 import { onTable } from "./filmed.js";
 
 export const DEGREES = 180 / Math.PI;
@@ -9,7 +10,7 @@ export const DEGREES = 180 / Math.PI;
 export const PULL = 0.04;
 export const stickEnd = (radius: number, speed: number): number => radius + PULL * speed;
 
-/** A context with the scale and the place of a table on it. */
+/** A context with the scale and the position of a table on it. */
 export interface Pen {
   g: CanvasRenderingContext2D;
   scale: number;
@@ -113,7 +114,10 @@ export interface Sketch {
 }
 /** The colour of a sketch, as dense as it is to be. */
 export const colourOfSketch = (k: number, density = 1): string =>
-  `hsla(${47 + 70 * k}, 90%, 65%, ${density})`;
+  colourOfShot(k + 1) +
+  Math.round(255 * density)
+    .toString(16)
+    .padStart(2, "0");
 /** Draws zones, and the number of each sketch. Its lines are among those of the aim. */
 export function drawSketches({ g, place }: Pen, sketches: readonly Sketch[]): void {
   g.save();
@@ -140,7 +144,7 @@ export function drawSketches({ g, place }: Pen, sketches: readonly Sketch[]): vo
   g.restore();
 }
 
-/** The parts of a stick: tip, ferrule, shaft, ring and butt, each up to so far from its tip, m. */
+/** The sections of a stick: tip, ferrule, shaft, ring and butt, with the distance of each end from the tip, m. */
 const STICK: readonly (readonly [end: number, colour: string])[] = [
   [0.01, "#3f7fbf"],
   [0.035, "#f4efe2"],
@@ -156,7 +160,7 @@ export function drawStick(pen: Pen, cueBall: ShotBall, { phi, theta, speed }: Cu
   const dy = Math.sin(phi / DEGREES);
   const gap = stickEnd(cueBall.kind.radius, speed);
   const seen = Math.max(Math.cos(theta / DEGREES), 0.15);
-  /** The outline between two places of the stick, which is 13 mm thick at its tip, 29 at its end. */
+  /** The outline between two points of the stick, which is 13 mm thick at its tip and 29 at its end. */
   const fill = (start: number, end: number, colour: string): void => {
     g.beginPath();
     for (const [s, side] of [
@@ -188,10 +192,10 @@ export const labelsOf = (
   letters: Readonly<Record<string, string>>,
 ): string[] =>
   names.map((name) => (Number(name) > 0 ? name : (letters[name.split(" ")[0]!] ?? "")));
-/** Letters stand on a ball of this many pixels, and beside a smaller one. */
+/** Letters are drawn on a ball of this many pixels, and next to a smaller one. */
 const ROOM = 7;
 
-/** How high the picture of a label is, and how far it goes beyond its text, pixels of the page. */
+/** The height of a label, and how far it extends beyond its text, pixels of the page. */
 const HIGH = 18;
 const BEYOND = 4;
 interface LabelPicture {
@@ -260,7 +264,7 @@ export function drawLabels(
     const high = 5;
     const away = radius + 2;
     const neighbors = occupied.filter(([u, v]) => Math.abs(u! - x) < 80 && Math.abs(v! - y) < 80);
-    // Of twelve places around the ball the one that covers least; the first is at the upper right.
+    // Of twelve positions around the ball, the one that covers least; the first is at the upper right.
     const covers = ([px, py]: readonly [number, number]): number =>
       neighbors.reduce(
         (sum, [u, v, bw, bh]) =>

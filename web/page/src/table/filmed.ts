@@ -1,5 +1,5 @@
-// What the player shows of a shot: where its balls are and how they have turned at a time, and the
-// paths that they take.
+// What the film player shows of a shot: the positions and orientations of its balls at a time, and
+// their paths.
 import type { BallState, Shot, ShotBall, Table } from "carom";
 import { type Film, type Pose, product, wordsOf } from "../../../player/words.js";
 
@@ -10,7 +10,7 @@ export type Path = Film["shots"][number]["paths"][number];
 
 export const onTable = ({ label }: Pick<BallState, "label">): boolean =>
   label !== "pocketed" && label !== "off";
-/** How long the film of a shot is: a ball that was pocketed at the end falls after it. */
+/** The length of the film of a shot, including the fall of a ball that was potted at its end. */
 export const lasts = ({ time, status, events }: Shot): number =>
   status === "ok" && events.at(-1)?.type === "ball_pocket" ? time + FALL : time;
 
@@ -57,7 +57,7 @@ export const facing = (degrees: number): Quaternion => [
   Math.sin((degrees * Math.PI) / 360),
 ];
 
-/** The film of a shot, or the balls as they lie. */
+/** The film of a shot, or the balls at rest. */
 export function filmOf(
   { table, balls, names, turned }: Layout,
   shot: Shot | undefined,

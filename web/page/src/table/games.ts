@@ -76,7 +76,7 @@ for (const [name, text] of words.rules) {
   const names = namesOf[rack] ?? pool;
   GAMES[name] = { text: translate(titleOf(text)), table, rack, game: balls, names };
 }
-/** The tables of pool, by the key that a game keeps; without one it is that of nine feet. */
+/** The pool tables, by the key in a game's setup; the default is nine feet. */
 export const POOL_TABLES: Record<
   string,
   readonly [text: string, table: TableName, measures?: Partial<Measures>]
@@ -150,7 +150,7 @@ export interface Played {
   points: boolean;
   pockets: boolean;
   opening: string;
-  /** The state that a game begins with where it is not that of the library. */
+  /** The initial state of a game where it differs from the library's. */
   state?: Partial<GameState>;
   /** The stroke that a game begins with, as one finds it. */
   begin: Partial<Cue>;
@@ -169,7 +169,7 @@ const OWN: Record<string, Partial<Played>> = {
     begin: { speed: 4, phi: 62, a: 0, b: 0.2 },
   },
   fourball: { text: texts.fourBallTo10, begin: { speed: 3, phi: 97, a: 0, b: 0.2 } },
-  // The 1 stands before the 3, which is met off a rail.
+  // The 1 is in front of the 3, which is hit off a rail.
   cowboy: { begin: { ...BREAK, speed: 3, phi: 53.8 } },
   billiards: { state: { group: "solids", target: 50 }, begin: { ...BREAK, speed: 3 } },
   straightrail: {

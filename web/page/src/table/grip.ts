@@ -1,5 +1,5 @@
-// What a pointer takes hold of on a table, and where a drag of it leads: the same in a game and in
-// the laboratory.
+// What a pointer grips on a table, and where a drag moves it: the same in a game and in the
+// laboratory.
 import { type Carom, CaromError, type Cue, type ShotBall, type Table } from "carom";
 import type { player } from "../../../player/player.js";
 import { DEGREES, PULL, stickEnd } from "./drawing.js";
@@ -67,7 +67,7 @@ export function gripAt(
   return { kind: along > 0 ? "line" : "cloth" };
 }
 
-/** The direction of a place from a ball, degrees. */
+/** The direction from a ball to a point, degrees. */
 export const angleFrom = ({ state: { r } }: ShotBall, [x, y]: Point): number =>
   Math.atan2(y - r[1], x - r[0]) * DEGREES;
 /** A direction in steps of 0.01 degrees, from 0 on. */
@@ -75,7 +75,7 @@ export const direction = (phi: number): number =>
   Math.round((((phi % 360) + 360) % 360) * 100) / 100;
 export const within = (speed: number, steps = 100): number =>
   Math.round(Math.min(Math.max(speed, 0.1), 10) * steps) / steps;
-/** The speed of a stick that is drawn back from one place to another. */
+/** The speed of a stick that is pulled back from one point to another. */
 export function drawnTo(
   { state: { r } }: ShotBall,
   speed: number,
@@ -85,7 +85,7 @@ export function drawnTo(
   const back = ([x, y]: Point): number => Math.hypot(x - r[0], y - r[1]);
   return within(speed + (back(place) - back(start)) / PULL);
 }
-/** Where a ball lies that is moved by so many pixels. */
+/** The position of a ball that is moved by so many pixels. */
 export function movedBy(
   film: Film,
   { state: { r } }: ShotBall,

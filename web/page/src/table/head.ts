@@ -1,8 +1,8 @@
-// A cue ball in hand: where it may lie, and where it lies before it is put.
+// A cue ball in hand: where it may be placed, and where it is before the player places it.
 import type { BallState, Bounds, Carom, ShotBall, Table } from "carom";
 import { onTable } from "./filmed.js";
 
-/** Whether a ball lies where a cue ball in hand may be put. */
+/** Whether a ball is where a cue ball in hand may be placed. */
 export function isWithin({ low, high, centre, radius }: Bounds, ball: BallState): boolean {
   const [x, y] = ball.r;
   const isInside = x >= low[0] && x <= high[0] && y >= low[1] && y <= high[1];

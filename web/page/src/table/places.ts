@@ -1,5 +1,5 @@
-// Where balls lie, as text: "x,y" of each, or "in" for one that waits in a pocket; in the
-// laboratory with how it is turned, degrees.
+// Positions of balls as text: "x,y" for each, or "in" for one that waits in a pocket; in the
+// laboratory also how it is turned, in degrees.
 import type { BallState, ShotBall, Table } from "carom";
 import { onTable } from "./filmed.js";
 import { texts } from "../texts/texts.js";
@@ -11,7 +11,7 @@ export function pocketed({ pockets: [pocket] }: Table, state: BallState): BallSt
     : state;
 }
 
-/** The balls at the places of a text. */
+/** The balls at the positions of a text. */
 export function placesOf(
   text: string,
   table: Table,
@@ -26,7 +26,7 @@ export function placesOf(
       (place) => place === undefined || (place.length >= 2 && place.every(Number.isFinite)),
     )
   )
-    throw new TypeError(texts.atPlacesXY(balls.length));
+    throw new TypeError(texts.atPlacesXY(text, balls.length));
   return {
     balls: balls.map(({ kind, state }, k) => ({
       kind,

@@ -1,5 +1,5 @@
-// What a stroke is set by, in a game and in the laboratory: sliders, and the tip on a ball that one
-// touches.
+// The controls of a stroke, in a game and in the laboratory: sliders, and a ball to touch for the
+// tip.
 import type { Cue } from "carom";
 import { pad, slider, type Slider, valuesOf } from "../ui.js";
 import { texts } from "../texts/texts.js";

@@ -1,4 +1,4 @@
-// Plans in words: what a choice is, and chances.
+// Plans as sentences: the chosen stroke, and its chances.
 import type { PlanStroke, Table } from "carom";
 import { pocketName } from "../../../player/words.js";
 import { texts, translate } from "../texts/texts.js";
@@ -54,7 +54,7 @@ export const namesBall = (
 /** Whether a stroke passes the turn, and seldom by a foul. */
 export const isSafe = (table: Pick<Table, "pockets">, choice: PlanStroke): boolean =>
   !namesBall(table, choice) && choice.keep < LUCK && choice.foul < RISKY;
-/** A pot in words: "ball 7 into the side-left pocket". */
+/** The name of a pot: "ball 7 into the side-left pocket". */
 export function wordsOfPot(
   table: Table,
   names: readonly string[],
@@ -82,7 +82,7 @@ export function wordsOfPlan(
   if (strikable.length < 2) return words;
   return texts.withTheBall(ballOf(names, choice.cue.ball), words);
 }
-/** A ball in words: "ball 7", "the yellow". */
+/** The name of a ball: "ball 7", "the yellow". */
 export function ballOf(names: readonly string[], ball: number): string {
   const name = names[ball]!;
   return Number(name) > 0 ? texts.ballNumber(name) : texts.theBallNamed(translate(name));

@@ -1,11 +1,13 @@
-// The texts of the page in its language: the one that was chosen in the settings, or else the
-// browser's. A page keeps its language; another choice loads it again.
+// The texts of the page in its language: the one chosen in the settings, or else the browser's. The
+// language of a loaded page does not change; choosing another one loads the page again.
 //
-// A language is a file with the keys of the English one: `plain` has texts without parts, and
-// `filled` has texts with parts. A call hands the parts over in the order in which the English text
-// names them. "{count}" is a part, and "{count:ball|balls}" is the first word where the part is 1 or
-// true, else the second. `rules` describes each game by the library's word for it and `cards` does so in a line, `letters` tells
-// the colours of balls apart, and `known` has what the library says in words of the language.
+// A language is a file with the same keys as the English one: `plain` contains texts without parts,
+// and `filled` texts with parts. A call passes the parts in the order in which the English text
+// names them. "{count}" is a part, and "{count:ball|balls}" is the first alternative where the part
+// is 1 or true, else the second. `rules` and `cards` describe each game, by the library's name for
+// it: in a paragraph, and in a line. `letters` tells the colours of balls apart, and `known`
+// translates texts of the library; in English it contains only those that have a shorter form for
+// players.
 import { DICTIONARY, translate } from "../../../player/words.js";
 import german from "./de.json" with { type: "json" };
 import english from "./en.json" with { type: "json" };

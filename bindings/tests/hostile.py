@@ -1,0 +1,49 @@
+"""hostile.py ROWS MATCH: the lines that hostile.c wrote, received by a match of Python."""
+
+import sys
+from pathlib import Path
+
+import carom
+
+
+def state_of(game):
+    """What a refused line may not change."""
+    return game.lines, game.phase, game.seat, game.actor, game.shots
+
+
+begin, act, rows = [], [], []
+for line in Path(sys.argv[1]).read_text().split("\n")[:-1]:
+    word, rest = line.split(" ", 1)
+    if word == "begin":
+        begin.append(rest)
+    elif word == "place":
+        game = carom.Match.load(begin)
+        assert game.actor is None
+        assert game.receive(rest, 0)
+    elif word == "act":
+        act.append(rest + "\n")
+    else:
+        rows.append(rest.split("|", 2))
+for name, seat, text in rows:
+    state, why = state_of(game), ""
+    try:
+        assert not game.receive(text, int(seat)), f"{name} is accepted"
+        assert text.strip() == "" or text.startswith('{"event"'), f"{name} is not refused"
+    except carom.CaromError as refused:
+        why = str(refused)
+        assert why, f"{name} has no reason"
+    assert state_of(game) == state, f"{name} changed the match"
+
+    # The honest act: its line, then those of its ruling, then all again.
+    twin = game.copy()
+    assert twin.receive(act[0], 0), f"{name}: the honest line is not accepted behind it"
+    assert twin.lines == game.lines + act, f"{name}: the honest act has other lines behind it"
+    assert not any(twin.receive(line, 0) for line in act + act), f"{name}: a line is new"
+    assert (twin.lines, twin.actor) == (game.lines + act, 0)
+
+# The whole match, to its end.
+lines = Path(sys.argv[2]).read_text().splitlines(keepends=True)
+for line in lines[len(game.lines) :]:
+    game.receive(line, None)
+assert game.lines == lines
+print(f"{len(rows)} rows")
