@@ -64,7 +64,7 @@ def _seeds(seed: Seed | ArrayLike) -> Array:
         return np.array(seed_of(seed, 2**64 - 1), np.uint64)
     seeds = as_array(seed, "seed")
     if seeds.dtype.kind not in "iu" or (seeds.size and seeds.min() < 0):
-        seed_of(cast(Any, seed))  # which refuses it
+        seed_of(cast(Any, seed), 2**64 - 1)  # which refuses it
         raise ValueError(f"seed: whole numbers from 0 on are required, not {seed!r}")
     return seeds.astype(np.uint64)
 

@@ -35,7 +35,8 @@ class MatchVerbs:
 
     def _seen(self: Any) -> Shot:
         """The last shot, with the balls where they are now; without one, the layout."""
-        last, balls = self.shot, self.balls
+        last: Shot | None = self.shot
+        balls = self.balls
         if last is not None and last.status >= 0:
             moving = self.phase == "moving"
             return last if moving else dataclasses.replace(last, final=balls["state"])

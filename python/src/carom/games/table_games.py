@@ -5,7 +5,7 @@ four-ball, one-pocket and others, of an agent against an opponent.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -106,7 +106,7 @@ class TableGame:
         speeds: tuple[float, float] = (0.5, 8.0),
         **base: Any,
     ) -> None:
-        rules = named(GAMES, rules, "rules")
+        rules = cast("Game", named(GAMES, rules, "rules"))
         choice({"win": 0, "points": 1}, reward, "reward")
         self.game: Game = rules
         self.table = _TABLES.get(rules, tables.pool_9ft)() if table is None else table
