@@ -355,7 +355,7 @@ REFUSALS = [
     (
         lambda: carom.gymnasium.GameEnv("snooker"),
         ValueError,
-        "game: unknown value 'snooker'; use 'potting', 'threecushion', 'break', 'nineball' or 'eightball'",
+        "game: unknown value 'snooker'; use 'potting', 'threecushion', 'break', 'nineball', 'eightball' or 'match'",
     ),
     (lambda: Match(opponent_shots=0), ValueError, "opponent_shots"),
     *(
