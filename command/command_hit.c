@@ -9,7 +9,7 @@
 #include "pictures/series.h"
 #include "program/program.h"
 #include "rows/quantities.h"
-#include "shots/ball_aim.h"
+#include "shots/endless_cloth.h"
 #include "subcommands.h"
 
 enum { SPIN, SPEED, CUT, SIDE, RESTITUTION, CLOTH, ROLL, RADIUS, MASS, OBJECT_MASS, FRICTION };

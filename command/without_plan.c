@@ -44,6 +44,12 @@ bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *opt
   return refuse("--leave");
 }
 
+bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *options, double cut,
+                 carom_cue *cue) {
+  (void)name, (void)l, (void)options, (void)cut, (void)cue;
+  return refuse("--at-ball, --cut");
+}
+
 bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
                    const carom_shot_options *options, carom_cue *cue, char report[AIMED_TEXT]) {
   (void)pocket, (void)via, (void)l, (void)options, (void)cue, (void)report;

@@ -7,7 +7,7 @@
 #include "pictures/palette.h"
 #include "pictures/picture.h"
 #include "rows/quantities.h"
-#include "shots/ball_aim.h"
+#include "shots/endless_cloth.h"
 
 #include <math.h>
 #include <string.h>

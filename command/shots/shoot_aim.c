@@ -1,9 +1,8 @@
-/* Aims at balls from words: ball_aim.h's, and why there is none. */
+/* Balls and pockets by their names, as aims have them. */
 #include "shots/shoot_aim.h"
 
 #include "program/program.h"
 #include "rows/quantities.h"
-#include "shots/ball_aim.h"
 
 int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_TEXT]) {
   int found = -1;
@@ -73,46 +72,6 @@ int ball_in_front(const carom_shot_ball *ball, int count) {
     }
   }
   return front;
-}
-
-bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *options, double cut,
-                 carom_cue *cue) {
-  char text[BALL_TEXT], names[NAMES_TEXT], hint[HINT_TEXT];
-  carom_event contact;
-  const int index = ball_named(l, name, strlen(name), names);
-  if (index < 0 && names[0] == '\0')
-    complain("--at-ball '%s': there is no ball to aim at; try --balls 0.6,1.5 with --at-ball 1",
-             name);
-  else if (index < 0)
-    complain("--at-ball '%s': no such ball; try %s, of --balls", name,
-             words_to_try(name, names, hint));
-  else if (!(fabs(cut) < 90.0))
-    complain("--cut '%g': no contact; try an angle between -90 and 90 degrees", cut);
-  else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)
-    return true; /* which is told when it is played */
-  else {
-    const aim_result found =
-        aim_at(&l->table, l->ball, l->count, options, index, cut, cue, &contact);
-    *l->missed |= found != AIM_FOUND;
-    switch (l->quiet ? AIM_FOUND : found) {
-    case AIM_FOUND:
-      return found == AIM_FOUND;
-    case AIM_BARRED:
-      complain("--at-ball %s: at a cut of %.4g degrees %s is in the way", name, cut,
-               obstacle(l, contact.type, contact.a == 0 ? contact.b : contact.a, text));
-      break;
-    case AIM_NOT_REACHED:
-      complain("--at-ball %s: at a cut of %.4g degrees the cue ball comes to rest before it; give "
-               "a higher --speed",
-               name, cut);
-      break;
-    default:
-      complain("--at-ball %s: no direction of this cue makes the cue ball meet it first at a cut "
-               "of %.4g degrees",
-               name, cut);
-    }
-  }
-  return false;
 }
 
 int pocket_named(const carom_table *t, char *const id[], const char *name, char names[NAMES_TEXT]) {

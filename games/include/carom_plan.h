@@ -806,8 +806,9 @@ CAROM_API carom_status carom_plan_value(const carom_plan_job *job, int in_hand, 
 
 /* ---- Aims ------------------------------------------------------------------------------------ */
 
-/* The largest number of balls and rails on the way of an aim. */
-enum { CAROM_VIA_MOST = 4 };
+/* The largest number of balls and rails on the way of an aim; and the pocket of an aim at a ball by
+ * its cut, which no pocket takes. */
+enum { CAROM_VIA_MOST = 4, CAROM_POT_NO_POCKET = -1 };
 
 /* The result of an aim, in the shot of the complete layout. */
 typedef enum carom_pot_outcome {
@@ -825,7 +826,8 @@ typedef enum carom_pot_outcome {
 /* A ball and the pocket into which it is to fall. The caller sets the first block, and carom_aim()
  * the second one. */
 typedef struct carom_pot {
-  int32_t ball, pocket;           /* indices of the ball and of its pocket. */
+  int32_t ball, pocket;           /* indices of the ball and of its pocket, or
+                                     CAROM_POT_NO_POCKET. */
   int32_t vias;                   /* number of elements of via[], 0 to CAROM_VIA_MOST. */
   carom_part via[CAROM_VIA_MOST]; /* balls and rails in the order in which they are met. A rail is
                                      met by the ball before it. Rails before the first ball are met
@@ -840,7 +842,8 @@ typedef struct carom_pot {
                             stick clears the cushions and balls behind the cue ball. A stroke with a
                             smaller cue->theta cannot be played. 0 if cue->phi stays. */
   double cut;            /* degrees: the cut of the cue ball on the first ball. Above 0, the first
-                            ball goes to the left of the cue ball's path. */
+                            ball goes to the left of the cue ball's path. The caller sets it if
+                            there is no pocket. */
   double margin;         /* degrees: how far the path of the ball into the pocket may deviate
                             towards either jaw; 0 if a jaw is in the way in every direction. */
   double phi[2];         /* the directions of the cue, degrees, between which the ball falls;
@@ -856,8 +859,16 @@ typedef struct carom_pot {
  * NaN, it becomes the least elevation with which the stick clears cushions and balls, and the aim
  * is computed for the raised cue. The call may miss a cut above 80 degrees. pot->outcome is the
  * result of the shot with the other balls and the jaws; if it is CAROM_POT_NO_WAY, cue->phi and
- * cue->theta do not change. Returns CAROM_OK; CAROM_ERROR_BALLS for an invalid index or order of
- * via[]; or an error of an argument, with nothing written. It takes one to ten ms. */
+ * cue->theta do not change.
+ *
+ * If pot->pocket is CAROM_POT_NO_POCKET, which needs no table with pockets, the cue ball meets the
+ * ball at the cut pot->cut, above -90 and below 90 degrees, and pot->vias is 0. CAROM_POT_FALLS
+ * then means that it does: the cut is exact to 1e-6 degrees, with squirt and swerve. With
+ * CAROM_POT_BARRED the cue ball meets something else first, with CAROM_POT_SHORT it comes to rest
+ * before; with any outcome but CAROM_POT_FALLS the cue stays. margin, phi and speed are 0.
+ *
+ * Returns CAROM_OK; CAROM_ERROR_BALLS for an invalid index or order of via[]; CAROM_ERROR_OPTIONS
+ * for an invalid cut; or an error of an argument, with nothing written. It takes one to ten ms. */
 CAROM_API carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, int count,
                                  const carom_shot_options *shot, carom_pot *pot, carom_cue *cue);
 

@@ -22,6 +22,7 @@
  *
  * A ball that runs along a rail, or is met right off one, has no root. Then directions are played,
  * and the middle of the widest range in which the ball falls is taken. */
+#include "ball_aim.h"
 #include "platform/elementary.h"
 #include "random_draws.h"
 #include "stick.h"
@@ -42,6 +43,8 @@ static const double least_time = 1e-9; /* s */
 /* degrees on either side, for each rail before the first ball */
 static const double kick_wide = 20.0;
 static const double speed_most = 15.0, speed_least = 0.05; /* m/s, of the cue */
+/* how often a cue is raised and aimed again: each time the direction changes less */
+enum { RAISED_MOST = 16 };
 
 /* A way: its links, and its balls, the cue ball first. */
 typedef struct way {
@@ -652,6 +655,61 @@ static void search_raised(const way *w, directions range, carom_pot *pot, carom_
     *cue = high;
 }
 
+/* ---- Aims without a pocket */
+
+static int32_t outcome_of(aim_result result) {
+  switch (result) {
+  case AIM_FOUND:
+    return CAROM_POT_FALLS;
+  case AIM_BARRED:
+    return CAROM_POT_BARRED;
+  case AIM_NOT_REACHED:
+    return CAROM_POT_SHORT;
+  default:
+    return CAROM_POT_NO_WAY;
+  }
+}
+
+/* Aims at a ball by its cut. A cue that leaves its elevation to the stick is raised, and aimed
+ * again, until the stick is free in the direction of its own aim. */
+static carom_status aim_by_cut(const carom_table *table, const carom_shot_ball *balls, int count,
+                               const carom_shot_options *options, carom_pot *pot, carom_cue *cue) {
+  if (pot->vias != 0 || pot->ball < 0 || pot->ball >= count || pot->ball == cue->ball ||
+      balls[pot->ball].state.label == CAROM_BALL_POCKETED)
+    return CAROM_ERROR_BALLS;
+  if (!(fabs(pot->cut) < 90.0))
+    return CAROM_ERROR_OPTIONS;
+  const bool raised = isnan(cue->theta);
+  carom_cue aimed = *cue;
+  if (raised)
+    aimed.theta = 0.0;
+  carom_event first = {0};
+  for (int k = 0; k < RAISED_MOST; k++) {
+    pot->outcome = outcome_of(
+        carom_aim_at_ball(table, balls, count, options, pot->ball, pot->cut, &aimed, &first));
+    pot->elevation = 0.0;
+    if (pot->outcome == CAROM_POT_FALLS)
+      pot->elevation = carom_least_elevation(table, balls, count, &aimed);
+    if (!raised || !(pot->elevation > aimed.theta))
+      break;
+    if (pot->elevation > STICK_MOST) {
+      pot->outcome = CAROM_POT_STICK;
+      break;
+    }
+    aimed.theta = pot->elevation;
+  }
+  pot->margin = pot->phi[0] = pot->phi[1] = pot->speed[0] = pot->speed[1] = 0.0;
+  pot->met = (carom_brief_event){0};
+  if (pot->outcome == CAROM_POT_BARRED)
+    pot->met =
+        (carom_brief_event){.time = first.time, .type = first.type, .a = first.a, .b = first.b};
+  if (pot->outcome == CAROM_POT_SHORT)
+    pot->met.a = (int32_t)cue->ball;
+  if (pot->outcome == CAROM_POT_FALLS)
+    *cue = aimed;
+  return CAROM_OK;
+}
+
 carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, int count,
                        const carom_shot_options *shot, carom_pot *pot, carom_cue *cue) {
   if (table == NULL || balls == NULL || pot == NULL || cue == NULL)
@@ -666,6 +724,9 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
   const carom_status status = carom_shot_check(table, balls, count, &along, options, &where);
   if (status != CAROM_OK)
     return status;
+
+  if (pot->pocket == CAROM_POT_NO_POCKET)
+    return aim_by_cut(table, balls, count, options, pot, cue);
 
   /* the way, with its room */
   way w;

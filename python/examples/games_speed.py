@@ -19,17 +19,20 @@ import numpy as np
 
 import carom.gymnasium
 
-MATCHES = "nineball", "eightball"
+# Games against an opponent, which are played one after another, and how many of them at once. The
+# opponent of "match" plans each stroke.
+MATCHES = {"nineball": 64, "eightball": 64, "match": 4}
 OTHERS = {"carom/Potting-v1": {"balls": 5, "strokes": 5}}
 
 
 def make_game(name: str, threads: int) -> Any:
     """The games of an environment; None for threads and matches, which take none."""
-    is_match = carom.gymnasium.GAMES[name].get("game") in MATCHES
+    word = carom.gymnasium.GAMES[name].get("game", "potting")
+    is_match = word in MATCHES
     if is_match and threads:
         return None
     chosen: dict[str, Any] = {} if is_match else {"threads": threads}
-    games = gymnasium.make_vec(name, 64 if is_match else 256, **chosen, **OTHERS.get(name, {}))
+    games = gymnasium.make_vec(name, MATCHES.get(word, 256), **chosen, **OTHERS.get(name, {}))
     games.reset(seed=1)
     games.action_space.seed(1)
     return games

@@ -7,11 +7,13 @@ cue's angles are in degrees; vectors are right-handed with z up.
                  in steps: trace, cushion_trace; a cushion from three banks: calibrate, Calibration
     layouts      tables, Table, racks, balls, by_number, cue, struck, place_ball
     shots        simulate, simulate_batch, simulate_arrow, resume, Options, ALL_THREADS
+    files        load; Shot.save, Shots.save, Match.save
     results      Shot, Shots, Features, EventType, Label, Status, CaromError
     derivatives  tangents, jacobian, hessian, aim_slope, Tangents, Hessian, Flag
-    plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating; Goal, sequence,
+    plans        plan, player, with_errors, aim, value, chances, rating, Hit, Pot, Rating; Goal, sequence,
                  RunOut
-    coach        odds, Odds; review, Review, Drill; best_breaks
+    coach        odds, Odds; review, Review, Drill; best_breaks; ways, Ways; why, Why; breaks,
+                 Breaks; practice, Practice, Reviewed
     rules        Match, a complete game; referee, Rules, Ruling, Facts, Turn, Foul
     other        dtypes, the structured dtypes; cite, physics_revision, isa_in_force
     modules      record, tracks, fit, jax, torch, pooltool; games: potting, drills, pool, matches,
@@ -71,6 +73,7 @@ from carom.results import (
     Shot as Shot,
     Shots as Shots,
 )
+from carom.saved import load as load
 from carom.shots import (
     cite as cite,
     resume as resume,
@@ -84,6 +87,10 @@ from carom.status import (
 )
 
 if _TYPE_CHECKING:
+    from carom import games as games
+    from carom import jax as jax
+    from carom import record as record
+    from carom import torch as torch
     from carom import drills as drills
     from carom import fit as fit
     from carom import gymnasium as gymnasium
@@ -95,30 +102,40 @@ if _TYPE_CHECKING:
     from carom import rules as rules
     from carom import sb3 as sb3
     from carom.games import (
+        Breaks as Breaks,
         Drill as Drill,
         Facts as Facts,
         Foul as Foul,
         Goal as Goal,
+        Hit as Hit,
         Match as Match,
         Odds as Odds,
         Pot as Pot,
+        Practice as Practice,
         Rating as Rating,
         Review as Review,
+        Reviewed as Reviewed,
         Rules as Rules,
         Ruling as Ruling,
         RunOut as RunOut,
         Turn as Turn,
+        Ways as Ways,
+        Why as Why,
         aim as aim,
         best_breaks as best_breaks,
+        breaks as breaks,
         chances as chances,
         odds as odds,
         plan as plan,
         player as player,
+        practice as practice,
         rating as rating,
         referee as referee,
         review as review,
         sequence as sequence,
         value as value,
+        ways as ways,
+        why as why,
         with_errors as with_errors,
     )
 
@@ -126,6 +143,7 @@ if _TYPE_CHECKING:
 # print the documentation of each of them.
 _OFFERED = [
     "ALL_THREADS",
+    "Breaks",
     "Calibration",
     "CaromError",
     "Drill",
@@ -136,14 +154,17 @@ _OFFERED = [
     "Foul",
     "Goal",
     "Hessian",
+    "Hit",
     "Label",
     "Match",
     "Odds",
     "Options",
     "Outcome",
     "Pot",
+    "Practice",
     "Rating",
     "Review",
+    "Reviewed",
     "Rules",
     "Ruling",
     "RunOut",
@@ -153,11 +174,14 @@ _OFFERED = [
     "Table",
     "Tangents",
     "Turn",
+    "Ways",
+    "Why",
     "aim",
     "aim_slope",
     "alciatore",
     "balls",
     "best_breaks",
+    "breaks",
     "by_number",
     "calibrate",
     "chances",
@@ -172,12 +196,14 @@ _OFFERED = [
     "impacts",
     "isa_in_force",
     "jacobian",
+    "load",
     "mu_ball",
     "odds",
     "physics_revision",
     "place_ball",
     "plan",
     "player",
+    "practice",
     "racks",
     "rating",
     "referee",
@@ -192,36 +218,48 @@ _OFFERED = [
     "tangents",
     "trace",
     "value",
+    "ways",
+    "why",
     "with_errors",
 ]
 
 # Names of carom.games, and modules in subfolders, which are loaded on first use.
 _OF_GAMES = frozenset(
     [
+        "Breaks",
         "Drill",
         "Facts",
         "Foul",
         "Goal",
+        "Hit",
         "Match",
         "Odds",
         "Pot",
+        "Practice",
         "Rating",
         "Review",
+        "Reviewed",
         "Rules",
         "Ruling",
         "RunOut",
         "Turn",
+        "Ways",
+        "Why",
         "aim",
         "best_breaks",
+        "breaks",
         "chances",
         "odds",
         "plan",
         "player",
+        "practice",
         "rating",
         "referee",
         "review",
         "sequence",
         "value",
+        "ways",
+        "why",
         "with_errors",
     ]
 )
@@ -239,6 +277,8 @@ _MODULES_OF_FOLDERS = frozenset(
         "sb3",
     ]
 )
+# Other parts of the package, which are loaded when they are asked for, too.
+_PARTS = frozenset(["film", "games", "jax", "pooltool", "record", "torch", "tracks"])
 
 _MODULES_OF_LISTINGS = [
     "collisions",
@@ -265,7 +305,7 @@ def __dir__() -> list[str]:
 def __getattr__(name: str) -> object:
     """Return a name from a subfolder of the package, which is imported on first use."""
     try:
-        if name in _MODULES_OF_FOLDERS:
+        if name in _MODULES_OF_FOLDERS or name in _PARTS:
             return _importlib.import_module(f"carom.{name}")
         if name in _OF_GAMES:
             return getattr(_importlib.import_module("carom.games"), name)

@@ -333,12 +333,15 @@ def called(function: _Made, name: str, text: str) -> _Made:
     return function
 
 
-def needed(module: str, user: str) -> Any:
-    """Import a module of another package, or raise an error that shows how to install it."""
+def needed(module: str, user: str, package: str = "") -> Any:
+    """Import a module of another package, or raise an error that shows how to install it.
+
+    `package` is the package's name, if that differs from the module's.
+    """
     try:
         return importlib.import_module(module)
     except ImportError as missing:
-        package = module.partition(".")[0]
+        package = package or module.partition(".")[0]
         raise ImportError(
             f"{user} needs {package}, which is not installed: pip install {package}",
             name=missing.name,

@@ -115,6 +115,7 @@ plan_stroke: Record = _record("carom_plan_stroke")  # A shot that `carom.plan` p
 sequence_stroke: Record = _record("carom_sequence_stroke")
 # A break that `carom.best_breaks` proposes, with the results of breaks.
 break_choice: Record = _record("carom_break_choice")
+shot_way: Record = _record("carom_shot_way")  # A way that `carom.ways` finds.
 facts: Record = _record(
     "carom_facts"
 )  # The events of a shot in brief, as `carom.Features` shows them.

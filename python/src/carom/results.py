@@ -36,8 +36,9 @@ from carom._rows import (
 )
 from carom._shot_options import Options, shot_options
 from carom.dtypes import Doubles, Record, Records
+from carom._verbs import ShotsVerbs, ShotVerbs, states_frame
+from carom.animations import Animation, animated
 from carom.layouts import Table
-from carom.pictures import Animation
 from carom.status import CaromError, Status
 
 
@@ -85,7 +86,7 @@ UNKNOWN = fill(dtypes.ball_state, {}, {**dict.fromkeys("rvw", np.nan), "label": 
 
 
 @dataclass(eq=False, repr=False)
-class Shot:
+class Shot(ShotVerbs):
     """The result of one shot.
 
     The table, the balls, the cue and the events are read-only, because later calls, such as
@@ -227,13 +228,19 @@ class Shot:
         """
         return np.asarray(self.states(times)["r"], dtype=np.float64)
 
-    def to_dataframe(self) -> Any:
-        """Return the events as a pandas DataFrame, one row per event.
+    def to_dataframe(self, dt: float | None = None) -> Any:
+        """Return the events as a pandas DataFrame, one row per event; or with `dt` the states, one row
+        per ball and time.
+
+        With `dt`, the columns are time, ball, r_x, and so on, every `dt` seconds and at the end.
+        Without, they are as follows.
 
         The columns are time, type (by name), a, b, before_a_r_x, and so on. Without a second ball,
         its values are nan and its labels -1. Needs pandas. `carom.dtypes.columns` converts other
         records.
         """
+        if dt is not None:
+            return states_frame(self, dt)
         pandas = needed("pandas", "to_dataframe()")
         names = {kind.value: kind.name.lower() for kind in EventType}
         events = self.events.copy()
@@ -263,9 +270,10 @@ class Shot:
     def animate(self, speed: float = 1.0) -> Animation:
         """Return an animation for Jupyter; its `svg` is the text of a file that any browser plays.
 
-        `speed` is relative to real time.
+        `speed` is relative to real time. `save("shot.gif", fps=30)` of the animation writes a file:
+        .svg, .gif or .mp4.
         """
-        return pictures.animation(self, speed)
+        return animated(self, speed)
 
 
 class _OfBatch(Shot):
@@ -410,7 +418,7 @@ def _units(name: str) -> dict[str, str]:
 _OF_BALLS = {"pocket", "pocket_time", "cushions"}
 
 
-class Shots:
+class Shots(ShotsVerbs):
     """The results of a batch of shots: arrays over the batch.
 
     Indexing, iteration and `len` work as for the array `status`. Where NumPy would return a scalar,
@@ -741,7 +749,7 @@ class Shots:
             found,
         )
 
-    def to_dataframe(self, dims: Sequence[str] | None = None) -> Any:
+    def to_dataframe(self, dims: Sequence[str] | None = None, *, dt: float | None = None) -> Any:
         """Return the shots as a pandas DataFrame, one row per shot.
 
         The columns are status (by name), time, count, the fields of the cue (cue_speed, ...), the
@@ -753,7 +761,12 @@ class Shots:
         dims : sequence of str, optional
             Names of the levels of the index, one per dimension of the batch. Default: "shot", or
             "shot_0", "shot_1", ...
+        dt : float, optional
+            With it there is one row per shot, time and ball instead, every `dt` seconds up to the
+            end of the longest shot, with the states.
         """
+        if dt is not None:
+            return states_frame(self, dt, self._dims(dims))
         pandas, dims, (codes, names, found) = (
             needed("pandas", "to_dataframe()"),
             self._dims(dims),

@@ -355,7 +355,7 @@ REFUSALS = [
     (
         lambda: carom.gymnasium.GameEnv("snooker"),
         ValueError,
-        "game: unknown value 'snooker'; use 'potting', 'threecushion', 'break', 'nineball' or 'eightball'",
+        "game: unknown value 'snooker'; use 'potting', 'threecushion', 'break', 'nineball', 'eightball' or 'match'",
     ),
     (lambda: Match(opponent_shots=0), ValueError, "opponent_shots"),
     *(
@@ -469,7 +469,7 @@ def test_what_a_step_costs(gymnasium):
     """The example prints a row for each environment, and for threads where they are taken."""
     script = EXAMPLE.with_name("games_speed.py")
     ran = run_python(script, 1)
-    assert ran.stdout.count(" steps/s ") == 12, ran.stdout
+    assert ran.stdout.count(" steps/s ") == 15, ran.stdout
 
 
 def test_many_games_are_one_batch(gymnasium, calls):

@@ -30,6 +30,7 @@ from carom.games._draws import Draws, Games
 from carom.games.drills import Break, ThreeCushion
 from carom.games.matches import Match
 from carom.games.potting import Potting, Strokes, in_space
+from carom.games.table_games import TableGame
 
 try:
     import gymnasium
@@ -45,15 +46,18 @@ __all__ = ["GAMES", "RULES", "GameEnv", "GameVectorEnv"]
 __dir__ = listing(__name__)
 
 RenderMode = Literal["svg", "rgb_array"]
-Rules = Potting | Match
+Rules = Potting | Match | TableGame
 RULES: dict[str, Callable[..., Rules]] = {
     "potting": Potting,
     "threecushion": ThreeCushion,
     "break": Break,
     "nineball": functools.partial(Match, "nineball"),
     "eightball": functools.partial(Match, "eightball"),
+    "match": TableGame,
 }
-"""The rules of an environment by the name `game`: classes, and `Match` for both games of pool."""
+"""The rules of an environment by the name `game`: classes, and `Match` for both games of pool. The
+name "match" stands for any game of two sides: GameEnv("match", rules="snooker").
+"""
 _OPTIONS = {"layout", "strokes"}
 _Bools = NDArray[np.bool_]
 _ONE: Games = np.zeros(1, np.int64)
@@ -399,12 +403,15 @@ GAMES: dict[str, dict[str, Any]] = {
     "carom/Break-v1": {"game": "break", "noise": _ERRORS},
     "carom/NineBall-v1": {"game": "nineball", "strokes": 60, "noise": _ERRORS},
     "carom/EightBall-v1": {"game": "eightball", "strokes": 60, "noise": _ERRORS},
+    "carom/Snooker-v1": {"game": "match", "rules": "snooker", "strokes": 200, "noise": _ERRORS},
+    "carom/FourBall-v1": {"game": "match", "rules": "fourball", "strokes": 200, "noise": _ERRORS},
+    "carom/OnePocket-v1": {"game": "match", "rules": "onepocket", "strokes": 200, "noise": _ERRORS},
 }
 """The ids, and the arguments of `GameEnv` that they have.
 
 Except in the first, strokes err as those of `carom.player(2)` at 2 m/s. The opponent of matches
 has the errors of a Fargo rating of 500 and plays the best of 12 strokes straight at balls, so that a step
-takes some milliseconds; `opponent=` and `opponent_shots=` make him weaker or stronger.
+takes some milliseconds; in snooker, four-ball and one-pocket he plans by 100 shots; `opponent=` and `opponent_shots=` make him weaker or stronger.
 """
 _registry = cast("Any", gymnasium)
 for _id, _arguments in GAMES.items():

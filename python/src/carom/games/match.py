@@ -17,6 +17,7 @@ from carom._rows import whole
 from carom._shot_options import Options, StopAt, chosen, options_of, shot_options
 from carom.dtypes import Records
 from carom.games._described import BreakOrder, Kind, MatchActs
+from carom.games._match_verbs import MatchVerbs
 from carom.games.plans import ByMatch, plan, player
 from carom.games.rules import (
     GAMES,
@@ -150,7 +151,7 @@ def _seating(
     return seating
 
 
-class Match(MatchActs):
+class Match(MatchVerbs, MatchActs):
     """A game for 2 to 8 seats, which is played act by act.
 
     The object contains the table, the balls, the rules, the players with their cues, the last shot

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, get_args
+from typing import TYPE_CHECKING, Any, NamedTuple, get_args, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,6 +20,7 @@ from carom._rows import number, pointer, seed_of, several, whole
 from carom._shot_options import Options, chosen, shot_options
 from carom.dtypes import Records
 from carom.games._described import Group, Kind
+from carom.games.cuts import Hit, aim_by_cut
 from carom.games.rules import GAMES, LEAVES, Game, GivenState, Hand, Made, Rules
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Goal",
+    "Hit",
     "Kind",
     "Pot",
     "Rating",
@@ -216,6 +218,7 @@ _WHY_NOT = {
 }
 
 
+@overload
 def aim(
     table: Table,
     balls: Records,
@@ -226,10 +229,35 @@ def aim(
     via: Sequence[int | str] = (),
     options: Options = _USUAL,
     **changes: Unpack[Changes],
-) -> Pot:
-    """Aim a pot: find the direction of the cue that sends `ball` to the middle of a pocket's mouth.
+) -> Pot: ...
+@overload
+def aim(
+    table: Table,
+    balls: Records,
+    cue: Records,
+    *,
+    ball: int,
+    cut: ArrayLike = 0.0,
+    options: Options = _USUAL,
+    **changes: Unpack[Changes],
+) -> Hit: ...
+def aim(
+    table: Table,
+    balls: Records,
+    cue: Records,
+    *,
+    ball: int,
+    pocket: int | str | None = None,
+    via: Sequence[int | str] = (),
+    cut: ArrayLike | None = None,
+    options: Options = _USUAL,
+    **changes: Unpack[Changes],
+) -> Pot | Hit:
+    """Aim a pot, or aim at a ball by its cut, also on a table without pockets.
 
-    The direction allows for squirt, swerve, throw and the cushion's model.
+    With `pocket`, it finds the direction of the cue that sends `ball` to the middle of the pocket's
+    mouth; without one, the direction in which the cue ball meets `ball` at the cut `cut`. Both allow
+    for squirt and swerve, and a pot also for throw and the cushion's model.
 
     Parameters
     ----------
@@ -241,14 +269,21 @@ def aim(
         Index of the ball.
     pocket : int or str
         Index of the pocket, or its name, such as "foot-left"; `table.pocket_names` lists the names.
+        Without it, the cue ball meets `ball` at the cut `cut`.
     via : sequence of int or str
         The path, up to four contacts in order: indices of balls, and the rails "head", "foot",
         "left" or "right". `["left"]` is a bank of `ball`, `[2]` a combination via ball 2, `["head",
         ball]` a kick. If `ball` is not named, it follows the last other ball.
+    cut : array_like, shape (...)
+        Without `pocket`: the angle in degrees, above -90 and below 90, from the direction of the
+        cue ball when it meets `ball` to the line of centres. 0 is a full hit; above 0, `ball`
+        leaves to the left. Default: 0. It is exact to 1e-6 degrees, with squirt and swerve. An
+        array results in an array of cues, broadcast against `cue`.
 
     Returns
     -------
-    Pot
+    Pot or Hit
+        With `pocket` a `Pot`, without one a `Hit`. `cue` of either is the stroke.
 
     Raises
     ------
@@ -256,7 +291,21 @@ def aim(
         There is no such aim, for a stated reason, or an argument is invalid.
     CaromError
         The layout, the cue or an option is invalid.
+
+    Examples
+    --------
+    >>> two = carom.balls([[0.6, 0.5], [0.6, 1.7]])
+    >>> cues = carom.aim(table, two, carom.cue(speed=3.0, a=0.3), ball=1, cut=[-30, 0, 30]).cue
+    >>> cues["phi"]
+    array([...])
     """
+    if pocket is None:
+        if several(via, "via", "names of rails and indices of balls"):
+            raise ValueError("via: it needs a pocket; pass pocket= too, or leave via= out")
+        models = chosen(options, changes)
+        return aim_by_cut(table, balls, cue, ball, 0.0 if cut is None else cut, models)
+    if cut is not None:
+        raise ValueError("pocket, cut: a pocket determines the cut; pass only one of both")
     check_table(table)
     layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
     if layout.ndim != 1:

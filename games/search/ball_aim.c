@@ -1,4 +1,4 @@
-/* Aiming, by the path of one shot on an empty cloth.
+/* Aims at a ball by its cut, by the path of one shot on an empty cloth.
  *
  * Up to its first contact the ball of the cue follows a path whose shape does not depend on the
  * direction phi of the cue: phi only turns it about the place where the ball starts. So the path
@@ -16,9 +16,11 @@
  *
  * A ball that is met while the cue pushes has the cut at which the ball of the cue would come
  * without it, straight from its place: the direction that it gets by both is another. */
-#include "shots/ball_aim.h"
+#include "ball_aim.h"
 
-#include "rows/quantities.h"
+#include "platform/elementary.h"
+#include "random_draws.h"
+#include "small_math.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -31,12 +33,24 @@ static const double far_away = 1e5;
 static const double edge = 1e-12;
 static const double same_cut = 0.01, same_length = 1e-9; /* degrees, m */
 
+/* The size of a vector in the plane of the cloth. */
+static double plane_size(const double a[2]) {
+  return sqrt(a[0] * a[0] + a[1] * a[1]);
+}
+
+/* The angle from one direction to another one, degrees, above 0 to the left. */
+static double angle_between(const double a[2], const double b[2]) {
+  const double along = a[0] * b[0] + a[1] * b[1], across = a[0] * b[1] - a[1] * b[0];
+  return carom_angle_of(along, across) / degree;
+}
+
 typedef struct path {
   carom_shot_ball ball;
   carom_event events[MOST_EVENTS];
   carom_ball_state final;
   carom_shot shot;
-  double touch, height, cut; /* R1 + R2 and the height of the ball aimed at, m; rad */
+  double touch, height; /* R1 + R2 and the height of the ball aimed at, m */
+  double sine, cosine;  /* of the cut */
 } path;
 
 /* What is aimed at, and how. */
@@ -50,9 +64,10 @@ typedef struct target {
                                  for phi = 0, degrees */
 } target;
 
-carom_table endless_cloth(double radius) {
-  const double far = far_away * radius,
-               corner[4][2] = {{-far, -far}, {far, -far}, {far, far}, {-far, far}};
+/* A table whose cushions no ball reaches, with the origin in its middle. */
+static carom_table endless_cloth(double radius) {
+  const double far = far_away * radius;
+  const double corner[4][2] = {{-far, -far}, {far, -far}, {far, far}, {-far, far}};
   carom_table table = {.width = 2.0 * far, .length = 2.0 * far, .rails = 4};
   for (int k = 0; k < 4; k++) {
     table.rail[k] = (carom_rail){.height = 1.25 * radius, .side = 1};
@@ -66,8 +81,8 @@ carom_table endless_cloth(double radius) {
  * direction. */
 static double ball_met(const path *p, const carom_ball_state *s, double q[2]) {
   const double h = s->r[2] - p->height, speed = plane_size(s->v);
-  const double share = sqrt(fmax(p->touch * p->touch - h * h, 0.0)) / speed,
-               x = share * cos(p->cut), y = share * sin(p->cut);
+  const double share = sqrt(fmax(p->touch * p->touch - h * h, 0.0)) / speed;
+  const double x = share * p->cosine, y = share * p->sine;
   q[0] = s->r[0] + x * s->v[0] - y * s->v[1];
   q[1] = s->r[1] + y * s->v[0] + x * s->v[1];
   return plane_size(q);
@@ -104,7 +119,8 @@ static bool next_root(const path *p, double distance, double step, double end, d
 
 /* The cut at which a ball is met that comes straight from its place at the strike, degrees. */
 static double pushed_cut(const target *t, double phi) {
-  const double turn = (phi + t->turn) * degree, u[2] = {cos(turn), sin(turn)};
+  double u[2];
+  carom_sincos_degrees(remainder(phi + t->turn, 360.0), &u[1], &u[0]);
   const double along = t->x * u[0] + t->y * u[1], across = t->x * u[1] - t->y * u[0];
   const double way = along - sqrt(fmax(t->touch * t->touch - across * across, 0.0));
   return angle_between(u, (const double[]){t->x - way * u[0], t->y - way * u[1]});
@@ -117,7 +133,7 @@ static bool holds(const target *t, const double q[2], double time, carom_cue *cu
                   carom_event *first, bool *barred) {
   carom_event events[MOST_EVENTS];
   carom_shot shot = {.events = events, .room = MOST_EVENTS};
-  cue->phi = remainder((atan2(t->y, t->x) - atan2(q[1], q[0])) / degree, 360.0);
+  cue->phi = remainder((carom_angle_of(t->x, t->y) - carom_angle_of(q[0], q[1])) / degree, 360.0);
   if (carom_shoot(t->table, t->balls, t->count, cue, &t->options, &shot) != CAROM_STOPPED_AT_EVENT)
     return false;
   /* The contacts of a rack that breaks share one instant: that of the cue's ball is wanted. */
@@ -142,9 +158,9 @@ static bool holds(const target *t, const double q[2], double time, carom_cue *cu
   return false;
 }
 
-aim_result aim_at(const carom_table *table, const carom_shot_ball *balls, int count,
-                  const carom_shot_options *options, int index, double cut, carom_cue *cue,
-                  carom_event *first) {
+aim_result carom_aim_at_ball(const carom_table *table, const carom_shot_ball *balls, int count,
+                             const carom_shot_options *options, int index, double cut,
+                             carom_cue *cue, carom_event *first) {
   const carom_shot_ball *cue_ball = &balls[cue->ball], *target_ball = &balls[index];
   const carom_table cloth = endless_cloth(cue_ball->kind.radius);
   target t = {.table = table, .balls = balls, .count = count, .index = index, .cut = cut};
@@ -152,7 +168,7 @@ aim_result aim_at(const carom_table *table, const carom_shot_ball *balls, int co
   double q[2];
   t.x = target_ball->state.r[0] - cue_ball->state.r[0];
   t.y = target_ball->state.r[1] - cue_ball->state.r[1];
-  t.distance = hypot(t.x, t.y);
+  t.distance = sqrt(t.x * t.x + t.y * t.y);
   t.options = (carom_shot_options){.world = options->world,
                                    .space = options->space,
                                    .events_most = MOST_EVENTS,
@@ -160,15 +176,15 @@ aim_result aim_at(const carom_table *table, const carom_shot_ball *balls, int co
   /* The path on an endless cloth, for phi = 0. */
   path p = {.ball = *cue_ball,
             .touch = cue_ball->kind.radius + target_ball->kind.radius,
-            .height = target_ball->state.r[2],
-            .cut = cut * degree};
+            .height = target_ball->state.r[2]};
+  carom_sincos_degrees(cut, &p.sine, &p.cosine);
   carom_cue straight = *cue;
   p.ball.state.r[0] = p.ball.state.r[1] = straight.phi = 0.0;
   p.shot = (carom_shot){.events = p.events, .room = MOST_EVENTS, .final = &p.final};
   straight.ball = 0;
   carom_shoot(&cloth, &p.ball, 1, &straight, &t.options, &p.shot);
   t.touch = p.touch;
-  t.turn = atan2(p.events[0].after[0].v[1], p.events[0].after[0].v[0]) / degree;
+  t.turn = carom_angle_of(p.events[0].after[0].v[0], p.events[0].after[0].v[1]) / degree;
   t.options.stop_at = CAROM_STOP_AT_CONTACT | CAROM_STOP_AT(CAROM_EVENT_RAIL) |
                       CAROM_STOP_AT(CAROM_EVENT_JAW) | CAROM_STOP_AT(CAROM_EVENT_POCKET) |
                       CAROM_STOP_AT(CAROM_EVENT_RAIL_TOP) | CAROM_STOP_AT(CAROM_EVENT_LEFT_TABLE);

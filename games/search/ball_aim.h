@@ -1,7 +1,7 @@
 /* The direction of a cue that makes its ball meet another one at a cut, whatever spin, elevation
  * and speed do to the path. */
-#ifndef CAROM_CLI_BALL_AIM_H
-#define CAROM_CLI_BALL_AIM_H
+#ifndef CAROM_PLAN_BALL_AIM_H
+#define CAROM_PLAN_BALL_AIM_H
 
 #include "carom_shot.h"
 
@@ -17,11 +17,8 @@ typedef enum aim_result {
  * `cut` degrees from its direction there to the line of centres, above 0 to the left: angles as
  * seen from above. The arguments are such that carom_shot_check() accepts them; the other balls
  * are at rest. AIM_BARRED: *first is that contact in the first of those directions. */
-aim_result aim_at(const carom_table *table, const carom_shot_ball *balls, int count,
-                  const carom_shot_options *options, int index, double cut, carom_cue *cue,
-                  carom_event *first);
-
-/* A table whose cushions no ball reaches, with the origin in its middle. */
-carom_table endless_cloth(double radius);
+aim_result carom_aim_at_ball(const carom_table *table, const carom_shot_ball *balls, int count,
+                             const carom_shot_options *options, int index, double cut,
+                             carom_cue *cue, carom_event *first);
 
 #endif
