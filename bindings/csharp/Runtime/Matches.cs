@@ -241,9 +241,9 @@ namespace Carom {
       Told(Native.carom_match_concede(Open, player));
     }
     /// <summary>Writes words into the recording: texts by their keys, such as "comment", and the
-    /// time in s that the last stroke took the player, 0: none. docs/reference/files.md has the keys; those
-    /// of a caller begin with "x_". `seat` is who says it; null: nobody in particular. The game and
-    /// its hashes do not change.</summary>
+    /// time in s that the last stroke took the player, 0: none. docs/reference/files.md has the
+    /// keys; those of a caller begin with "x_". `seat` is who says it; null: nobody in particular.
+    /// The game and its hashes do not change.</summary>
     public void Note(int? seat, Dictionary<string, string> said, double seconds = 0) {
       var line = new StringBuilder("{\"note\":{");
       string comma = "";

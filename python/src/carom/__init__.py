@@ -315,9 +315,10 @@ def __getattr__(name: str) -> object:
 
 
 def isa_in_force() -> str:
-    """Return the instruction set in use: "plain", "sse2", "neon", "avx2" or "avx512".
+    """Return the instruction set in use: "plain", "neon", "avx2" or "avx512".
 
-    The environment variable CAROM_ISA can limit it.
+    It is the best one of the processor, unless the environment variable CAROM_ISA limits it.
+    "sse2" exists only in a package that was built with ``CAROM_ISAS=all``.
     """
     return str(_ffi.string(_lib.carom_isa_name(_lib.carom_isa_in_force())).decode())
 
