@@ -37,7 +37,15 @@ def figures():
 
 # Figures in bytes that are no size of anything that is built: the promise of core/unit/stack, a double,
 # and what follows from other figures.
-OTHERS = ["31 bytes", "255 bytes", "76 KiB", "8 bytes, or text", "92 MB/s"]
+OTHERS = [
+    "30 bytes",
+    "31 bytes",
+    "8192 bytes",
+    "255 bytes",
+    "76 KiB",
+    "8 bytes, or text",
+    "92 MB/s",
+]
 A_SIZE = re.compile(r"[\d.]+ (?:bytes|kB|KiB|MB|MiB)\b")
 
 

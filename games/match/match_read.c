@@ -49,11 +49,11 @@ static const char *trimmed(const char *line, size_t *size) {
 /* Whether a line is of a kind, such as "event". */
 static bool is_kind(const char *line, size_t size, const char *kind) {
   const size_t length = strlen(kind);
-  size_t at = 1; /* of the quote behind the brace */
-  while (at < size && (line[at] == ' ' || line[at] == '\t'))
-    at++;
-  return size > at + length + 2 && line[0] == '{' && line[at] == '"' &&
-         memcmp(line + at + 1, kind, length) == 0 && line[at + 1 + length] == '"';
+  size_t line_start = 1; /* of the quote behind the brace */
+  while (line_start < size && (line[line_start] == ' ' || line[line_start] == '\t'))
+    line_start++;
+  return size > line_start + length + 2 && line[0] == '{' && line[line_start] == '"' &&
+         memcmp(line + line_start + 1, kind, length) == 0 && line[line_start + 1 + length] == '"';
 }
 
 /* A line that is not by the rules: what is due, and why. Nothing is read behind it. */

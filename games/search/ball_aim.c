@@ -198,7 +198,8 @@ aim_result carom_aim_at_ball(const carom_table *table, const carom_shot_ball *ba
     if (fabs(ball_met(&p, &p.events[k].after[0], q) - t.distance) < same_length &&
         holds(&t, q, time + same_length, cue, first, &barred))
       return AIM_FOUND;
-    while (length > 0.0 && next_root(&p, t.distance, length / SAMPLES, end, &time, q, &reached))
+    while (length > 0.0 &&
+           next_root(&p, t.distance, length / (double)SAMPLES, end, &time, q, &reached))
       if (holds(&t, q, time, cue, first, &barred))
         return AIM_FOUND;
   }

@@ -161,7 +161,7 @@ TEST(ways_that_cannot_be) {
   const carom_pot wrong[] = {
       {.ball = 0, .pocket = 1},
       {.ball = 8, .pocket = 6},
-      {.ball = 8, .pocket = -1},
+      {.ball = 8, .pocket = -2},
       {.ball = BALLS, .pocket = 1},
       {.ball = 5, .pocket = 1}, /* which is down */
       {.ball = 8, .pocket = 1, .vias = CAROM_VIA_MOST + 1},

@@ -107,6 +107,11 @@ CALLS = [
         {"table": TABLE, "balls": carom.racks.nineball(TABLE), "breaks": 16, "best": 1},
         {"rack": "nineball"},
     ),
+    (
+        carom.breaks,
+        {"rack": "nineball", "table": TABLE, "balls": carom.racks.nineball(TABLE), "racks": 2},
+        {"rack": "nineball", "aim": "full"},
+    ),
     (carom.odds, {"ratings": (500, 600)}, {"order": "winner"}),
     (carom.Match, {"table": TABLE}, {"rules": "nineball"}),
     (carom.Match, {"table": TABLE, "rules": "eightball", "balls": RACK}, {"hand": "anywhere"}),
@@ -122,6 +127,8 @@ ELSEWHERE = {
     ("Goal", "kind"): "checked by plan, tested below",
     ("Ruling", "hand"): "a result",
     ("sequence", "group"): "the same lookup as plan",
+    ("why", "group"): "the same lookup as plan",
+    ("why", "rules"): "the same lookup as plan",
 }
 
 

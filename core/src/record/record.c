@@ -396,24 +396,24 @@ typedef struct words {
 } words;
 
 /* Adds a byte to a text. */
-static bool add_byte(reader *in, words *to, unsigned char byte) {
-  if (to->size == to->most) {
+static bool add_byte(reader *in, words *target, unsigned char byte) {
+  if (target->size == target->most) {
     char what[64], number[CAROM_NUMBER_TEXT];
-    number[carom_number_write((double)to->most, number)] = '\0';
+    number[carom_number_write((double)target->most, number)] = '\0';
     char *tail = put(what, what + 48, "must have at most ");
     *put(put(tail, what + 48, number), what + 56, " bytes") = '\0';
     return wrong(in, what);
   }
   if (byte < ' ' || byte == 127)
     return wrong(in, "must have no control characters and line ends");
-  to->text[to->size++] = byte;
+  target->text[target->size++] = byte;
   return true;
 }
 
 /* Adds a code point as UTF-8. */
-static bool add_code_point(reader *in, words *to, uint32_t point) {
+static bool add_code_point(reader *in, words *target, uint32_t point) {
   if (point < 0x80)
-    return add_byte(in, to, (unsigned char)point);
+    return add_byte(in, target, (unsigned char)point);
   int more = 1; /* continuation bytes, of 6 bits each */
   uint32_t mark = 0xc0;
   if (point >= 0x800) {
@@ -424,10 +424,10 @@ static bool add_code_point(reader *in, words *to, uint32_t point) {
     more = 3;
     mark = 0xf0;
   }
-  if (!add_byte(in, to, (unsigned char)(mark | point >> 6 * more)))
+  if (!add_byte(in, target, (unsigned char)(mark | point >> 6 * more)))
     return false;
   while (more-- > 0)
-    if (!add_byte(in, to, (unsigned char)(0x80 | (point >> 6 * more & 0x3f))))
+    if (!add_byte(in, target, (unsigned char)(0x80 | (point >> 6 * more & 0x3f))))
       return false;
   return true;
 }
@@ -452,7 +452,7 @@ static bool read_unit(reader *in, uint32_t *unit) {
 }
 
 /* \uXXXX, or two of them for a code point beyond 16 bits; the "\u" was read. */
-static bool read_code_point(reader *in, words *to) {
+static bool read_code_point(reader *in, words *target) {
   uint32_t point, low;
   if (!read_unit(in, &point))
     return false;
@@ -468,12 +468,12 @@ static bool read_code_point(reader *in, words *to) {
       return wrong(in, "must have the second half of a surrogate pair");
     point = 0x10000 + ((point - 0xd800) << 10 | (low - 0xdc00));
   }
-  return add_code_point(in, to, point);
+  return add_code_point(in, target, point);
 }
 
 /* A text in quotes, with the escapes of JSON for characters that it may have. */
 static bool read_words(reader *in, const carom_field *f, unsigned char *text) {
-  words to = {text, 0, f->size - 1};
+  words target = {text, 0, f->size - 1};
   memset(text, 0, f->size);
   if (!next_is(in, '"'))
     return wrong(in, "must be a text in quotes");
@@ -482,7 +482,7 @@ static bool read_words(reader *in, const carom_field *f, unsigned char *text) {
     if (c == '\\' && in->position < in->end) {
       c = *in->position++;
       if (c == 'u') {
-        if (!read_code_point(in, &to))
+        if (!read_code_point(in, &target))
           return false;
         continue;
       }
@@ -491,7 +491,7 @@ static bool read_words(reader *in, const carom_field *f, unsigned char *text) {
       else if (c != '"' && c != '\\' && c != '/')
         return wrong(in, "has an unknown escape: JSON has \\\", \\\\, \\/ and \\u");
     }
-    if (!add_byte(in, &to, (unsigned char)c))
+    if (!add_byte(in, &target, (unsigned char)c))
       return false;
   }
   return expect(in, '"', "");
@@ -501,12 +501,12 @@ static bool read_words(reader *in, const carom_field *f, unsigned char *text) {
  * it. */
 static bool read_digits(reader *in, const carom_field *f, unsigned char *text) {
   static const char usual[] = "+-.0123456789eE";
-  words to = {text, 0, f->size - 1};
+  words target = {text, 0, f->size - 1};
   memset(text, 0, f->size);
   while (in->position < in->end && *in->position != '\0' && strchr(usual, *in->position) != NULL)
-    if (!add_byte(in, &to, (unsigned char)*in->position++))
+    if (!add_byte(in, &target, (unsigned char)*in->position++))
       return false;
-  return to.size > 0 || wrong(in, "must be a text in quotes or a number");
+  return target.size > 0 || wrong(in, "must be a text in quotes or a number");
 }
 
 /* The value of a key of another program, which is kept with its key. */

@@ -37,11 +37,11 @@ void lab_interval(double wins, double count, double bounds[2]) {
 /* A stroke of a match: the side that played it, and its chances compared with the result. */
 typedef struct told_stroke {
   int side, kind;
-  double told[CHANCES], came[CHANCES];
+  double forecast[CHANCES], came[CHANCES];
 } told_stroke;
 
 typedef struct played_match {
-  told_stroke *told;
+  told_stroke *forecast;
   size_t count, room;
   double won; /* by the first player: 1, 0, or 0.5 of a draw */
   long strokes;
@@ -49,7 +49,7 @@ typedef struct played_match {
 } played_match;
 
 typedef struct block {
-  const lab_ratings *wanted;
+  const lab_ratings *request;
   int first;
   played_match matches[BLOCK];
 } block;
@@ -84,14 +84,15 @@ static void draw_places(carom_match *match, const carom_player *player, uint64_t
 static void keep_stroke(const carom_match *match, int side, uint32_t on,
                         const carom_plan_stroke *choice, played_match *result) {
   const carom_turn *turn = &match->ruling.turn;
-  result->told = grow(result->told, &result->room, result->count + 1, sizeof *result->told);
+  result->forecast =
+      grow(result->forecast, &result->room, result->count + 1, sizeof *result->forecast);
   bool keeps = turn->outcome != CAROM_TURN_PASS && turn->outcome != CAROM_TURN_LOSE;
   if (match->rules.race == CAROM_RACE_SEATS && turn->outcome == CAROM_TURN_PASS)
     keeps = turn->foul == 0 && (match->ruling.facts.down & on) != 0;
-  result->told[result->count++] =
+  result->forecast[result->count++] =
       (told_stroke){.side = side,
                     .kind = choice->kind,
-                    .told = {choice->keep, choice->foul, choice->lose, choice->value},
+                    .forecast = {choice->keep, choice->foul, choice->lose, choice->value},
                     .came = {(double)keeps, (double)(turn->foul != 0),
                              (double)(turn->outcome == CAROM_TURN_LOSE)}};
 }
@@ -123,31 +124,31 @@ static bool play_stroke(carom_match *match, carom_plan_job *job, carom_plan_opti
   return status == CAROM_OK;
 }
 
-static void play(const lab_ratings *wanted, int number, played_match *result) {
+static void play(const lab_ratings *request, int number, played_match *result) {
   carom_table table;
-  carom_table_make((carom_table_kind)carom_rules_about_of(wanted->rules)->table, &table);
-  lab_random draw = {((uint64_t)wanted->seed << 32) + 104729 * ((uint64_t)number + 1)};
+  carom_table_make((carom_table_kind)carom_rules_about_of(request->rules)->table, &table);
+  lab_random draw = {((uint64_t)request->seed << 32) + 104729 * ((uint64_t)number + 1)};
   carom_seating seating;
-  const bool tells = wanted->shots > 0;
-  carom_seating_make(wanted->rules, tells ? 0 : 2, &seating);
+  const bool tells = request->shots > 0;
+  carom_seating_make(request->rules, tells ? 0 : 2, &seating);
   carom_player player[CAROM_SEATS_MOST];
   for (int seat = 0; seat < seating.count; seat++) {
-    const double rating = wanted->rating[seat % 2];
+    const double rating = request->rating[seat % 2];
     seating.seat[seat].rating = rating;
-    player[seat] = carom_player_rated(rating, wanted->rules);
+    player[seat] = carom_player_rated(rating, request->rules);
     if (tells)
       player[seat].only_pots = 0.0;
   }
-  const carom_match_setup setup = {.rules = wanted->rules,
+  const carom_match_setup setup = {.rules = request->rules,
                                    .table = &table,
-                                   .target = wanted->target,
+                                   .target = request->target,
                                    .side = number % 2,
                                    .seed = lab_bits(&draw),
                                    .seating = &seating};
 
   /* the match, and room for the plans of both */
   carom_match *match = allocate(1, sizeof *match);
-  carom_plan_options options = {.shots = wanted->shots};
+  carom_plan_options options = {.shots = request->shots};
   carom_plan_job job = {.memory_size = carom_plan_memory(&options)};
   job.memory = allocate(1, job.memory_size);
   *result = (played_match){.failed = carom_match_begin_with(match, &setup) != CAROM_OK};
@@ -164,9 +165,9 @@ static void play(const lab_ratings *wanted, int number, played_match *result) {
   if (match->winner == 1 || match->winner == 2)
     result->won = match->winner == 1;
   for (size_t k = 0; k < result->count; k++) {
-    result->told[k].came[WIN] = match->winner == 1 + result->told[k].side;
+    result->forecast[k].came[WIN] = match->winner == 1 + result->forecast[k].side;
     if (match->winner == CAROM_DRAWN)
-      result->told[k].came[WIN] = 0.5;
+      result->forecast[k].came[WIN] = 0.5;
   }
   if (result->failed)
     complain("match %d: %s", number, match->fault);
@@ -177,30 +178,30 @@ static void play(const lab_ratings *wanted, int number, played_match *result) {
 static size_t play_some(const void *context, size_t start, size_t end) {
   block *b = *(block *const *)context;
   for (size_t k = start; k < end; k++)
-    play(b->wanted, b->first + (int)k, &b->matches[k]);
+    play(b->request, b->first + (int)k, &b->matches[k]);
   return end;
 }
 
 /* Plays the next block of matches. Returns how many they are; 0: there is none, or one failed. */
 static int play_block(block *b) {
-  int count = b->wanted->matches - b->first;
+  int count = b->request->matches - b->first;
   if (count > BLOCK)
     count = BLOCK;
-  carom_in_threads(play_some, &b, (size_t)count, b->wanted->threads, 1);
+  carom_in_threads(play_some, &b, (size_t)count, b->request->threads, 1);
   b->first += count;
-  progress_show("matches", b->first, b->wanted->matches);
+  progress_show("matches", b->first, b->request->matches);
   for (int k = 0; k < count; k++)
     if (b->matches[k].failed)
       return 0;
   return count;
 }
 
-bool lab_play_ratings(const lab_ratings *wanted) {
+bool lab_play_ratings(const lab_ratings *request) {
   const double begin = processor_ns();
   double won = 0.0;
   long strokes = 0, unfinished = 0;
-  block b = {.wanted = wanted};
-  while (b.first < wanted->matches) {
+  block b = {.request = request};
+  while (b.first < request->matches) {
     const int count = play_block(&b);
     if (count == 0)
       return false;
@@ -213,38 +214,39 @@ bool lab_play_ratings(const lab_ratings *wanted) {
   progress_clear();
 
   /* the fraction of the first player, and what is due */
-  const double count = wanted->matches, *rating = wanted->rating;
+  const double count = request->matches, *rating = request->rating;
   const double due = 1.0 / (1.0 + exp2(0.01 * (rating[1] - rating[0])));
   double bounds[2];
   lab_interval(won, count, bounds);
   printf("%s: %g beats %g in %g of %g matches, %.1f %% (95 %%: %.1f to %.1f), due %.1f %%; "
          "unfinished %ld; %.1f strokes and %.2f s a match\n",
-         carom_word(CAROM_WORDS_RULES, (int)wanted->rules), rating[0], rating[1], won, count,
+         carom_word(CAROM_WORDS_RULES, (int)request->rules), rating[0], rating[1], won, count,
          100.0 * won / count, 100.0 * bounds[0], 100.0 * bounds[1], 100.0 * due, unfinished,
          (double)strokes / count, 1e-9 * (processor_ns() - begin) / count);
   return true;
 }
 
 /* A row of CSV for each chance of a kind of stroke; kind CAROM_PLAN_KINDS: of all strokes. */
-static void print_told(const lab_ratings *wanted, int kind, const lab_comparison rows[CHANCES]) {
+static void print_told(const lab_ratings *request, int kind, const lab_comparison rows[CHANCES]) {
   static const char *const chances[CHANCES] = {"keep", "foul", "lose", "win"};
   const char *name = "all";
   if (kind < CAROM_PLAN_KINDS)
     name = carom_plan_kind_name((carom_plan_kind)kind);
-  const bool is_alone = carom_plan_rules_of(wanted->rules).race == CAROM_RACE_ALONE;
+  const bool is_alone = carom_plan_rules_of(request->rules).race == CAROM_RACE_ALONE;
   const int chances_told = is_alone ? WIN : CHANCES; /* a single player plays for points */
   for (int k = 0; k < chances_told && rows[k].strokes > 0; k++) {
     const double n = (double)rows[k].strokes;
-    printf("%s,%s,%s,%ld,%.3f,%.3f,%+.3f,%.3f\n", carom_word(CAROM_WORDS_RULES, (int)wanted->rules),
-           name, chances[k], rows[k].strokes, rows[k].predicted / n, rows[k].came / n,
-           (rows[k].predicted - rows[k].came) / n, lab_compare_error(&rows[k]));
+    printf("%s,%s,%s,%ld,%.3f,%.3f,%+.3f,%.3f\n",
+           carom_word(CAROM_WORDS_RULES, (int)request->rules), name, chances[k], rows[k].strokes,
+           rows[k].predicted / n, rows[k].came / n, (rows[k].predicted - rows[k].came) / n,
+           lab_compare_error(&rows[k]));
   }
 }
 
-bool lab_play_told(const lab_ratings *wanted) {
+bool lab_play_told(const lab_ratings *request) {
   lab_comparison rows[CAROM_PLAN_KINDS + 1][CHANCES] = {0};
-  block b = {.wanted = wanted};
-  while (b.first < wanted->matches) {
+  block b = {.request = request};
+  while (b.first < request->matches) {
     const int count = play_block(&b);
     if (count == 0)
       return false;
@@ -252,17 +254,18 @@ bool lab_play_told(const lab_ratings *wanted) {
       played_match *match = &b.matches[k];
       for (size_t n = 0; n < match->count; n++)
         for (int chance = 0; chance < CHANCES && match->ended; chance++) {
-          const told_stroke *stroke = &match->told[n];
-          lab_compare(&rows[stroke->kind][chance], stroke->told[chance], stroke->came[chance]);
-          lab_compare(&rows[CAROM_PLAN_KINDS][chance], stroke->told[chance], stroke->came[chance]);
+          const told_stroke *stroke = &match->forecast[n];
+          lab_compare(&rows[stroke->kind][chance], stroke->forecast[chance], stroke->came[chance]);
+          lab_compare(&rows[CAROM_PLAN_KINDS][chance], stroke->forecast[chance],
+                      stroke->came[chance]);
         }
       lab_compare_end(&rows[0][0], (CAROM_PLAN_KINDS + 1) * CHANCES);
-      free(match->told);
+      free(match->forecast);
     }
   }
   progress_clear();
   for (int kind = 0; kind <= CAROM_PLAN_KINDS; kind++)
-    print_told(wanted, kind, rows[kind]);
+    print_told(request, kind, rows[kind]);
   fflush(stdout);
   return true;
 }
