@@ -248,7 +248,7 @@ def test_refusals(snooker, tmp_path):
     for _ in range(10):
         writer.write(np.ascontiguousarray(snooker.film.picture[200:600, 300:940]))
     writer.release()
-    assert "the cloth reaches the border of the picture" in error(near)
+    assert "the cloth reaches the border of the frame" in error(near)
 
 
 def test_clocks():
