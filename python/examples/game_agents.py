@@ -33,6 +33,8 @@ from carom.games.drills import Break, ThreeCushion
 from carom.games.gymnasium import GAMES, GameEnv, Rules
 from carom.games.matches import Match
 from carom.games.pool import Hand
+from carom.games.potting import Potting
+from carom.games.table_games import TableGame
 
 Doubles = NDArray[np.float64]
 Agent = Callable[[Rules, Doubles], Doubles]
@@ -46,6 +48,17 @@ BEHIND = np.array(
 ANYWHERE = np.array(
     [[x, y] for x in (-0.75, -0.25, 0.25, 0.75) for y in (-0.8, -0.4, 0.0, 0.4, 0.8)]
 )
+
+
+# These agents do not know the observations of games of two sides on any table.
+KNOWN = [name for name, arguments in GAMES.items() if arguments.get("game") != "match"]
+
+
+def known(rules: Rules) -> Potting | Match:
+    """The rules, if these agents know the game."""
+    if isinstance(rules, TableGame):
+        raise TypeError(f"these agents play {', '.join(KNOWN)}")
+    return rules
 
 
 def random_agent(seed: int) -> Agent:
@@ -70,6 +83,7 @@ def ghosts(table: carom.Table, radius: float, cue_ball: Doubles, balls: Doubles)
 
 def candidates(rules: Rules, observation: Doubles) -> Doubles:
     """Actions to try, of shape (aims, speeds, sides, acts)."""
+    rules = known(rules)
     base = rules.pool.base if isinstance(rules, Match) else rules
     seen = observation[: 3 * base.balls + 3].reshape(-1, 3)
     targets = np.flatnonzero(seen[1:, 2]) + 1
@@ -118,6 +132,7 @@ def candidates(rules: Rules, observation: Doubles) -> Doubles:
 
 def greedy_agent(rules: Rules, observation: Doubles) -> Doubles:
     """The best of the strokes that are tried."""
+    rules = known(rules)
     actions = candidates(rules, observation)
     worth = rules.tried(observation, actions.reshape(-1, rules.acts)).reshape(actions.shape[:-1])
     # A small part of the mean of a stroke and its neighbours to both sides decides between equals.
@@ -129,7 +144,7 @@ def greedy_agent(rules: Rules, observation: Doubles) -> Doubles:
 
 def planner(shots: int) -> Agent:
     """The library's, with so many shots a stroke."""
-    return lambda rules, observation: rules.best_seen(observation, shots=shots)
+    return lambda rules, observation: known(rules).best_seen(observation, shots=shots)
 
 
 def play(agent: Agent, game: str, games: int, seed: int, **rules: Any) -> tuple[Doubles, str]:
@@ -172,7 +187,7 @@ def main(arguments: list[str] | None = None) -> dict[str, Doubles]:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--game", default="carom/RunOutSix-v1", choices=["all", *GAMES])
+    parser.add_argument("--game", default="carom/RunOutSix-v1", choices=["all", *KNOWN])
     parser.add_argument("--games", type=int, default=100)
     parser.add_argument("--balls", type=int, help="instead of the game's own")
     parser.add_argument("--strokes", type=int, help="instead of the game's own")
@@ -199,7 +214,7 @@ def main(arguments: list[str] | None = None) -> dict[str, Doubles]:
         f"plan of {shots} shots": planner(int(shots))
         for shots in filter(None, options.plans.split(","))
     }
-    every = [name for name in GAMES if name != "carom/Potting-v1"]
+    every = [name for name in KNOWN if name != "carom/Potting-v1"]
     games = every if options.game == "all" else [options.game]
     found: dict[str, Doubles] = {}
     cells: dict[str, list[str]] = {name: [name] for name in agents}

@@ -63,6 +63,7 @@ class Sight:
     """What a policy sees of a game, and the strokes of its answers."""
 
     def __init__(self, rules: Rules) -> None:
+        rules = game_agents.known(rules)
         self.rules, self.match = rules, isinstance(rules, Match)
         self.base = rules.pool.base if isinstance(rules, Match) else rules
         holes = self.base.table.pockets["centre"]
@@ -318,7 +319,13 @@ def main(arguments: list[str] | None = None) -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("out", type=Path, help="the picture of the curves")
-    parser.add_argument("--only", nargs="+", choices=[*GAMES], default=[*GAMES], help="these games")
+    parser.add_argument(
+        "--only",
+        nargs="+",
+        choices=game_agents.KNOWN,
+        default=game_agents.KNOWN,
+        help="these games",
+    )
     parser.add_argument("--minutes", type=float, default=5.0, help="of training, for each game")
     parser.add_argument(
         "--games", type=int, default=400, help="that all agents play; an eighth of them of matches"
