@@ -43,10 +43,10 @@ def pages_linked(page):
 
 def too_far(source):
     """The pages, and what a reader must find, that are more than FAR links from README."""
-    reached = todo = {source.resolve() / "README.md"}
+    reached = unread = {source.resolve() / "README.md"}
     for _ in range(FAR):
-        found = set().union(*(pages_linked(page) for page in todo if page.suffix == ".md"))
-        todo = found - reached
+        found = set().union(*(pages_linked(page) for page in unread if page.suffix == ".md"))
+        unread = found - reached
         reached = reached | found
     wanted = [source / name for name in ("LICENSE", "NOTICE", "CITATION.cff")]
     wanted += sorted(source.glob("docs/*/*.md"))

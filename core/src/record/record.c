@@ -451,7 +451,7 @@ static bool read_unit(reader *in, uint32_t *unit) {
   return true;
 }
 
-/* \uXXXX, or two of them for a code point beyond 16 bits; the "\u" was read. */
+/* \u and four digits, or two of them for a code point beyond 16 bits; the "\u" was read. */
 static bool read_code_point(reader *in, words *target) {
   uint32_t point, low;
   if (!read_unit(in, &point))
