@@ -65,7 +65,8 @@ FLAG(shoot_job, option_plot_log, "plot-log", plot_log, "draw the output under th
 OPTION(
     shoot_job, option_spread, "spread", error, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
     "standard deviations of a player's errors: speed in %, aim in degrees, tip in radii, such as "
-    "1%,0.05,0.01,0.01. carom reports those of the final positions, to first order; --plot "
+    "1%,0.05,0.01,0.01. carom reports the deviations of the final positions, to first order; "
+    "--plot "
     "shows bands, and how far they hold");
 OPTION(shoot_job, option_leave, "leave", leave, LEAVE_ARGUMENT, set_leave, 0,
        "choose the stroke that most often leaves the cue ball within R (0.15 m) of this position, "

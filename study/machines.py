@@ -37,8 +37,14 @@ CHAINS += ["loads_per_step", "stores_per_step", "shuffles_per_step", "speedup"]
 BEST = "float@archnative"
 FIGURES = ("speedup", "steps", "performance")  # of docs/study/paper.md, by their data
 PAGE_WIDTH = 120  # of a line of the docs
-# After a number of claims.
-VERDICTS_COUNTED = {"holds": "hold", "does not hold here": "do not hold here"}
+# In the order in which they are counted: the words after a number of claims.
+VERDICTS_COUNTED = {
+    "holds": "hold",
+    "indistinguishable": "indistinguishable",
+    "weaker": "weaker",
+    "does not hold here": "do not hold here",
+    "not measurable here": "not measurable here",
+}
 NOTES = ("processor", "processor family", "commit", "date")
 VERDICTS_SHOWN = {"holds": "holds", "does not hold here": "**fails**", "not measurable here": "–"}
 BLOCK = re.compile(
@@ -447,7 +453,7 @@ def counted(verdicts):
     """ "37 hold, 8 indistinguishable": how many claims have which verdict."""
     count = Counter(verdicts)
     return ", ".join(
-        f"{number} {VERDICTS_COUNTED.get(verdict, verdict)}" for verdict, number in count.items()
+        f"{count[verdict]} {words}" for verdict, words in VERDICTS_COUNTED.items() if count[verdict]
     )
 
 

@@ -50,13 +50,7 @@ from study.report.data import measure as measure_files
 from study.report.sheets import ROOT, Sheet, number
 
 HERE = Path(__file__).resolve().parent
-VERDICTS = HOLDS, INDISTINGUISHABLE, WEAKER, FAILS, UNMEASURED = (
-    "holds",
-    "indistinguishable",
-    "weaker",
-    "does not hold here",
-    "not measurable here",
-)
+HOLDS, INDISTINGUISHABLE, WEAKER, FAILS, UNMEASURED = machines.VERDICTS_COUNTED
 UNKNOWN = "cause unknown"
 CLAIM_WIDTH = 58
 
@@ -185,7 +179,7 @@ def judge(folder, claims="claims.csv"):
 def conclude(folder, rows):
     """Sentences that compare the paper's result with this run's."""
     run = Run(folder)
-    verdicts = sorted((row["verdict"] for row in rows), key=VERDICTS.index)
+    verdicts = [row["verdict"] for row in rows]
     findings = [
         machines.compilers_of(Sheet(folder / "configs.csv")),
         f"claims of the paper: {len(rows)}; {machines.counted(verdicts)}",

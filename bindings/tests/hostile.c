@@ -3,7 +3,7 @@
  *
  *     ROWS    begin LINE, place LINE and act LINE: the match, and the honest act with its ruling;
  *             row NAME|SEAT|LINE: a line that a peer sends before that act
- *     MATCH   a whole match that goes on from there, as it must end on a server
+ *     MATCH   a complete match that continues from there, as it must end on a server
  *     SENDS   SEAT LINE: the acts of that match, as its clients send them;
  *             stop LINE: the honest act, stopped while balls move */
 #include "../../games/tests/hostile.h"
@@ -43,7 +43,7 @@ static int write_rows(const char *path, FILE *file) {
   return count;
 }
 
-/* The lines of an act that a seat has done: those of its ruling are not sent. */
+/* The line of an act that a seat has done; the lines of its ruling are not sent. */
 static void keep(FILE *file, FILE *sends, carom_status status, int seat) {
   if (status < 0) {
     fprintf(stderr, "%s: %s\n", carom_status_string(status), match.fault);

@@ -34,7 +34,7 @@ for name, seat, text in rows:
         assert why, f"{name} has no reason"
     assert state_of(game) == state, f"{name} changed the match"
 
-    # The honest act: its line, then those of its ruling, then all again.
+    # The honest act: its line, then the lines of its ruling, then all again.
     twin = game.copy()
     assert twin.receive(act[0], 0), f"{name}: the honest line is not accepted behind it"
     assert twin.lines == game.lines + act, f"{name}: the honest act has other lines behind it"

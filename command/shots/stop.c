@@ -236,7 +236,8 @@ bool stop_choose(const stop_target *target, shoot_flags *f, const carom_shot_opt
   }
 
   /* the best speed near it, and the range around that */
-  const int lower = best > 0 ? best - 1 : best, upper = best + 1 < SPEEDS_TRIED ? best + 1 : best;
+  const int lower = best > 0 ? best - 1 : best;
+  const int upper = best + 1 < SPEEDS_TRIED ? best + 1 : best;
   double found = refine(&s, speed[lower], speed[upper]), least = try_speed(&s, found);
   if (!(least <= miss[best])) {
     found = speed[best];
