@@ -133,9 +133,6 @@ typedef struct carom_cushion_options {
   uint64_t reserved[2];    /* must be 0. */
 } carom_cushion_options;
 
-/* The name of a model ("mathavan"), or NULL for a value not listed. */
-CAROM_API const char *carom_cushion_model_name(carom_cushion_model model);
-
 /* Resolves one impact. `opt` may be NULL for the defaults; `out` may not overlap `in`.
  * CAROM_OK: `*out` is the motion after the impact. CAROM_SEPARATING: the ball does not move into
  * the cushion, and `*out` is its motion before. An error: every number of `*out` is NaN (but
@@ -247,9 +244,6 @@ typedef enum carom_label {
   CAROM_BALL_OFF = 6         /* off the table, out of play. The position is where the ball left the
                                 table */
 } carom_label;
-
-/* The name of a label ("sliding"), or NULL for a value not listed. */
-CAROM_API const char *carom_label_name(carom_label label);
 
 /* The constants of a ball and of its cloth. All doubles, without gaps. */
 typedef struct carom_ball_kind {
@@ -415,10 +409,6 @@ typedef enum carom_table_kind {
   CAROM_TABLE_FOURBALL = 9      /* 1.27 x 2.54 m, no pockets */
 } carom_table_kind;
 
-/* The name of a table ("9ft", "threecushion"), as in files of `carom shoot`, or NULL for a value
- * not listed. */
-CAROM_API const char *carom_table_name(carom_table_kind kind);
-
 /* The game for whose balls a table is made: CAROM_GAME_POOL unless it is a table of another
  * game. */
 CAROM_API carom_game carom_game_of_table(carom_table_kind table);
@@ -569,9 +559,6 @@ typedef enum carom_rack_kind {
   CAROM_RACK_BILLIARDS = 11 /* 3 balls of snooker: white, yellow, which is in a pocket, and the red
                                  on the spot of the black. */
 } carom_rack_kind;
-
-/* The name of a rack ("eightball"), or NULL for a value not listed. */
-CAROM_API const char *carom_rack_name(carom_rack_kind kind);
 
 /* The number of balls of a rack; 0 if there is no such kind. */
 CAROM_API int carom_rack_size(carom_rack_kind kind);
@@ -824,10 +811,6 @@ typedef enum carom_event_type {
   CAROM_EVENT_LEFT_TABLE = 12          /* airborne ball a leaves the table: it falls or flies off
                                           it, or stops on a rail. The shot continues. */
 } carom_event_type;
-
-/* The name of an event ("ball_linear_cushion" for a rail), as in files of `carom shoot`, or NULL
- * for a value not listed. */
-CAROM_API const char *carom_event_name(carom_event_type type);
 
 /* One event. before[1] and after[1] are the states of ball b of a CAROM_EVENT_BALL_BALL, and
  * otherwise all zero. Each contact of a cluster is an event; the events are in the order in which
@@ -1357,33 +1340,6 @@ CAROM_API carom_status carom_ball_kind_resolve(const carom_table *table,
  * CAROM_GAME_BILLIARD, and returns 1. Returns 0 and writes nothing if the model has no such
  * start. */
 CAROM_API int carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind);
-
-/* Enumerations whose values have names ("words"). */
-typedef enum carom_words {
-  CAROM_WORDS_WORLD = 0,              /* values of carom_world */
-  CAROM_WORDS_BALL_MODEL = 1,         /* values of carom_ball_model */
-  CAROM_WORDS_SHOT_CUSHION = 2,       /* values of carom_shot_cushion */
-  CAROM_WORDS_BALL_FRICTION = 3,      /* values of carom_ball_friction */
-  CAROM_WORDS_SPACE = 4,              /* values of carom_space */
-  CAROM_WORDS_SIMULTANEOUS = 5,       /* values of carom_simultaneous */
-  CAROM_WORDS_CUSHION_MODEL = 6,      /* values of carom_cushion_model */
-  CAROM_WORDS_CUSHION_CONVENTION = 7, /* values of carom_cushion_convention */
-  CAROM_WORDS_CUSHION_LAW = 8,        /* values of carom_cushion_law */
-  CAROM_WORDS_GAME = 9,               /* values of carom_game */
-  CAROM_WORDS_EVENT = 10,             /* values of carom_event_type */
-  CAROM_WORDS_LABEL = 11,             /* values of carom_label */
-  CAROM_WORDS_TABLE = 12,             /* values of carom_table_kind */
-  CAROM_WORDS_RACK = 13,              /* values of carom_rack_kind */
-  CAROM_WORDS_SOLVER = 14,            /* values of carom_solver */
-  CAROM_WORDS_SLIP = 15,              /* values of carom_slip */
-  CAROM_WORDS_RULES = 16,             /* values of carom_rules_kind; none in a build without the
-                                         planner */
-  CAROM_WORDS_CONDITION = 17          /* values of carom_condition */
-} carom_words;
-
-/* The word of a value ("han"), and a short description of the value; NULL if there is none. */
-CAROM_API const char *carom_word(carom_words of, int value);
-CAROM_API const char *carom_word_text(carom_words of, int value);
 
 #ifdef __cplusplus
 }

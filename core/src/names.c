@@ -235,30 +235,6 @@ const char *carom_status_string(carom_status status) {
   return words_of(status).text;
 }
 
-const char *carom_solver_name(carom_solver solver) {
-  return carom_word(CAROM_WORDS_SOLVER, (int)solver);
-}
-
-const char *carom_slip_name(carom_slip slip) {
-  return carom_word(CAROM_WORDS_SLIP, (int)slip);
-}
-
-const char *carom_event_name(carom_event_type type) {
-  return carom_word(CAROM_WORDS_EVENT, (int)type);
-}
-
-const char *carom_label_name(carom_label label) {
-  return carom_word(CAROM_WORDS_LABEL, (int)label);
-}
-
-const char *carom_table_name(carom_table_kind kind) {
-  return carom_word(CAROM_WORDS_TABLE, (int)kind);
-}
-
-const char *carom_rack_name(carom_rack_kind kind) {
-  return carom_word(CAROM_WORDS_RACK, (int)kind);
-}
-
 const char *carom_field_name(int field) {
 #define BALL(ball)                                                                          \
 #ball ".r[0]", #ball ".r[1]", #ball ".r[2]", #ball ".v[0]", #ball ".v[1]", #ball ".v[2]", \

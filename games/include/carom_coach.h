@@ -385,9 +385,6 @@ typedef enum carom_practice {
   CAROM_PRACTICE_OTHER = 7          /* safeties, and strokes that aim at no pocket */
 } carom_practice;
 
-/* The name of a group, such as "long thin cut"; "" for a value not listed. */
-CAROM_API const char *carom_practice_name(carom_practice group);
-
 /* The intention of a stroke of a match, and its result. */
 typedef struct carom_review {
   carom_cue aim;      /* the intended stroke: the stroke that was played, but aimed at the middle of

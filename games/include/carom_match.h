@@ -107,9 +107,6 @@ typedef enum carom_refusal {
   CAROM_REFUSED_TIME = 17      /* no extension or timeout is left */
 } carom_refusal;
 
-/* The name of a refusal, such as "bounds"; "" for NOT and a value not listed. */
-CAROM_API const char *carom_refusal_name(int refusal);
-
 enum {
   CAROM_MATCH_TEXT = 135168, /* bytes with room for the lines of any act. */
   CAROM_MATCH_ERRORS = 17    /* number of errors of aim for which strokes are weighed. */

@@ -173,10 +173,6 @@ typedef enum carom_foul {
  * is CAROM_FOUL_NO_BALL. */
 CAROM_API carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball);
 
-/* The description of a foul, such as "the cue ball met no ball"; "" for NONE and for a value not
- * listed. */
-CAROM_API const char *carom_foul_string(int foul);
-
 /* The consequences of a shot by the rules: who plays next, the foul, the points. */
 typedef struct carom_turn {
   carom_turn_outcome outcome; /* what happens to the turn. */
@@ -530,27 +526,6 @@ CAROM_API carom_status carom_referee(const carom_plan_rules *rules, const carom_
  * text without the 0, or 0 for an invalid ruling. */
 CAROM_API size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room);
 
-/* ---- Names of games' values ------------------------------------------------------------------ */
-
-/* Enumerations of games whose values have names ("words"). carom_words has the enumerations of the
- * physics, and carom_rules_kind. */
-typedef enum carom_game_words {
-  CAROM_GAME_WORDS_TURN = 0,    /* carom_turn_outcome */
-  CAROM_GAME_WORDS_LEAVE = 1,   /* carom_leave */
-  CAROM_GAME_WORDS_FOUL = 2,    /* carom_foul; the text of NONE is "" */
-  CAROM_GAME_WORDS_CHOICE = 3,  /* carom_choice */
-  CAROM_GAME_WORDS_GROUP = 4,   /* carom_group */
-  CAROM_GAME_WORDS_PHASE = 5,   /* carom_match_phase of carom_match.h */
-  CAROM_GAME_WORDS_ACT = 6,     /* carom_act of carom_match.h */
-  CAROM_GAME_WORDS_REFUSAL = 7, /* carom_refusal of carom_match.h; the text of NOT is "" */
-  CAROM_GAME_WORDS_GOAL = 8     /* carom_goal_kind */
-} carom_game_words;
-
-/* The word of a value ("double_hit"), which is the same in all languages, and a short description
- * of the value; NULL if there is none. */
-CAROM_API const char *carom_game_word(carom_game_words of, int value);
-CAROM_API const char *carom_game_word_text(carom_game_words of, int value);
-
 /* ---- Plans ----------------------------------------------------------------------------------- */
 
 /* All zero means the defaults. */
@@ -630,9 +605,6 @@ typedef enum carom_plan_kind {
   CAROM_PLAN_RAIL_FIRST = 13  /* the cue ball meets the cushion next to its first ball, then that
                                  ball */
 } carom_plan_kind;
-
-/* The name of a kind, such as "bank"; "" for a value not listed. */
-CAROM_API const char *carom_plan_kind_name(carom_plan_kind kind);
 
 /* The kind of a shot that pots a ball: a carom_plan_kind. It is derived from the facts, and from
  * the events or brief events that were kept. -1 if they do not show that the ball was hit and fell

@@ -68,13 +68,13 @@ TEST(tables_are_checked) {
       take_out(&t, part);
       const carom_status status = carom_table_check(&t, R, &fault);
       ck_assert_msg(status == CAROM_OK || status == CAROM_ERROR_TABLE_OPEN,
-                    "%s without part %d: %s", carom_table_name((carom_table_kind)kind), part,
+                    "%s without part %d: %s", carom_word(CAROM_WORDS_TABLE, kind), part,
                     carom_status_name(status));
       int met;
       const int lost = lost_balls(&t, R, -1, kind == CAROM_TABLE_POOL_9FT ? 1000 : 100, &r, &met);
       ck_assert_msg(status == CAROM_ERROR_TABLE_OPEN || lost == 0,
                     "%s without part %d: %d balls are lost, and it is ok",
-                    carom_table_name((carom_table_kind)kind), part, lost);
+                    carom_word(CAROM_WORDS_TABLE, kind), part, lost);
       /* a long rail is a hole as wide as itself but for its jaws */
       if (part < sound.rails) {
         const carom_rail *rail = &sound.rail[part];
@@ -104,7 +104,7 @@ TEST(tables_are_checked) {
       }
       ck_assert_msg(status == CAROM_ERROR_RAIL_SIDE && fault.part.kind == CAROM_PART_RAIL &&
                         fault.part.index == k,
-                    "%s, rail %d turned: %s", carom_table_name((carom_table_kind)kind), k,
+                    "%s, rail %d turned: %s", carom_word(CAROM_WORDS_TABLE, kind), k,
                     carom_status_name(status));
       for (int c = 0; c < 2; c++)
         ck_assert_double_eq(fault.place[c], 0.5 * (t.rail[k].p[c] + t.rail[k].q[c]));
@@ -733,12 +733,12 @@ TEST(sources) {
 /* ---- Names */
 
 TEST(names) {
-  ck_assert_str_eq(carom_event_name(CAROM_EVENT_POCKET), "ball_pocket");
-  ck_assert_str_eq(carom_event_name(CAROM_EVENT_RAIL_TOP), "rail_top");
-  ck_assert_str_eq(carom_label_name(CAROM_BALL_ROLLING), "rolling");
-  ck_assert_str_eq(carom_table_name(CAROM_TABLE_POOL_9FT), "9ft");
-  ck_assert_ptr_null(carom_table_name((carom_table_kind)TABLES));
-  ck_assert_str_eq(carom_rack_name(CAROM_RACK_EIGHTBALL), "eightball");
+  ck_assert_str_eq(carom_word(CAROM_WORDS_EVENT, CAROM_EVENT_POCKET), "ball_pocket");
+  ck_assert_str_eq(carom_word(CAROM_WORDS_EVENT, CAROM_EVENT_RAIL_TOP), "rail_top");
+  ck_assert_str_eq(carom_word(CAROM_WORDS_LABEL, CAROM_BALL_ROLLING), "rolling");
+  ck_assert_str_eq(carom_word(CAROM_WORDS_TABLE, CAROM_TABLE_POOL_9FT), "9ft");
+  ck_assert_ptr_null(carom_word(CAROM_WORDS_TABLE, TABLES));
+  ck_assert_str_eq(carom_word(CAROM_WORDS_RACK, CAROM_RACK_EIGHTBALL), "eightball");
 
   /* rails and pockets of rectangles only, whatever the numbers of parts */
   static const carom_corner bent[6] = {{0, 0, 0.13},  {2.4, 0, 0.13},   {2.4, 1.3, 0.13},

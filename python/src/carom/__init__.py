@@ -277,7 +277,7 @@ def isa_in_force() -> str:
 
     The variable CAROM_ISA limits it.
     """
-    return str(_ffi.string(_lib.carom_isa_name(_lib.carom_isa_in_force())).decode())
+    return str(_ffi.string(_lib.carom_word(_lib.CAROM_WORDS_ISA, _lib.carom_isa_in_force())).decode())
 
 
 def physics_revision() -> int:

@@ -303,7 +303,7 @@ export class Plans {
       const found = readStruct<C.Review>(memory, room, "carom_review");
       return {
         ...found,
-        group: memory.text(memory.exports.carom_practice_name(found.group))!,
+        group: memory.text(memory.exports.carom_word_text(values.CAROM_WORDS_PRACTICE, found.group))!,
         kept: found.kept !== 0,
         ...(isDirect && { drill: readStruct<Drill>(memory, room + size, "carom_drill") }),
       };
@@ -756,7 +756,7 @@ export class Plans {
       turn: names.carom_turn_outcome[turn.outcome]!,
       foul: reason !== "none",
       reason,
-      why: memory.text(memory.exports.carom_foul_string(turn.foul))!,
+      why: memory.text(memory.exports.carom_word_text(values.CAROM_WORDS_FOUL, turn.foul)) ?? "",
       hand: HANDS[turn.leave]!,
       points: turn.points,
       words: memory.text(text)!,
