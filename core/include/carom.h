@@ -191,7 +191,9 @@ typedef enum carom_status {
   CAROM_ERROR_POINTS = -21,          /* a trace needs at least 2 points. */
   CAROM_ERROR_UNRESOLVED = -22,      /* the result depends on rounding errors, or needs more work
                                         than a call may do. */
-  CAROM_ERROR_OPTIONS = -23,         /* a reserved or unused field of the options is not 0. */
+  CAROM_ERROR_OPTIONS = -23,         /* a number of the options, the job or the player is out of its
+                                        range, or a reserved or unused field is not 0.
+                                        carom_plan_fault() says which one of a plan. */
   CAROM_ERROR_CUSHION_MODEL = -30,   /* options.model of carom_shot.h is not one of
                                         carom_cushion_model. */
   CAROM_ERROR_NORMAL = -32,          /* the direction into a cushion is not finite, or 0. */

@@ -78,7 +78,10 @@ static status_words words_of(carom_status status) {
     STATUS(ERROR_UNRESOLVED, "unresolved",
            "the collision is too extreme: its result depends on rounding errors, or needs more "
            "work than a call may do")
-    STATUS(ERROR_OPTIONS, "bad_options", "a reserved or unused field of the options is not 0")
+    STATUS(
+        ERROR_OPTIONS, "bad_options",
+        "a number of the options, the job or the player is out of its range, or a reserved field "
+        "is not 0")
     STATUS(ERROR_CUSHION_MODEL, "bad_cushion_model",
            "options.model is not one of carom_cushion_model")
     STATUS(ERROR_NORMAL, "bad_normal", "the direction into the cushion must be finite and not 0")

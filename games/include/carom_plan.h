@@ -720,7 +720,8 @@ typedef struct carom_plan_job {
 } carom_plan_job;
 
 /* The number of bytes that a plan with these options needs: about 320,000 for the defaults, and
- * 450,000 more if `unsure` is above 0. NULL: the defaults. 0 for bad options. */
+ * 450,000 more if `unsure` is above 0. NULL: the defaults. 0 for options that carom_plan() rejects:
+ * carom_plan_fault() says why. */
 CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
 
 /* Finds the best shots of a layout. Writes up to `room` of them to choices[], best first, one for
@@ -732,11 +733,17 @@ CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
  * CAROM_ERROR_OPTIONS for invalid options, an invalid player, a goal that is not possible in the
  * layout or with the rules, or rules without on(), judge() or left(); CAROM_ERROR_IN_MOTION for a
  * ball that is not at rest; CAROM_ERROR_GAME_OVER if on() names no ball in play; or an error of the
- * layout, as in carom_shot_check(). With an error nothing is written. The choice depends only on
- * the arguments, not on the number of threads. Unless shot->fast is set, it is the same on all
+ * layout, as in carom_shot_check(). With an error only *found is written, which is then 0. The
+ * choice depends only on the arguments, not on the number of threads. Unless shot->fast is set, it is the same on all
  * machines. */
 CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_plan_stroke *choices, int room,
                                   int *found);
+
+/* Writes to text[], at most `room` bytes with a closing 0, which member of a job carom_plan()
+ * rejects with CAROM_ERROR_OPTIONS, its value, and the allowed values: "options->shots is 60; it
+ * must be 0, or 100 to 1e6". Returns the length of the complete text without the 0; 0 if such a
+ * member does not exist, or if a required pointer of the job is NULL. job->memory is not needed. */
+CAROM_API size_t carom_plan_fault(const carom_plan_job *job, char *text, size_t room);
 
 /* The same with ball in hand: positions of the cue ball and strokes are compared together, by at
  * least 600 shots, and each choice has its own position. The position is within the bounds of
@@ -748,7 +755,7 @@ CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double l
                                        int *found);
 
 /* Continues a plan in slices, for an opponent who thinks between the frames of a game: plays
- * options->slice more events. *found is 0 until the plan has ended. The choices then have the bits
+ * options->slice more events. *found is 0 until the plan has ended, and with an error. The choices then have the bits
  * of a plan in one call. 500 events take at most about 1 ms; a slice may take one shot longer, or
  * longer if it sorts candidates. The job, its memory and everything that it points to must not have
  * changed since the previous call. A plan that has ended does not change, and a plan whose
