@@ -170,11 +170,22 @@ static void tell_most_falls(FILE *out, const shot_line *line, const counts *c) {
     fputs("; --falls lists all\n", out);
 }
 
+/* The mean position of the cue balls that stay on the table, m; returns the standard deviation of
+ * their positions, m. All are NaN if none stays. */
+static double cue_ball_spread(const counts *c, double place[2]) {
+  const double n = (double)c->stays;
+  place[0] = c->x / n;
+  place[1] = c->y / n;
+  if (c->stays == 0)
+    return (double)NAN;
+  return sqrt(fmax(c->squares / n - place[0] * place[0] - place[1] * place[1], 0.0));
+}
+
 static void tell(FILE *out, const breaker *b, const shot_line *line, double gap, const counts *c) {
   double r[2];
-  const double far = carom_break_spread(c, r), p = share(c->makes, c);
-  fprintf(out, "%s on the %s table, cue at %.3g m/s, ", carom_word(CAROM_WORDS_RACK, (int)b->rack), line->table->id,
-          line->cue.speed);
+  const double far = cue_ball_spread(c, r), p = share(c->makes, c);
+  fprintf(out, "%s on the %s table, cue at %.3g m/s, ", carom_word(CAROM_WORDS_RACK, (int)b->rack),
+          line->table->id, line->cue.speed);
   if (b->aimed || b->cut)
     fprintf(out, "aim %.2f degrees, ", line->cue.phi);
   if (line->cue.theta != 0.0)
@@ -227,7 +238,7 @@ static void write_row(FILE *out, const breaker *b, const shot_line *line, double
     return;
   }
   double r[2];
-  const double far = carom_break_spread(c, r), p = share(c->makes, c);
+  const double far = cue_ball_spread(c, r), p = share(c->makes, c);
   begin_row(out, b, line, gap);
   fprintf(out, "%lld,%.6f,%.6f,%.6f,", (long long)c->breaks, p,
           sqrt(p * (1.0 - p) / (double)c->breaks), share(c->balls, c));
@@ -379,8 +390,9 @@ static bool tell_best(FILE *out, const breaker *b, const shot_line *line, double
             "%d. wins %.1f %% (error %.1f): %s, cue ball at %.3f, %.3f m, cue at %.3g m/s, tip "
             "%.2f above, raised %.1f, aim %.2f degrees%s\n",
             k + 1, 100.0 * c->wins / (double)c->breaks, 100.0 * error_of_wins(c),
-            carom_word(CAROM_WORDS_RACK, (int)b->rack), of->place[0], of->place[1], of->cue.speed, of->cue.b,
-            of->cue.theta, of->cue.phi, text_if(of->aim == CAROM_BREAK_FULL, ", at the middle"));
+            carom_word(CAROM_WORDS_RACK, (int)b->rack), of->place[0], of->place[1], of->cue.speed,
+            of->cue.b, of->cue.theta, of->cue.phi,
+            text_if(of->aim == CAROM_BREAK_FULL, ", at the middle"));
     fprintf(out, "   makes a ball in %.1f %%, plays on in %.1f %%, fouls in %.1f %%\n",
             100.0 * share(c->makes, c), 100.0 * share(c->plays_on, c), 100.0 * share(c->fouls, c));
   }

@@ -336,19 +336,19 @@ const carom_number *carom_ball_fault(const carom_ball_kind *k, char *text, size_
 
 /* ---- Starts of fits */
 
-int carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind) {
+bool carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind) {
 #define START(NAME, name, impact, flight, rows, start, ...) {start},
   static const struct start {
     bool known;
     double e, mu, height;
   } starts[] = {CAROM_CUSHION_MODELS(START)};
 #undef START
-  if ((uint32_t)model >= CAROM_CUSHION_MODEL_COUNT || kind == NULL || !starts[model].known)
-    return 0;
+  if ((uint32_t)model >= CAROM_CUSHION_MODEL_COUNT || !starts[model].known)
+    return false;
   kind->restitution_cushion = starts[model].e;
   kind->mu_cushion = starts[model].mu;
   kind->nose_height = starts[model].height;
-  return 1;
+  return true;
 }
 
 /* ---- Words */

@@ -210,17 +210,6 @@ carom_status carom_break_play(const carom_break_job *job, int64_t first, int64_t
   return play_all(job, job != NULL ? job->player : NULL, first, n, counts);
 }
 
-double carom_break_spread(const carom_break_counts *counts, double place[2]) {
-  if (counts == NULL || place == NULL)
-    return (double)NAN;
-  const double n = (double)counts->stays;
-  place[0] = counts->x / n;
-  place[1] = counts->y / n;
-  if (counts->stays == 0)
-    return (double)NAN;
-  return sqrt(fmax(counts->squares / n - place[0] * place[0] - place[1] * place[1], 0.0));
-}
-
 /* ---- The break that wins most */
 
 /* Number k of a sequence that fills the unit cube of five dimensions evenly (M. Roberts, "The

@@ -112,7 +112,8 @@ CAROM_API size_t carom_ways_memory(int64_t room);
  * the strokes. A pot whose directions are less than 0.02 degrees apart is left out. Returns
  * CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is too little memory;
  * CAROM_ERROR_OPTIONS for a number out of its range, an invalid player, or cues of different balls;
- * or an error of carom_shoot(), with *result up to that point of the search. The ways depend only
+ * or an error of carom_shoot(), with *result up to that point of the search, which is 0 if it did
+ * not begin. The ways depend only
  * on the arguments, not on the number of threads. */
 CAROM_API carom_status carom_ways(const carom_ways_job *job, carom_shot_way *ways, int64_t room,
                                   carom_ways_result *result);
@@ -247,7 +248,8 @@ CAROM_API size_t carom_sequence_memory(const carom_plan_options *options);
  * is above 0, the call returns after about that many events of shots with *found 0, for
  * carom_sequence_continue(). Returns CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is
  * less memory than carom_sequence_memory(); CAROM_ERROR_OPTIONS for `within` out of range, a goal,
- * or options->safeties; or an error of carom_plan() for the first layout. */
+ * or options->safeties; or an error of carom_plan() for the first layout. With an error *found is
+ * 0. */
 CAROM_API carom_status carom_sequence(const carom_plan_job *job, int in_hand, double within,
                                       carom_sequence_stroke *strokes, int room, int *found);
 
@@ -335,11 +337,6 @@ CAROM_API carom_status carom_break_play(const carom_break_job *job, int64_t firs
 
 /* 1 if the rack belongs to a game with a break, by whose rules breaks are judged, otherwise 0. */
 CAROM_API int carom_break_has_rules(carom_rack_kind rack);
-
-/* Writes the mean position of the cue balls that stay on the table, m, and returns the standard
- * deviation of their positions, m; all NaN if none stays. If a pointer is NULL, the call returns
- * NaN. */
-CAROM_API double carom_break_spread(const carom_break_counts *counts, double place[2]);
 
 enum {
   CAROM_BREAK_CHOICES = 8

@@ -543,8 +543,8 @@ TEST(turns_agree_with_steps) {
       const double kink =
           at + fabs(side) / (2.5 * ball.kind.mu_spin * ball.kind.gravity / ball.kind.radius);
       double from[1][4], to[1][4], q[4];
-      carom_shot_orientation(&ball, 1, &shot, at, from);
-      carom_shot_orientation(&ball, 1, &shot, end, to);
+      carom_shot_frames(&ball, 1, &shot, &at, 1, NULL, NULL, from);
+      carom_shot_frames(&ball, 1, &shot, &end, 1, NULL, NULL, to);
       memcpy(q, from[0], sizeof q);
       const double cut = kink > at && kink < end ? kink : end;
       by_steps(&ball, 1, &shot, 0, at, cut, q);
@@ -578,7 +578,7 @@ static void expect_turns(const carom_ball_state *start, double end, double step,
     carom_ball_state now;
     double q[1][4];
     expect_ok(carom_shot_at(&ball, 1, &shot, time, &now));
-    expect_ok(carom_shot_orientation(&ball, 1, &shot, time, q));
+    expect_ok(carom_shot_frames(&ball, 1, &shot, &time, 1, NULL, NULL, q));
     const turn known = closed_form(time, &now);
     const double sine = sin(0.5 * known.angle);
     const double expected[4] = {cos(0.5 * known.angle), known.axis[0] * sine, known.axis[1] * sine,
@@ -634,7 +634,7 @@ static void same_frames(const carom_shot_ball *balls, const carom_shot *shot, co
   expect_ok(carom_shot_frames(balls, 16, shot, times, many, film, frames[0], turned[0]));
   for (size_t k = 0; k < many; k++) {
     expect_ok(carom_shot_at(balls, 16, shot, times[k], one));
-    expect_ok(carom_shot_orientation(balls, 16, shot, times[k], q));
+    expect_ok(carom_shot_frames(balls, 16, shot, &times[k], 1, NULL, NULL, q));
     ck_assert(memcmp(one, frames[k], sizeof one) == 0 && memcmp(q, turned[k], sizeof q) == 0);
   }
 }

@@ -51,6 +51,12 @@ def _moments(times: ArrayLike) -> Doubles:
     return moments
 
 
+def _states_at(balls: Any, count: int, shot: Any, times: Any, n: int, states: Any) -> int:
+    return int(
+        lib.carom_shot_frames(balls, count, shot, times, n, ffi.NULL, states, ffi.NULL)
+    )
+
+
 def _picker(index: Any, shape: tuple[int, ...]) -> Callable[[Array], Array]:
     """Takes the shots that an index chooses out of any array of a batch.
 
@@ -144,7 +150,7 @@ class Shot:
         look = (
             functools.partial(lib.carom_shot_drawn, pointer("carom_table[]", self.table.record))
             if drawn
-            else lib.carom_shot_at_times
+            else _states_at
         )
         self._at(moments, states, 1, "carom_ball_state[]", look)
         return states
