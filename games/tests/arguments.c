@@ -115,7 +115,7 @@ TEST(arguments_of_plans) {
 
 TEST(faults_of_plans_are_named) {
   NAMED(options.shots, 60, "options->shots is 60; it must be 0, or 100 to 1e6");
-  NAMED(options.scan, 0.95, "options->scan is 0.95; it must be 0, or at most 0.9");
+  NAMED(options.scan, 0.95, "options->scan is 0.95; it must be at most 0.9");
   NAMED(options.level, 2, "options->level is 2; it must be 0 to 1");
   NAMED(options.slice, -1, "options->slice is -1; it must be 0 or more");
   NAMED(options.reserved[0], 1, "options->reserved[0] must be 0");

@@ -81,7 +81,9 @@ TEST(kinds_of_pots) {
                {"not fallen", "", "cb"},
                {"another pocket", "", "cb b,"}};
   for (size_t k = 0; k < COUNT_OF(shots); k++) {
-    const char *const name = carom_word_text(CAROM_WORDS_PLAN_KIND, kind_of(shots[k].shot));
+    const char *name = carom_word_text(CAROM_WORDS_PLAN_KIND, kind_of(shots[k].shot));
+    if (name == NULL) /* there is no pot */
+      name = "";
     ck_assert_msg(strcmp(name, shots[k].kind) == 0, "%s: %s is a %s", shots[k].what_counts,
                   shots[k].shot, name);
   }
