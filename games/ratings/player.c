@@ -146,7 +146,7 @@ void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t num
 #define MEMBER(member, measure, low, high, extra)                                     \
   CAROM_ROW(carom_player, member, "", low, high, extra, OPTIONS, "", .unit = measure, \
             .cushion_offset = -1, .words = -1)
-static const carom_number members[] = {
+static const carom_number player_members[] = {
     MEMBER(speed, "m/s", 0, 1000, NAN) MEMBER(speed_share, "", 0, 1000, NAN)
         MEMBER(phi, "degrees", 0, 1000, NAN) MEMBER(theta, "degrees", 0, 1000, NAN)
             MEMBER(a, "radii", 0, 1000, NAN) MEMBER(b, "radii", 0, 1000, NAN)
@@ -158,11 +158,12 @@ static const carom_number members[] = {
 #undef MEMBER
 
 const carom_number *carom_player_wrong_number(const carom_player *player) {
-  for (size_t k = 0; k < sizeof members / sizeof members[0]; k++) {
-    const double value = *(const double *)(const void *)((const char *)player + members[k].offset);
-    const bool is_within = value >= members[k].low && value <= members[k].high;
-    if (!is_within && value != members[k].other)
-      return &members[k];
+  for (size_t k = 0; k < sizeof player_members / sizeof player_members[0]; k++) {
+    const double value =
+        *(const double *)(const void *)((const char *)player + player_members[k].offset);
+    const bool is_within = value >= player_members[k].low && value <= player_members[k].high;
+    if (!is_within && value != player_members[k].other)
+      return &player_members[k];
   }
   return NULL;
 }

@@ -12,11 +12,11 @@ static const carom_number plan_options[] = {CAROM_PLAN_OPTIONS(PLAN_OPTION)};
 
 #define GAME_WORD(NAME, rules, word, text, ...) {CAROM_WORDS_RULES, CAROM_RULES_##NAME, word, text},
 #define WORD(OF, VALUE, word, text) {CAROM_WORDS_##OF, CAROM_##VALUE, word, text},
-static const carom_word_row words[] = {CAROM_GAMES(GAME_WORD) CAROM_GAME_WORD_ROWS(WORD)};
+static const carom_word_row game_words[] = {CAROM_GAMES(GAME_WORD) CAROM_GAME_WORD_ROWS(WORD)};
 
 const carom_upper_rows carom_upper_schema = {.part = CAROM_PART_PLAN_OPTIONS,
                                              .numbers = plan_options,
                                              .numbers_count =
                                                  sizeof plan_options / sizeof *plan_options,
-                                             .words = words,
-                                             .words_count = sizeof words / sizeof *words};
+                                             .words = game_words,
+                                             .words_count = sizeof game_words / sizeof *game_words};
