@@ -197,7 +197,11 @@ from carom.dtypes import Records
     # words that have the texts of their values.
     WORDS = {"Group": "carom_group", "Race": "carom_race", "BreakOrder": "carom_break_order"}
     ENUMS = {
-        "Foul": ("carom_foul", "FOUL", 'The description of a foul, such as "the cue ball met no ball".'),
+        "Foul": (
+            "carom_foul",
+            "FOUL",
+            'The description of a foul, such as "the cue ball met no ball".',
+        ),
         "Kind": ("carom_plan_kind", "PLAN_KIND", 'The name of a kind, such as "bank".'),
     }
     ACTS = '''

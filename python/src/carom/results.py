@@ -52,9 +52,7 @@ def _moments(times: ArrayLike) -> Doubles:
 
 
 def _states_at(balls: Any, count: int, shot: Any, times: Any, n: int, states: Any) -> int:
-    return int(
-        lib.carom_shot_frames(balls, count, shot, times, n, ffi.NULL, states, ffi.NULL)
-    )
+    return int(lib.carom_shot_frames(balls, count, shot, times, n, ffi.NULL, states, ffi.NULL))
 
 
 def _picker(index: Any, shape: tuple[int, ...]) -> Callable[[Array], Array]:
