@@ -1,4 +1,5 @@
 /* `carom break`: what comes of many breaks of a rack, with a player's errors. */
+#include "game/event_break.h"
 #include "game/ways.h"
 #include "pictures/picture.h"
 #include "pictures/shot_picture.h"
@@ -25,7 +26,8 @@ typedef struct break_job {
   shoot_flags flags;
   const char *plot;
   int racks;
-  bool csv, json, falls, nine_on_spot, best;
+  bool csv, json, falls, best;
+  bool is_event; /* --conditions tournament */
 } break_job;
 
 static const option_row option_rules = {.name = "rules",
@@ -56,8 +58,12 @@ FLAG(break_job, option_falls, "falls", falls,
 FLAG(break_job, option_best, "best", best,
      "find the breaks that win most often for this player: position of the cue ball, speed, height "
      "of the tip and cut; and the cost of the player's errors");
-FLAG(break_job, option_nine_on_spot, "nine-on-spot", nine_on_spot,
-     "nine-ball's rack, with the 9 on the foot spot");
+static const option_row option_conditions = {.name = "conditions",
+                                             .argument = "NAME",
+                                             .help = event_break_help,
+                                             .example = "tournament",
+                                             .set = set_conditions,
+                                             .field = offsetof(break_job, is_event)};
 OPTION(break_job, option_break_plot, "plot", plot, "OUT", set_picture, 0,
        "draw the break without errors, forty breaks with errors as thin lines, and the results of "
        "all breaks");
@@ -321,7 +327,7 @@ static const command_form form = {
              "the cue ball comes to rest, and which ball falls into which pocket. Each stroke and "
              "gap is reported separately.\n",
     .options = (const option_row *const[]){&option_rules,
-                                           &option_nine_on_spot,
+                                           &option_conditions,
                                            &option_racks,
                                            &option_gap,
                                            &option_one_seed,
@@ -514,11 +520,11 @@ int command_break(int argc, char **argv) {
     return EXIT_USAGE;
 
   /* the rack stands on the table of its game, and breaks have a speed of their own */
-  if (job.nine_on_spot)
-    b.rack = CAROM_RACK_NINEONSPOT;
-  f->balls.rack = 1 + (int)b.rack;
   if (f->table.kind == 0)
     f->table.kind = 1 + (int)table_of_rack(b.rack);
+  if (job.is_event)
+    fill_event_break(f, &b.rack);
+  f->balls.rack = 1 + (int)b.rack;
   if (f->speed.count == 0 && f->ball_speed.count == 0)
     fill_usual(f, &option_shot_speed);
   if (f->aim.count == 0 && f->cut.count == 0)

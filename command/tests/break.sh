@@ -51,7 +51,7 @@ for cut in -20 35; do
   carom break --rules nineball --cue 0.3,0.6 --cut "$cut" --racks 1 --errors 0 --csv | sed -n 2p | cut -d , -f 3
   carom shoot --balls nineball --cue 0.3,0.6 --cut "$cut" --speed 9 --json | python -c 'import json; print(json.loads(input())["cue"]["phi"])'
 done
-carom break --nine-on-spot --cue 0.3,0.6 --elevation 2 --cut 5 --racks 60 --falls
+carom break --rules nineonspot --cue 0.3,0.6 --elevation 2 --cut 5 --racks 60 --falls
 echo "--- the breaks that win most"
 carom break --rules nineball --player 700 --racks 100 --best
 echo "--- other racks, refused"

@@ -20,7 +20,7 @@ ask 12 'meets the' shoot --table 3-cushion --cue left,0.5d --to right,3d --tip 1
 ask 13 'meets the' shoot --table carom --cue 1d,1d --to 2d,8d --tip 1tip,0
 for cue in 1d,2d 2d,2d; do ask 14 'make a ball' break --rules nineball --cue $cue --speed break --racks 100; done
 ask 15 'foot-right|^  1 ' break --rack 9-ball --speed 20mph --racks 100 --falls
-ask 16 'make|most' break --rules 9ball --nine-on-spot --speed 22mph --racks 100
+ask 16 'make|most' break --rules nineonspot --speed 22mph --racks 100
 ask 17 'make|fouls' break --rules 9-ball --speed 12mph --cue 1d,2d --cut 10 --racks 100
 for table in 7ft 9ft; do ask 18 'either jaw' shoot --table $table,corner=4.25in --cue 1d,2d --balls 2d,5d --pocket 1:foot-right; done
 ask 19 'foot-right, pot|side' ways --cue 2d,1d --balls 2d,6d:3.5d,5d --rails 0 --player 500

@@ -549,15 +549,16 @@ typedef enum carom_rack_kind {
                                  black. */
   CAROM_RACK_THREECUSHION = 4, /* 3 balls: white, yellow, red, as for the opening. */
   CAROM_RACK_NINEONSPOT = 5,   /* as NINEBALL, with the 9 on the foot spot. */
-  CAROM_RACK_BLACKBALL = 6, /* as EIGHTBALL, with the 8 on the foot spot, and balls of 2 inches. */
-  CAROM_RACK_ROTATION = 7,  /* 16 balls: cue ball, then 1 to 15 by number; 1 in front, 2 and 3 in
+  CAROM_RACK_BLACKBALL = 6,  /* as EIGHTBALL, with the 8 on the foot spot, and balls of 2 inches. */
+  CAROM_RACK_ROTATION = 7,   /* 16 balls: cue ball, then 1 to 15 by number; 1 in front, 2 and 3 in
                                  the corners, 15 in the middle. */
-  CAROM_RACK_PYRAMID = 8,   /* 16 balls of 68 mm: the yellow one, then 15 white ones. */
-  CAROM_RACK_FOURBALL = 9,  /* 4 balls of 65.5 mm: white, yellow, two reds, as for the opening. */
-  CAROM_RACK_COWBOY = 10,   /* 4 balls: cue ball; 1 on the head spot, 3 on the foot spot, 5 on the
+  CAROM_RACK_PYRAMID = 8,    /* 16 balls of 68 mm: the yellow one, then 15 white ones. */
+  CAROM_RACK_FOURBALL = 9,   /* 4 balls of 65.5 mm: white, yellow, two reds, as for the opening. */
+  CAROM_RACK_COWBOY = 10,    /* 4 balls: cue ball; 1 on the head spot, 3 on the foot spot, 5 on the
                                  centre. */
-  CAROM_RACK_BILLIARDS = 11 /* 3 balls of snooker: white, yellow, which is in a pocket, and the red
-                                 on the spot of the black. */
+  CAROM_RACK_BILLIARDS = 11, /* 3 balls of snooker: white, yellow, which is in a pocket, and the
+                                 red on the spot of the black. */
+  CAROM_RACK_EIGHTONSPOT = 12 /* as EIGHTBALL, with the 8 on the foot spot. */
 } carom_rack_kind;
 
 /* The number of balls of a rack; 0 if there is no such kind. */
@@ -728,12 +729,14 @@ CAROM_API int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion,
 /* Conditions of a pool table, for players who do not measure theirs with carom_calibrate().
  * docs/reference/constants.md has the sources. */
 typedef enum carom_condition {
-  CAROM_CONDITION_SLOW_CLOTH = 0,   /* a napped or dirty cloth */
-  CAROM_CONDITION_MEDIUM_CLOTH = 1, /* the cloth of CAROM_GAME_POOL */
-  CAROM_CONDITION_FAST_CLOTH = 2,   /* a new cloth without nap */
-  CAROM_CONDITION_OLD_CUSHION = 3,  /* slower cushions; soft banks return shorter */
-  CAROM_CONDITION_NEW_CUSHION = 4,  /* faster cushions; soft banks return longer */
-  CAROM_CONDITION_HUMID_CUSHION = 5 /* cushions in humid air; banks return shorter */
+  CAROM_CONDITION_SLOW_CLOTH = 0,     /* a napped or dirty cloth */
+  CAROM_CONDITION_MEDIUM_CLOTH = 1,   /* the cloth of CAROM_GAME_POOL */
+  CAROM_CONDITION_FAST_CLOTH = 2,     /* a new cloth without nap */
+  CAROM_CONDITION_OLD_CUSHION = 3,    /* slower cushions; soft banks return shorter */
+  CAROM_CONDITION_NEW_CUSHION = 4,    /* faster cushions; soft banks return longer */
+  CAROM_CONDITION_HUMID_CUSHION = 5,  /* cushions in humid air; banks return shorter */
+  CAROM_CONDITION_LIVELY_CUSHION = 6, /* as the rail test of equipment asks: 4 1/2 lengths */
+  CAROM_CONDITION_DEAD_CUSHION = 7    /* half of a rolling ball's speed is left, straight on */
 } carom_condition;
 
 /* Sets the constants of a ball for a condition, and returns 1: a cloth changes mu_roll; a cushion

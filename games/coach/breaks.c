@@ -34,6 +34,8 @@ static bool rules_of(carom_rack_kind rack, carom_plan_rules *rules) {
   const carom_rules_about *about;
   if (rack == CAROM_RACK_NINEONSPOT)
     rack = CAROM_RACK_NINEBALL;
+  if (rack == CAROM_RACK_EIGHTONSPOT)
+    rack = CAROM_RACK_EIGHTBALL;
   for (int k = 0; (about = carom_rules_about_of((carom_rules_kind)k)) != NULL; k++)
     if (about->rack == (int32_t)rack) {
       *rules = carom_plan_rules_of((carom_rules_kind)k);

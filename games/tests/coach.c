@@ -226,6 +226,7 @@ TEST(breaks_add_up) {
   breaks.memory_size--;
   ck_assert_int_eq(carom_break_play(&breaks, 0, 1, &whole), CAROM_ERROR_NULL);
   ck_assert(carom_break_has_rules(CAROM_RACK_NINEONSPOT) == 1);
+  ck_assert(carom_break_has_rules(CAROM_RACK_EIGHTONSPOT) == 1);
   ck_assert(carom_break_has_rules(CAROM_RACK_SNOOKER) == 0);
   edge_free(&space);
 }

@@ -65,6 +65,8 @@
   SYNONYM("fast", "fast_cloth")          \
   SYNONYM("old", "old_cushion")          \
   SYNONYM("new", "new_cushion")          \
-  SYNONYM("humid", "humid_cushion")
+  SYNONYM("humid", "humid_cushion")      \
+  SYNONYM("lively", "lively_cushion")    \
+  SYNONYM("dead", "dead_cushion")
 
 #endif

@@ -38,6 +38,8 @@
   WORD(CONDITION, CONDITION_OLD_CUSHION, "old_cushion", "slower; soft banks come back shorter")    \
   WORD(CONDITION, CONDITION_NEW_CUSHION, "new_cushion", "faster; soft banks come back longer")     \
   WORD(CONDITION, CONDITION_HUMID_CUSHION, "humid_cushion", "banks come back shorter")             \
+  WORD(CONDITION, CONDITION_LIVELY_CUSHION, "lively_cushion", "as the rail test asks")             \
+  WORD(CONDITION, CONDITION_DEAD_CUSHION, "dead_cushion", "half of a straight ball's speed left")  \
   WORD(EVENT, EVENT_STRIKE, "stick_ball", "the cue strikes a ball")                                \
   WORD(EVENT, EVENT_BALL_BALL, "ball_ball", "two balls meet")                                      \
   WORD(EVENT, EVENT_RAIL, "ball_linear_cushion", "a ball meets a rail")                            \
@@ -75,13 +77,14 @@
   WORD(RACK, RACK_SNOOKER, "snooker", "white, 15 reds, yellow, green, brown, blue, pink, black")   \
   WORD(RACK, RACK_THREECUSHION, "threecushion", "white, yellow, red, as for the opening")          \
   WORD(RACK, RACK_NINEONSPOT, "nineonspot", "nine-ball's, with the 9 on the foot spot")            \
-  WORD(RACK, RACK_BLACKBALL, "blackball", "eight-ball's, with the 8 on the foot spot")             \
+  WORD(RACK, RACK_BLACKBALL, "blackball", "eight-ball's of 2 inches, with the 8 on the foot spot") \
   WORD(RACK, RACK_ROTATION, "rotation",                                                            \
        "cue ball, then 1 to 15 by number; 1 in front, 15 in the middle")                           \
   WORD(RACK, RACK_PYRAMID, "pyramid", "the yellow ball, then 15 white ones")                       \
   WORD(RACK, RACK_FOURBALL, "fourball", "white, yellow and two reds, as for the opening")          \
   WORD(RACK, RACK_COWBOY, "cowboy", "cue ball, and the balls 1, 3 and 5 on their spots")           \
   WORD(RACK, RACK_BILLIARDS, "billiards", "white, yellow, which is down, and red on the spot")     \
+  WORD(RACK, RACK_EIGHTONSPOT, "eightonspot", "eight-ball's, with the 8 on the foot spot")         \
   WORD(SOLVER, SOLVER_EXACT, "exact", "the limit of infinitely many steps")                        \
   WORD(SOLVER, SOLVER_EULER, "euler", "N steps of equal impulse")                                  \
   WORD(SOLVER, SOLVER_FAST, "fast", "exact in less time, but not smooth")                          \

@@ -235,7 +235,8 @@ int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion, carom_ball_
 /* Conditions of a pool table; 0: the number stays. docs/reference/constants.md has the sources
  * of the signs and of the range of mu_roll. The changes of the cushion are one standard deviation
  * of the tables that public systems of players describe, as in calibrate.c. The friction of old
- * ones has two, because with less the banks of a slower rebound return longer, not shorter. */
+ * ones has two, because with less the banks of a slower rebound return longer, not shorter. Lively
+ * and dead cushions are the ends of published straight rebounds. */
 static const struct condition_numbers {
   double mu_roll, restitution, mu_cushion;
 } conditions[] = {[CAROM_CONDITION_SLOW_CLOTH] = {0.015, 0.0, 0.0},
@@ -243,7 +244,9 @@ static const struct condition_numbers {
                   [CAROM_CONDITION_FAST_CLOTH] = {0.005, 0.0, 0.0},
                   [CAROM_CONDITION_OLD_CUSHION] = {0.0, 0.75, 0.4},
                   [CAROM_CONDITION_NEW_CUSHION] = {0.0, 0.85, 0.22},
-                  [CAROM_CONDITION_HUMID_CUSHION] = {0.0, 0.8, 0.34}};
+                  [CAROM_CONDITION_HUMID_CUSHION] = {0.0, 0.8, 0.34},
+                  [CAROM_CONDITION_LIVELY_CUSHION] = {0.0, 0.85, 0.28},
+                  [CAROM_CONDITION_DEAD_CUSHION] = {0.0, 0.67, 0.28}};
 
 int carom_condition_give(carom_condition condition, carom_ball_kind *kind) {
   if (kind == NULL || (uint32_t)condition >= sizeof conditions / sizeof *conditions)

@@ -60,7 +60,13 @@ static const rack_row racks[] = {
     [CAROM_RACK_PYRAMID] = {.game = CAROM_GAME_PYRAMID, .size = 16, .rows = 5, .spot = 0},
     [CAROM_RACK_FOURBALL] = {.game = CAROM_GAME_FOURBALL, .size = 4},
     [CAROM_RACK_COWBOY] = {.game = CAROM_GAME_POOL, .size = 4},
-    [CAROM_RACK_BILLIARDS] = {.game = CAROM_GAME_SNOOKER, .size = 3}};
+    [CAROM_RACK_BILLIARDS] = {.game = CAROM_GAME_SNOOKER, .size = 3},
+    [CAROM_RACK_EIGHTONSPOT] = {.game = CAROM_GAME_POOL,
+                                .size = 16,
+                                .rows = 5,
+                                .spot = 2,
+                                .fixed = {[4] = 8},
+                                .unlike = true}};
 
 static const rack_row *row_of(carom_rack_kind kind) {
   if ((uint32_t)kind >= sizeof racks / sizeof *racks)

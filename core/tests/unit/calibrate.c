@@ -27,7 +27,7 @@ TEST(usual_table) {
 
 /* Conditions move a rolling ball's way and the banks as their sources say, and nothing else. */
 TEST(conditions) {
-  carom_calibration told[CAROM_CONDITION_HUMID_CUSHION + 1];
+  carom_calibration told[CAROM_CONDITION_DEAD_CUSHION + 1];
   set_up();
   for (int k = 0; carom_word(CAROM_WORDS_CONDITION, k) != NULL; k++) {
     carom_ball_kind kind = usual;
