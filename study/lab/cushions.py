@@ -14,11 +14,12 @@ import ctypes
 from math import atan2, cos, degrees, inf, isnan, radians, sqrt, tan
 from random import Random
 
-from study.lab import published
-from study.lab.published import GAME_POOL, GAME_SNOOKER, LIBRARY, OF, Triple, ball, reference
+from study.lab.computed import library, systems as played_systems
+from study.lab.computed.pockets import size
+from study.lab.computed.library import GAME_POOL, GAME_SNOOKER, LIBRARY, OF, Triple, ball, reference
 
-# Of the library: SHOT_CUSHION_HAN and so on are made by published.types().
-from study.lab.published import (
+# Of the library: SHOT_CUSHION_HAN and so on are made by library.types().
+from study.lab.computed.library import (
     CUSHION_HAN,
     CUSHION_MATHAVAN,
     CUSHION_SMOOTH,
@@ -54,9 +55,9 @@ def rms(errors):
 def systems():
     head("table", *"PGVCF", "T, degrees", "all")
     for name, kind in (("9ft", TABLE_POOL_9FT), ("8ft", TABLE_POOL_8FT), ("7ft", TABLE_POOL_7FT)):
-        sets = [f"{published.system(letter, kind):.2f}" for letter in "PGVCF"]
-        across = max(map(abs, published.twice_across(kind)))
-        row(name, *sets, f"{across:.1f}", f"{published.systems(kind):.2f}")
+        sets = [f"{played_systems.system(letter, kind):.2f}" for letter in "PGVCF"]
+        across = max(map(abs, played_systems.twice_across(kind)))
+        row(name, *sets, f"{across:.1f}", f"{played_systems.systems(kind):.2f}")
 
 
 TP = {
@@ -70,12 +71,12 @@ def pockets():
     head("pocket", "angle", "TP 3.5, 3.6", *(f"carom, {v:g} m/s" for v in speeds))
     for side, sizes in TP.items():
         for angle, size in sizes.items():
-            cells = [f"{published.size(side, angle, v):.0f}" for v in speeds]
+            cells = [f"{size(side, angle, v):.0f}" for v in speeds]
             row("side" if side else "corner", angle, size, *cells)
     speeds = (1, 2, 3, 5, 8)
     head("corner pocket of `9ft`, mm", *(f"{v:g} m/s" for v in speeds))
     for angle in (45, 30, 15, 8):
-        sizes = [published.size(False, angle, v, TABLE_POOL_9FT, 0.00025) for v in speeds]
+        sizes = [size(False, angle, v, TABLE_POOL_9FT, 0.00025) for v in speeds]
         cells = [f"{size:.1f}" for size in sizes]
         row(f"{angle} degrees to the rail", *cells)
 
@@ -159,9 +160,9 @@ def snooker():
 
 def on_table(numbers, model):
     """From now on, balls are played on this table."""
-    published.PLAYED_ON.clear()
-    published.PLAYED_ON.update(numbers)
-    published.CUSHION_MODEL[0] = model
+    library.PLAYED_ON.clear()
+    library.PLAYED_ON.update(numbers)
+    library.CUSHION_MODEL[0] = model
 
 
 def numbers_of(model):
@@ -172,12 +173,12 @@ def numbers_of(model):
 def other_places():
     """Where the kicks and banks of the systems arrive, in diamonds; with 0.6 R w/v of english."""
     found = []
-    for text in published.rows_of_systems():
-        if text["set"] not in published.ARRIVES:
+    for text in played_systems.rows_of_systems():
+        if text["set"] not in played_systems.ARRIVES:
             continue
         line = {name: float(text[name]) for name in ("start", "aim", "roll")} | {"set": text["set"]}
         side = 0.6 if text["english"] == "free" else 0
-        arrives = published.ARRIVES[text["set"]]
+        arrives = played_systems.ARRIVES[text["set"]]
         found += [arrives(TABLE_POOL_9FT, line, float(v), side) for v in text["speeds"].split()]
     return found
 
@@ -189,7 +190,7 @@ def banks_of_calibration():
         bank = OF["carom_bank"]()
         LIBRARY.carom_bank_of(k, reference(bank))
         line = {"set": "P", "start": 0, "aim": bank.aim, "roll": bank.roll}
-        found.append(published.bank(TABLE_POOL_9FT, line, bank.speed, 0))
+        found.append(played_systems.bank(TABLE_POOL_9FT, line, bank.speed, 0))
     return found
 
 
@@ -198,7 +199,7 @@ def calibrated(readings):
     found = OF["carom_calibration"]()
     read = (ctypes.c_double * BANKS)(*readings)
     status = LIBRARY.carom_calibrate(
-        reference(published.table(TABLE_POOL_9FT)),
+        reference(library.table(TABLE_POOL_9FT)),
         reference(ball(GAME_POOL)),
         read,
         reference(found),
@@ -265,7 +266,7 @@ def calibrations():
             on_table(smooth | found, SHOT_CUSHION_DEFAULT)
             for of_one, estimates in zip(errors, (by_han, by_usual, other_places())):
                 of_one += [
-                    min(abs(a - b), published.MOST_OFF)
+                    min(abs(a - b), played_systems.MOST_OFF)
                     for a, b in zip(truth, estimates)
                     if not isnan(a - b)
                 ]

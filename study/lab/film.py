@@ -18,9 +18,9 @@ import sys
 
 import numpy as np
 
-from study.lab import published
+from study.lab.computed import library
 from study.lab.cushions import SNOOKER, head, kind_for, on_table, row
-from study.lab.published import GAME_POOL, GAME_SNOOKER, LIBRARY, OF, ball, reference
+from study.lab.computed.library import GAME_POOL, GAME_SNOOKER, LIBRARY, OF, ball, reference
 
 # By the first letter of a shot: game, width and length between the noses, radius of the balls, m.
 TABLES = {
@@ -75,7 +75,7 @@ def places(shape, balls, times):
     """Of each ball at each time, m; None where the shot fails."""
     events, shot = (OF["carom_event"] * 64)(), OF["carom_shot"](room=64)
     shot.events = ctypes.cast(events, ctypes.c_void_p)
-    options = OF["carom_shot_options"](cushion_model=published.CUSHION_MODEL[0])
+    options = OF["carom_shot_options"](cushion_model=library.CUSHION_MODEL[0])
     states, within = np.empty((len(times), len(balls)), STATE), np.ascontiguousarray(times)
     failed = LIBRARY.carom_shoot(
         reference(shape), balls, len(balls), None, reference(options), reference(shot)
@@ -175,7 +175,7 @@ class Shot:
         spin = np.array([-follow * y, follow * x, side]) * speed / self.radius
         moves = [((speed * x, speed * y, 0), spin)] + [((0, 0, 0), (0, 0, 0))] * len(self.names)
         balls = [
-            published.shot_ball(
+            library.shot_ball(
                 (*place, self.radius), *motion, self.game, **{"radius": self.radius, **numbers}
             )
             for place, motion in zip(self.begins, moves)
@@ -422,7 +422,7 @@ def seen(game, radius, incoming, side=0, **numbers):
     x, y = incoming
     spin = np.array([-y, x, side * np.hypot(x, y)]) / radius
     start = (WIDE[0] - radius - 1e-4, 2, radius)
-    rolls = published.shot_ball(start, (x, y, 0), spin, game, **{"radius": radius, **numbers})
+    rolls = library.shot_ball(start, (x, y, 0), spin, game, **{"radius": radius, **numbers})
     times = 0.04 * np.arange(1, 6)
     found = places(rectangle(game, *WIDE, radius), (OF["carom_shot_ball"] * 1)(rolls), times)[:, 0]
     return np.polyfit(times, found, 1)[0]

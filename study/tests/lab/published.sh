@@ -1,14 +1,17 @@
 # docs/understanding/published.md has the exit code for the tree's data, which docs/shown compares; here is what can be wrong with data.
 mkdir -p bad
 row() { head -n 1 "$DATA/measured.csv" > bad/measured.csv && echo "$1" >> bad/measured.csv && try lab published --data bad; }
-row "ball mass,0.17,0.16,0.17,kg,pool,nobody,read,high,pool ball mass"
-row "ball mass,0.17,0.16,0.17,kg,pool,nobody,read,ok,pool ball mass"
-row "ball mass,0.17,,,kg,pool,nobody,read,-,pool ball mass"
-row "ball mass,0.17,0.18,,kg,pool,nobody,read,,"
-row "ball mass,0.17,0.18,,kg,pool,nobody,read,ok,weight"
-row "ball mass,0.17,0.18,,kg,pool,nobody,read,ok,ball(0).mass"
-row "ball mass,0.17,heavy,,kg,pool,nobody,read,ok,pool ball mass"
-row "ball mass,0.17"
+mass='number_of_ball(""pool"", ""mass"")'
+row "sizes,ball mass,0.17,0.16,0.17,,kg,pool,nobody,read,high,\"$mass\""
+row "sizes,ball mass,0.17,0.16,0.17,,kg,pool,nobody,read,ok,\"$mass\""
+row "sizes,ball mass,0.17,,,,kg,pool,nobody,read,-,\"$mass\""
+row "sizes,ball mass,0.17,,,0.001,kg,pool,nobody,read,ok,\"$mass\""
+row "sizes,ball mass,0.17,0.18,,,kg,pool,nobody,read,,"
+row "sizes,ball mass,0.17,0.18,,,kg,pool,nobody,read,ok,weight(1)"
+row "sizes,ball mass,0.17,0.18,,,kg,pool,nobody,read,ok,throw(exit(3))"
+row "sizes,ball mass,0.17,0.18,,,kg,pool,nobody,read,ok,ball(0).mass"
+row "sizes,ball mass,0.17,heavy,,,kg,pool,nobody,read,ok,\"$mass\""
+row "sizes,ball mass,0.17"
 try lab published --csv --data bad -o missing/published.csv
 lab published --csv --data bad | head -n 2
 # Filmed shots, which another program plays: what they say of each number, and two numbers of that program.

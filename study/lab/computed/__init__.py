@@ -1,0 +1,1 @@
+"""How carom computes what others measured: a file for each subject."""
