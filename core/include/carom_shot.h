@@ -386,8 +386,8 @@ typedef struct carom_table {
   /* Only read with CAROM_SPACE_3D. All >= 0, m; 0 means the default. */
   double ball_radius; /* m, radius of the balls for which rails are placed: such a ball on the cloth
                          touches a rail when its centre is one radius from the rail's line. This
-                         determines the position of the nose. 0: the radius of the last ball of the
-                         layout. */
+                         determines the position of the nose. 0: the radius that most balls of the
+                         layout have, and of equally common radii the largest. */
   double rail_width;  /* width of the tops of the rails, behind the noses, onto which balls may
                          fall; at least the radius of the largest ball; 0: 0.12 m, a convention. */
   double pocket_back; /* height of the backs of pockets, m: an airborne ball over a pocket falls
