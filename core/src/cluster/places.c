@@ -190,8 +190,7 @@ void carom_cluster_limit_shifts(carom_cluster_state *cluster) {
   double share = 1.0;
   for (int index = 0; index < cluster->balls; index++)
     for (int other = index + 1; other < cluster->balls; other++)
-      share = carom_lesser(share,
-                           share_to_limit(&cluster->ball[index], &cluster->ball[other]));
+      share = carom_lesser(share, share_to_limit(&cluster->ball[index], &cluster->ball[other]));
   if (!(share < 1.0))
     return;
   for (int index = 0; index < cluster->balls; index++)

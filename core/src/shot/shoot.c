@@ -114,8 +114,7 @@ static bool move_out(const carom_sim *sim, int ball, carom_ball_state *state) {
     bool moved = false;
     for (int other = 0; other < sim->count; other++) {
       double out[2];
-      const double overlap =
-          other == ball ? 0.0 : overlap_with(sim, other, radius, state, out);
+      const double overlap = other == ball ? 0.0 : overlap_with(sim, other, radius, state, out);
       if (!(overlap > CAROM_TOUCHING))
         continue;
       moved = true;

@@ -85,8 +85,8 @@ static void draw_cue(lab_random *random, carom_cue *cue) {
   *cue = carom_cue_of(CAROM_GAME_POOL);
   cue->phi = lab_uniform(random, 0.0, 360.0);
   cue->theta = once_in(random, 2) ? lab_uniform(random, 0.0, 85.0) : 0.0;
-  cue->speed = once_in(random, 4) ? lab_log_uniform(random, 0.01, 30.0)
-                                  : lab_uniform(random, 0.1, 10.0);
+  cue->speed =
+      once_in(random, 4) ? lab_log_uniform(random, 0.01, 30.0) : lab_uniform(random, 0.1, 10.0);
   const double off = 0.999 * sqrt(lab_uniform(random, 0.0, 1.0)),
                way = lab_uniform(random, 0.0, 6.283185307179586);
   cue->a = off * cos(way);
@@ -98,16 +98,15 @@ static void draw_cue(lab_random *random, carom_cue *cue) {
 static bool draw(lab_random *random, extreme *x) {
   static const carom_table_kind tables[] = {CAROM_TABLE_POOL_7FT, CAROM_TABLE_POOL_9FT,
                                             CAROM_TABLE_THREECUSHION, CAROM_TABLE_HEYBALL};
-  static const carom_shot_cushion cushions[] = {
-      CAROM_SHOT_CUSHION_DEFAULT, CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_STRONGE};
+  static const carom_shot_cushion cushions[] = {CAROM_SHOT_CUSHION_DEFAULT, CAROM_SHOT_CUSHION_HAN,
+                                                CAROM_SHOT_CUSHION_STRONGE};
   memset(x, 0, sizeof *x);
   carom_table_make(tables[lab_whole(random, 0, 3)], &x->table);
   x->count = lab_whole(random, 1, CAROM_BALLS_MOST);
   for (int k = 0; k < x->count; k++) {
     x->ball[k].kind = carom_ball_kind_of(CAROM_GAME_POOL);
     draw_kind(random, &x->ball[k].kind);
-    x->ball[k].state =
-        (carom_ball_state){.r = {-5.0 - k, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+    x->ball[k].state = (carom_ball_state){.r = {-5.0 - k, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
   }
   draw_cue(random, &x->cue);
   x->options.cushion_model = cushions[lab_whole(random, 0, 2)];
@@ -169,8 +168,7 @@ TEST(what_rests_may_be_played) {
     if (!draw(&random, &x))
       continue;
     carom_shot shot = {.events = event, .room = ROOM, .final = final};
-    const carom_status status =
-        carom_shoot(&x.table, x.ball, x.count, &x.cue, &x.options, &shot);
+    const carom_status status = carom_shoot(&x.table, x.ball, x.count, &x.cue, &x.options, &shot);
     if (status < 0 || shot.count > ROOM)
       continue;
     const double gain = gain_of(&x, &shot);
@@ -180,8 +178,7 @@ TEST(what_rests_may_be_played) {
       for (int axis = 0; axis < 3; axis++)
         finite &= isfinite(final[k].r[axis]) && isfinite(final[k].v[axis]);
     }
-    const carom_status again =
-        carom_shot_check(&x.table, x.ball, x.count, NULL, &x.options, NULL);
+    const carom_status again = carom_shot_check(&x.table, x.ball, x.count, NULL, &x.options, NULL);
     rested++;
     if (again == CAROM_OK && finite && gain <= rounding)
       continue;

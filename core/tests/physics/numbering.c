@@ -142,8 +142,7 @@ TEST(numbers_of_balls_do_not_count) {
 
     static carom_ball_state one[BALLS_MOST], other[BALLS_MOST];
     carom_shot first = {.final = one}, second = {.final = other};
-    const carom_status status =
-        carom_shoot(&n.table, n.ball, n.count, &n.cue, &n.options, &first);
+    const carom_status status = carom_shoot(&n.table, n.ball, n.count, &n.cue, &n.options, &first);
     ck_assert_int_eq(carom_shoot(&n.table, n.renumbered, n.count, &n.cue, &n.options, &second),
                      status);
     if (status < 0)

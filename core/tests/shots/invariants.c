@@ -325,8 +325,8 @@ static double way_of(const follower *f, const carom_event *e, int side) {
   if (e->cluster > 0 || e->type == CAROM_EVENT_STRIKE || e->type == CAROM_EVENT_POCKET)
     return 0.0;
   const double way = hypot(length2(q[0] - r[0], q[1] - r[1]), q[2] - r[2]);
-  const bool rests = e->after[0].label == CAROM_BALL_STATIONARY ||
-                     e->after[0].label == CAROM_BALL_SPINNING;
+  const bool rests =
+      e->after[0].label == CAROM_BALL_STATIONARY || e->after[0].label == CAROM_BALL_SPINNING;
   if (way > 0.0 && rests && e->type != CAROM_EVENT_BALL_BALL)
     return fmax(way - way_out(f, e->a), 0.0);
   return way;
