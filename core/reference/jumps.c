@@ -36,7 +36,7 @@ static const double further = 1e-9;       /* of the follow-through */
 static const double at_end = 1e-6;        /* of the length of a rail */
 
 bool recipe_play(const recipe *r, played *p) {
-  static recipe_layout l;
+  static _Thread_local recipe_layout l;
   carom_shot shot = {.events = p->event, .room = JUMP_ROOM, .final = p->final};
   recipe_lay(r, &l);
   const carom_status status = carom_shoot(&l.table, l.ball, l.count, &l.cue, &l.options, &shot);
@@ -167,14 +167,14 @@ static void name_pair(const char *form, const carom_event *x, const carom_event 
 
 /* Whether a touch of the tip comes or goes with the end of the follow-through. */
 static bool ends_follow(const recipe *r, const carom_event *touch) {
-  static played moved;
+  static _Thread_local played moved;
   recipe longer = *r;
   longer.follow *= 1.0 + further;
   return recipe_play(&longer, &moved) && find_now(&moved, 0, touch) != NULL;
 }
 
 static bool is_at_end(const recipe *r, const carom_event *e) {
-  static carom_table table;
+  static _Thread_local carom_table table;
   if (e->type != CAROM_EVENT_RAIL)
     return false;
   carom_table_make((carom_table_kind)r->table, &table);
