@@ -188,15 +188,15 @@ static bool is_at_end(const recipe *r, const carom_event *e) {
  * in both shots, but not out of the same motion. Then the order of the two decides. */
 static bool name_order(const played *with, const carom_event *e, const played *without, int index,
                        char name[JUMP_NAME]) {
-  for (const carom_event *other = e + 1; other < with->event + with->count; other++) {
-    if (!is_now(other, e))
+  for (const carom_event *rival = e + 1; rival < with->event + with->count; rival++) {
+    if (!is_now(rival, e))
       return false;
-    if (word_of(other) == NULL || is_same(other, e) || !are_linked(other, e))
+    if (word_of(rival) == NULL || is_same(rival, e) || !are_linked(rival, e))
       continue;
-    const carom_event *its = find_now(without, index, other);
-    if (its == NULL || apart(its->before, other->before) < agreement)
+    const carom_event *its = find_now(without, index, rival);
+    if (its == NULL || apart(its->before, rival->before) < agreement)
       continue;
-    name_pair("order of %s, %s", other, e, name);
+    name_pair("order of %s, %s", rival, e, name);
     return true;
   }
   return false;

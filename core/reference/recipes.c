@@ -25,7 +25,7 @@ static double any_gap(lab_random *r, double most) {
 /* Balls `first` to `last` near earlier ones, the first of them ahead of ball 0. */
 static void add_company(recipe *r, lab_random *random, int first, int last, double ahead) {
   for (int k = first; k <= last; k++) {
-    r->of[k] = k == first ? first - 1 : lab_whole(random, 0, k - 1);
+    r->anchor[k] = k == first ? first - 1 : lab_whole(random, 0, k - 1);
     r->gap[k] = any_gap(random, 5e-3);
     r->bearing[k] =
         k == first ? ahead + lab_uniform(random, -80.0, 80.0) : lab_uniform(random, -180.0, 180.0);
@@ -64,7 +64,7 @@ static void add_motion(recipe *r, lab_random *random, double heading) {
 /* A ball that comes at one that is in company. */
 static void add_attacker(recipe *r, lab_random *random, int target, double heading) {
   const int k = r->count++;
-  r->of[k] = target;
+  r->anchor[k] = target;
   r->gap[k] = lab_uniform(random, 1e-3, 0.03);
   r->bearing[k] = heading + 180.0 + lab_uniform(random, -50.0, 50.0);
   add_motion(r, random, heading);
@@ -161,7 +161,7 @@ static void rack(recipe *r, lab_random *random) {
   for (int row = 0; row < rows; row++)
     for (int place = 0; place <= row; place++, k++) {
       /* behind the ball before it in the row, or from the begin of the row before */
-      r->of[k] = place > 0 ? k - 1 : k - row;
+      r->anchor[k] = place > 0 ? k - 1 : k - row;
       r->bearing[k] = place > 0 ? 0.0 : 120.0;
       r->gap[k] = gap;
     }
@@ -269,12 +269,12 @@ int recipe_numbers(const recipe *r, recipe_number numbers[RECIPE_NUMBERS]) {
     const double most = strcmp(r->family, "hop") == 0 ? 0.1 : 5e-3;
     add(r, "gap", &r->gap[k], 0.0, r->gap[k] < 2e-4 ? 3e-4 : most, numbers, &count);
   }
-  const int other = r->count - 1;
-  if (other > 0)
+  const int last = r->count - 1;
+  if (last > 0)
     add(r, "restitution", &r->restitution, 0.8, 1.0, numbers, &count);
-  if (other > 0)
-    add(r, "bearing", &r->bearing[other], r->bearing[other] - 40.0, r->bearing[other] + 40.0,
-        numbers, &count);
+  if (last > 0)
+    add(r, "bearing", &r->bearing[last], r->bearing[last] - 40.0, r->bearing[last] + 40.0, numbers,
+        &count);
   if (r->rail >= 0) {
     const bool at_end = strcmp(r->family, "seam") == 0;
     const double ends = at_end ? 0.02 : 3e-3;
@@ -305,22 +305,22 @@ int recipe_numbers(const recipe *r, recipe_number numbers[RECIPE_NUMBERS]) {
 /* ---- Layouts */
 
 /* The position of ball 0, and the bearing of the direction into its cushion. */
-static double put_first(const recipe *r, const carom_table *t, double R, double at[2]) {
+static double put_first(const recipe *r, const carom_table *t, double R, double spot[2]) {
   if (r->rail < 0) {
-    at[0] = 0.5 * t->width;
-    at[1] = 0.5 * t->length;
+    spot[0] = 0.5 * t->width;
+    spot[1] = 0.5 * t->length;
     return 0.0;
   }
   const carom_rail *rail = &t->rail[r->rail];
-  const double *from = r->end ? rail->q : rail->p, *to = r->end ? rail->p : rail->q;
-  const double x = to[0] - from[0], y = to[1] - from[1], size = sqrt(x * x + y * y);
+  const double *start = r->end ? rail->q : rail->p, *finish = r->end ? rail->p : rail->q;
+  const double x = finish[0] - start[0], y = finish[1] - start[1], size = sqrt(x * x + y * y);
   double out[2] = {-y / size, x / size};
-  if (out[0] * (0.5 * t->width - from[0]) + out[1] * (0.5 * t->length - from[1]) < 0.0) {
+  if (out[0] * (0.5 * t->width - start[0]) + out[1] * (0.5 * t->length - start[1]) < 0.0) {
     out[0] = -out[0];
     out[1] = -out[1];
   }
-  at[0] = from[0] + r->along * x / size + (R + r->away) * out[0];
-  at[1] = from[1] + r->along * y / size + (R + r->away) * out[1];
+  spot[0] = start[0] + r->along * x / size + (R + r->away) * out[0];
+  spot[1] = start[1] + r->along * y / size + (R + r->away) * out[1];
   return atan2(-out[1], -out[0]) / degree;
 }
 
@@ -347,12 +347,12 @@ void recipe_lay(const recipe *r, recipe_layout *l) {
       turn = put_first(r, &l->table, R, s->r);
       continue;
     }
-    const double *to = l->ball[r->of[k]].state.r, way = (turn + r->bearing[k]) * degree;
-    const double other = l->ball[r->of[k]].kind.radius, reach = kind.radius + other + r->gap[k],
-                 lift = kind.radius - other;
+    const double *base = l->ball[r->anchor[k]].state.r, way = (turn + r->bearing[k]) * degree;
+    const double base_radius = l->ball[r->anchor[k]].kind.radius,
+                 reach = kind.radius + base_radius + r->gap[k], lift = kind.radius - base_radius;
     const double across = lift != 0.0 ? sqrt(reach * reach - lift * lift) : reach;
-    s->r[0] = to[0] + across * cos(way);
-    s->r[1] = to[1] + across * sin(way);
+    s->r[0] = base[0] + across * cos(way);
+    s->r[1] = base[1] + across * sin(way);
   }
 
   l->cue = carom_cue_of(CAROM_GAME_POOL);

@@ -15,7 +15,7 @@ typedef struct recipe {
   int count, table;             /* of balls; a carom_table_kind */
   int rail, end;                /* the cushion at which ball 0 lies, and from which of its ends */
   double along, away;           /* m: from that end along the rail; between ball and nose */
-  int of[RECIPE_BALLS];         /* the ball from which ball k has its position, for k > 0 */
+  int anchor[RECIPE_BALLS];     /* the ball from which ball k has its position, for k > 0 */
   double gap[RECIPE_BALLS];     /* m: between the two */
   double bearing[RECIPE_BALLS]; /* degrees: of k from of[k] */
   double height, rise;          /* m, m/s: of the last ball above the cloth */

@@ -1,13 +1,14 @@
-"""hidden_calls.py FILE...: calls that change something, behind `&&`, `||` or in a branch of `?:`.
+"""hidden_calls.py FILE...: predicates that change something, behind `&&`, `||` or in `?:`.
 
-Such a call is skipped where the operand before it decides, which is easy to overlook: a shot that
-had stopped once did not take note of a contact. A call is taken to change something if the first
-parameter of its function is a pointer to a structure that is not const, as in `note_event(sim, e)`.
-An answer through a later pointer, as in `read_number(text, &x)`, is none: it is read only if the
-call was made.
+Such a call is skipped where the operand before it decides, and its name does not show that this
+matters: a shot that had stopped once did not take note of a contact, as `stops_at()` took it. A
+step, as in `ready && play(shot)`, says by its name that it is to be skipped.
 
-The functions are those that FILEs define or declare. tools/lint_exceptions lists what stays as it
-is: FILE hidden:FUNCTION REASON, FUNCTION being the one that is called.
+A predicate is a function of type bool or int with a verb of the third person first, or behind its
+subject: `is_open`, `stops_at`, `tip_acts`. It changes something if its first parameter is a pointer
+to a structure that is not const; behind that, such a pointer receives an answer, which is read only
+if the call was made. The functions are those that FILEs define or declare.
+tools/lint_exceptions lists what stays as it is: FILE hidden:FUNCTION REASON.
 """
 
 import re
@@ -17,19 +18,36 @@ from pathlib import Path
 from lizard_languages import get_reader_for
 from lint_c import exceptions
 
-# A declaration or a definition: NAME(FIRST parameter, at the begin of a line.
-FUNCTION = re.compile(r"^(?:[A-Za-z_][\w ]*[ *]+)(\w+)\(([^,()]*)[,)]", re.MULTILINE)
+# A declaration or a definition at the begin of a line: type, NAME, parameters.
+FUNCTION = re.compile(r"^(?:[a-z_]+ )*(?:bool|int) (\w+)\(([^()]*)\)", re.MULTILINE)
 # A pointer to a structure: carom_sim *sim. Not to a number or to text, and not const.
-NUMBERS = r"(?:char|int|double|float|bool|void|size_t|u?int\d+_t|FILE|long|real|number)"
-CHANGED = re.compile(rf"^(?!.*\bconst\b)(?!{NUMBERS}\b)(?:struct )?\w+ \*\w+$")
+NUMBERS = r"(?:char|int|double|float|bool|void|size_t|u?int\d+_t|FILE)"
+CHANGED = re.compile(rf"^(?!.*\bconst\b)(?!{NUMBERS}\b)\w+ \*\w+$")
+AUXILIARY = {"is", "has", "may", "can"}
+# Words that end in s and are no verbs of the third person, and verbs of steps before a plural.
+NOUNS = {"strokes", "numbers", "status", "process", "less", "cross", "pass", "press", "guess"}
+STEPS = {"find", "list", "read", "take", "put", "add", "make", "write", "check", "keep", "name", "note",
+         "play", "open", "close", "set", "get", "begin", "count", "match", "show", "print", "draw", "give",
+         "tell"}
 
 
-def changing_functions(paths):
-    """The names of all functions whose first parameter is a structure that they may change."""
+def is_third(word):
+    return word in AUXILIARY or (word.endswith("s") and word not in NOUNS)
+
+
+def is_predicate(name):
+    words = name.removeprefix("carom_").split("_")
+    subject = len(words) == 2 and words[0] not in STEPS and is_third(words[1])
+    return is_third(words[0]) or subject
+
+
+def changing_predicates(paths):
+    """The names of all predicates that may change a structure."""
     names = set()
     for path in paths:
-        for name, first in FUNCTION.findall(Path(path).read_text()):
-            if CHANGED.match(first.strip()):
+        for name, parameters in FUNCTION.findall(Path(path).read_text()):
+            first = " ".join(parameters.partition(",")[0].split())
+            if CHANGED.match(first) and is_predicate(name):
                 names.add(name)
     return names
 
@@ -66,7 +84,7 @@ def hidden_calls(path, names):
 
 def main():
     paths = [path for path in sys.argv[1:] if path.endswith((".c", ".h"))]
-    names = changing_functions(paths)
+    names = changing_predicates(paths)
     listed = {row for row in exceptions() if row[1].startswith("hidden:")}
     used, wrong = set(), []
     for path in paths:
@@ -74,8 +92,8 @@ def main():
             row = (path, f"hidden:{name}")
             used.add(row)
             if row not in listed:
-                wrong.append(f"{path}:{line}: {name}() changes its first argument, and may be "
-                             "skipped by the operator before it: call it in a statement")
+                wrong.append(f"{path}:{line}: {name}() changes an argument, and the operator before "
+                             "it may skip it: call it in its own statement")
     for path, what in sorted(listed - used):
         wrong.append(f"tools/lint_exceptions: {path} {what} is not needed any more")
     if wrong:

@@ -62,12 +62,12 @@ int carom_cluster_begin_touch(carom_cluster_state *cluster, int contact_index, i
 /* Whether a touch goes before another one: the earlier first; of touches of balls at one time the
  * one with the larger impulse. */
 static bool is_before(const carom_cluster_state *cluster, const carom_cluster_touch *touch,
-                      const carom_cluster_touch *other) {
-  const double later = other->time - touch->time;
+                      const carom_cluster_touch *partner) {
+  const double later = partner->time - touch->time;
   if (fabs(later) > CAROM_SIMULTANEOUS_TOUCHES * cluster->duration || touch->contact < 0 ||
-      other->contact < 0)
+      partner->contact < 0)
     return later > 0.0;
-  return touch->P[0] > (1.0 + CAROM_SIMULTANEOUS_TOUCHES) * other->P[0];
+  return touch->P[0] > (1.0 + CAROM_SIMULTANEOUS_TOUCHES) * partner->P[0];
 }
 
 /* Touches in their order, and those that are alike in the order in which they were noted. */
@@ -169,14 +169,14 @@ static double delay_of(const carom_cluster_state *cluster, const carom_cluster_t
 
 /* The share of the shifts with which two balls start no nearer than the limit: where
  * |d + share D| = limit, with d from one to the other and D its change by all of the shifts. */
-static double share_to_limit(const carom_cluster_ball *ball, const carom_cluster_ball *other) {
+static double share_to_limit(const carom_cluster_ball *ball, const carom_cluster_ball *partner) {
   static const double nearest = 0.956; /* of the sum of radii */
   double apart[3], change[3], end[3];
-  cluster_minus(false, other->r, ball->r, apart);
-  cluster_minus(false, other->shift, ball->shift, change);
+  cluster_minus(false, partner->r, ball->r, apart);
+  cluster_minus(false, partner->shift, ball->shift, change);
   for (int axis = 0; axis < 3; axis++)
     end[axis] = apart[axis] + change[axis];
-  const double limit = nearest * (ball->radius + other->radius), limit2 = limit * limit;
+  const double limit = nearest * (ball->radius + partner->radius), limit2 = limit * limit;
   const double C = cluster_dot(false, apart, apart) - limit2;
   if (!(cluster_dot(false, end, end) < limit2 && C > 0.0))
     return 1.0;
@@ -189,8 +189,8 @@ static double share_to_limit(const carom_cluster_ball *ball, const carom_cluster
 void carom_cluster_limit_shifts(carom_cluster_state *cluster) {
   double share = 1.0;
   for (int index = 0; index < cluster->balls; index++)
-    for (int other = index + 1; other < cluster->balls; other++)
-      share = carom_lesser(share, share_to_limit(&cluster->ball[index], &cluster->ball[other]));
+    for (int partner = index + 1; partner < cluster->balls; partner++)
+      share = carom_lesser(share, share_to_limit(&cluster->ball[index], &cluster->ball[partner]));
   if (!(share < 1.0))
     return;
   for (int index = 0; index < cluster->balls; index++)

@@ -26,8 +26,8 @@ int carom_reference_ball(const carom_prepared *prepared) {
   for (int index = prepared->count - 1; index >= 0; index--) {
     const double radius = prepared->kind[index]->radius;
     int alike = 0;
-    for (int other = 0; other < prepared->count; other++)
-      alike += prepared->kind[other]->radius == radius;
+    for (int partner = 0; partner < prepared->count; partner++)
+      alike += prepared->kind[partner]->radius == radius;
     const bool larger = radius > prepared->kind[best]->radius;
     if (alike > most || (alike == most && larger)) {
       best = index;

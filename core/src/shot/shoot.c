@@ -89,15 +89,15 @@ static void stay_before_noses(const carom_sim *sim, int ball, const carom_ball_s
 }
 
 /* How far a ball on the cloth is in another one, m, and the way out of it. */
-static double overlap_with(const carom_sim *sim, int other, double radius,
+static double overlap_with(const carom_sim *sim, int partner, double radius,
                            const carom_ball_state *state, double out[2]) {
   carom_ball_state neighbor;
-  carom_path_at(&sim->path[other], &sim->rates[other], sim->time, &neighbor);
+  carom_path_at(&sim->path[partner], &sim->rates[partner], sim->time, &neighbor);
   if (carom_is_out(neighbor.label) || carom_flies(&neighbor))
     return 0.0;
 
   /* on the cloth centres are 2 sqrt(R_i R_j) apart, seen from above, where balls touch */
-  const double reach = 2.0 * sqrt(radius * sim->rates[other].radius);
+  const double reach = 2.0 * sqrt(radius * sim->rates[partner].radius);
   const double x = state->r[0] - neighbor.r[0], y = state->r[1] - neighbor.r[1];
   const double distance = sqrt(x * x + y * y);
   out[0] = distance > 0.0 ? x / distance : 1.0;
@@ -109,12 +109,12 @@ static double overlap_with(const carom_sim *sim, int other, double radius,
 static bool move_out(const carom_sim *sim, int ball, carom_ball_state *state) {
   enum { ROUNDS = 100 };
   const double radius = sim->rates[ball].radius;
-  const carom_ball_state before = *state;
+  const carom_ball_state start = *state;
   for (int round = 0; round < ROUNDS; round++) {
     bool moved = false;
-    for (int other = 0; other < sim->count; other++) {
+    for (int partner = 0; partner < sim->count; partner++) {
       double out[2];
-      const double overlap = other == ball ? 0.0 : overlap_with(sim, other, radius, state, out);
+      const double overlap = partner == ball ? 0.0 : overlap_with(sim, partner, radius, state, out);
       if (!(overlap > CAROM_TOUCHING))
         continue;
       moved = true;
@@ -123,7 +123,7 @@ static bool move_out(const carom_sim *sim, int ball, carom_ball_state *state) {
     }
     if (!moved)
       return true;
-    stay_before_noses(sim, ball, &before, state);
+    stay_before_noses(sim, ball, &start, state);
   }
   return false;
 }
@@ -135,11 +135,11 @@ static void rest_in_front(const carom_sim *sim, int ball, carom_ball_state *stat
   if (carom_flies(state) || carom_translates(state->label) || carom_is_out(state->label))
     return;
   bool too_deep = false;
-  for (int other = 0; other < sim->count; other++) {
+  for (int partner = 0; partner < sim->count; partner++) {
     double out[2];
-    const bool rests = other != ball && !carom_translates(sim->path[other].from.label);
-    too_deep |=
-        rests && overlap_with(sim, other, sim->rates[ball].radius, state, out) > CAROM_REST_OVERLAP;
+    const bool rests = partner != ball && !carom_translates(sim->path[partner].from.label);
+    too_deep |= rests && overlap_with(sim, partner, sim->rates[ball].radius, state, out) >
+                             CAROM_REST_OVERLAP;
   }
   carom_ball_state moved = *state;
   if (too_deep && move_out(sim, ball, &moved))

@@ -100,13 +100,13 @@ static size_t run_layouts(const void *job, size_t start, size_t end) {
       look(&r, number, &steps[k], &sum);
 
     pthread_mutex_lock(&lock);
-    tally *all = &total->family[family];
-    all->strokes += sum.strokes;
-    all->jumps += sum.jumps;
-    all->fast += sum.fast;
-    all->far += sum.far;
-    all->speed = fmax(all->speed, sum.speed);
-    all->place = fmax(all->place, sum.place);
+    tally *whole = &total->family[family];
+    whole->strokes += sum.strokes;
+    whole->jumps += sum.jumps;
+    whole->fast += sum.fast;
+    whole->far += sum.far;
+    whole->speed = fmax(whole->speed, sum.speed);
+    whole->place = fmax(whole->place, sum.place);
     progress_show("strokes", (double)++done, (double)total->layouts);
     pthread_mutex_unlock(&lock);
   }
