@@ -1090,11 +1090,11 @@ CAROM_API carom_status carom_shot_at_times(const carom_shot_ball *balls, int cou
                                            const carom_shot *shot, const double *times, size_t n,
                                            carom_ball_state *states);
 
-/* The same for drawing: a pocketed ball falls freely from the edge, along the wall of its pocket
- * and around the balls that are already there. It stops at the depth of the pocket or on these
- * balls, and stays there, also after the end of the shot. Its label is CAROM_BALL_POCKETED. The
- * call needs events with states, because brief events do not say where a fall begins.
- * CAROM_ERROR_NULL without a table. */
+/* The same for drawing: a pocketed ball falls freely from the edge, along the wall of its pocket.
+ * Balls that meet in a pocket push each other aside. A ball stops at the depth of the pocket or on
+ * others, 0.7 s after its fall began at the latest, and stays there, also after the end of the
+ * shot. Its label is CAROM_BALL_POCKETED. The call needs events with states, because brief events
+ * do not say where a fall begins. CAROM_ERROR_NULL without a table. */
 CAROM_API carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *balls,
                                         int count, const carom_shot *shot, const double *times,
                                         size_t n, carom_ball_state *states);
