@@ -26,9 +26,33 @@ CHANGED = re.compile(rf"^(?!.*\bconst\b)(?!{NUMBERS}\b)\w+ \*\w+$")
 AUXILIARY = {"is", "has", "may", "can"}
 # Words that end in s and are no verbs of the third person, and verbs of steps before a plural.
 NOUNS = {"strokes", "numbers", "status", "process", "less", "cross", "pass", "press", "guess"}
-STEPS = {"find", "list", "read", "take", "put", "add", "make", "write", "check", "keep", "name", "note",
-         "play", "open", "close", "set", "get", "begin", "count", "match", "show", "print", "draw", "give",
-         "tell"}
+STEPS = {
+    "find",
+    "list",
+    "read",
+    "take",
+    "put",
+    "add",
+    "make",
+    "write",
+    "check",
+    "keep",
+    "name",
+    "note",
+    "play",
+    "open",
+    "close",
+    "set",
+    "get",
+    "begin",
+    "count",
+    "match",
+    "show",
+    "print",
+    "draw",
+    "give",
+    "tell",
+}
 
 
 def is_third(word):
@@ -92,8 +116,10 @@ def main():
             row = (path, f"hidden:{name}")
             used.add(row)
             if row not in listed:
-                wrong.append(f"{path}:{line}: {name}() changes an argument, and the operator before "
-                             "it may skip it: call it in its own statement")
+                wrong.append(
+                    f"{path}:{line}: {name}() changes an argument, and the operator before "
+                    "it may skip it: call it in its own statement"
+                )
     for path, what in sorted(listed - used):
         wrong.append(f"tools/lint_exceptions: {path} {what} is not needed any more")
     if wrong:

@@ -184,8 +184,8 @@ static void part(pocket_fall *fall, pocket_fall *neighbor) {
   fall->touches = neighbor->touches = true;
 }
 
-/* Moves a ball to within the wall and above the floor. Its centre is outside of the wall as it comes
- * in: it gets inside at a small speed. */
+/* Moves a ball to within the wall and above the floor. Its centre is outside of the wall as it
+ * comes in: it gets inside at a small speed. */
 static void stay_within(pocket_fall *fall) {
   const double *centre = fall->pocket->centre;
   const double x = fall->r[0] - centre[0], y = fall->r[1] - centre[1], far = sqrt(x * x + y * y);

@@ -134,12 +134,17 @@ static bool move_out(const carom_sim *sim, int ball, carom_ball_state *state) {
 static void rest_in_front(const carom_sim *sim, int ball, carom_ball_state *state) {
   if (carom_flies(state) || carom_translates(state->label) || carom_is_out(state->label))
     return;
+  const double radius = sim->rates[ball].radius;
   bool too_deep = false;
   for (int partner = 0; partner < sim->count; partner++) {
-    double out[2];
-    const bool rests = partner != ball && !carom_translates(sim->path[partner].from.label);
-    too_deep |= rests && overlap_with(sim, partner, sim->rates[ball].radius, state, out) >
-                             CAROM_REST_OVERLAP;
+    const carom_ball_state *neighbor = &sim->path[partner].from;
+    const double x = state->r[0] - neighbor->r[0], y = state->r[1] - neighbor->r[1];
+    double way[2];
+    /* most are far away, and others move */
+    if (x * x + y * y >= 4.0 * radius * sim->rates[partner].radius || partner == ball ||
+        carom_translates(neighbor->label))
+      continue;
+    too_deep |= overlap_with(sim, partner, radius, state, way) > CAROM_REST_OVERLAP;
   }
   carom_ball_state moved = *state;
   if (too_deep && move_out(sim, ball, &moved))

@@ -1,5 +1,5 @@
-/* Pocketed balls, drawn: they fall without a jump, inside their pocket and not in each other, and lie
- * there next to each other; the others are where they are. */
+/* Pocketed balls, drawn: they fall without a jump, inside their pocket and not in each other, and
+ * lie there next to each other; the others are where they are. */
 #include "carom_shot.h"
 #include "random.h"
 #include "support.h"
