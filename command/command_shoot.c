@@ -135,8 +135,8 @@ static bool goes_with(const shot_line *a, const shot_line *b) {
   return b->error == NULL && a->table == b->table && a->count == b->count;
 }
 
-/* Whether one more line in error is named. */
-static bool is_named(block *b) {
+/* Counts one more line in error. Returns whether it is named. */
+static bool count_wrong(block *b) {
   return b->unnamed++ < 0;
 }
 
@@ -212,7 +212,7 @@ static void find_spread(block *b, int k, const shoot_job *job, const carom_shot_
   if (b->status[k] < 0)
     return;
   spread_of(&job->error, &b->line[k], &b->shot[k], options, drawings_asked(&job->drawn), result);
-  if (result->status < 0 && is_named(b))
+  if (result->status < 0 && count_wrong(b))
     complain("%s:%zu: --spread: %s", b->file, b->line[k].number,
              carom_status_string(result->status));
   if (result->status < 0)
@@ -235,7 +235,7 @@ static void play_block(block *b, const carom_shot_options *options) {
 static void write_wrong(block *b, int k, const shoot_job *job, FILE *out, const char *status,
                         const char *wrong) {
   const shot_line *line = &b->line[k];
-  if (is_named(b))
+  if (count_wrong(b))
     complain("%s:%zu: %s", b->file, line->number, wrong);
   if (!job->words)
     shot_write_error(out, line, status, wrong);
@@ -273,7 +273,7 @@ static bool finish_block(block *b, shoot_job *job, FILE *out) {
     }
 
     /* it was played, to its end or up to an error on the way */
-    if (b->status[k] < 0 && is_named(b))
+    if (b->status[k] < 0 && count_wrong(b))
       complain("%s:%zu: after %g s: %s", b->file, line->number, b->shot[k].time,
                carom_status_string(b->status[k]));
     played *shot = &shots[count];
@@ -480,7 +480,7 @@ static bool go_together(const shoot_job *job, bool words, const char *path) {
 }
 
 /* Chooses the stroke of --leave, or the speed of --stop; false after a complaint. */
-static bool chooses(shoot_job *job, const carom_shot_options *options) {
+static bool choose_stroke(shoot_job *job, const carom_shot_options *options) {
   const given_player *player = &job->flags.shared.player;
   if (!job->leave.is_set && (player->rated || player->errs))
     complain(
@@ -562,7 +562,7 @@ int command_shoot(int argc, char **argv) {
   }
   if (!job.together && !with_fits_file(&job.flags.shared.with))
     return EXIT_USAGE;
-  if (!can_play(&job) || !chooses(&job, &options))
+  if (!can_play(&job) || !choose_stroke(&job, &options))
     return EXIT_USAGE;
 
   shot_file *file;

@@ -380,8 +380,8 @@ typedef struct carom_table {
   /* Only read with CAROM_SPACE_3D. All >= 0, m; 0 means the default. */
   double ball_radius; /* m, radius of the balls for which rails are placed: such a ball on the cloth
                          touches a rail when its centre is one radius from the rail's line. This
-                         determines the position of the nose. 0: the radius of the last ball of the
-                         layout. */
+                         determines the position of the nose. 0: the radius that most balls of the
+                         layout have, and of equally common radii the largest. */
   double rail_width;  /* width of the tops of the rails, behind the noses, onto which balls may
                          fall; at least the radius of the largest ball; 0: 0.12 m, a convention. */
   double pocket_back; /* height of the backs of pockets, m: an airborne ball over a pocket falls
@@ -1059,11 +1059,11 @@ CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom
 CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count,
                                      const carom_shot *shot, double time, carom_ball_state *states);
 
-/* The same for drawing: a pocketed ball falls freely from the edge, along the wall of its pocket
- * and around the balls that are already there. It stops at the depth of the pocket or on these
- * balls, and stays there, also after the end of the shot. Its label is CAROM_BALL_POCKETED. The
- * call needs events with states, because brief events do not say where a fall begins.
- * CAROM_ERROR_NULL without a table. */
+/* The same for drawing: a pocketed ball falls freely from the edge, along the wall of its pocket.
+ * Balls that meet in a pocket push each other aside. A ball stops at the depth of the pocket or on
+ * others, 0.7 s after its fall began at the latest, and stays there, also after the end of the
+ * shot. Its label is CAROM_BALL_POCKETED. The call needs events with states, because brief events
+ * do not say where a fall begins. CAROM_ERROR_NULL without a table. */
 CAROM_API carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *balls,
                                         int count, const carom_shot *shot, const double *times,
                                         size_t n, carom_ball_state *states);

@@ -70,6 +70,8 @@ def main():
             else:
                 wrong.append(f"{path}:{number}: a condition within a condition (?: in ?:)")
     for path, what in sorted(listed - used):
+        if what.startswith("hidden:"):
+            continue  # of hidden_calls.py
         if path in files or not Path(path).exists():
             wrong.append(f"tools/lint_exceptions: {path} {what} is not needed any more")
     if wrong:

@@ -724,11 +724,17 @@ static bool go_on(bool flat, cluster_state *cluster, double *tau) {
 static inline bool act(bool flat, cluster_state *cluster, double step, double tau, pushes *pushed,
                        double *norm, bool *balls) {
   *balls = find_acting(flat, cluster, step, tau, pushed, norm);
-  const bool cue = cluster->struck && tip_acts(cluster, step, tau),
-             slate = cluster->on_slate && slate_acts(cluster, step);
+  bool cue = false, slate = false;
+  if (cluster->struck)
+    cue = tip_acts(cluster, step, tau);
+  if (cluster->on_slate)
+    slate = slate_acts(cluster, step);
   if (*balls || cue)
     return true;
-  return slate && !slate_ends(cluster, step);
+  if (!slate)
+    return false;
+  const bool lets_go = slate_ends(cluster, step);
+  return !lets_go;
 }
 
 /* Step by step, until no contact acts. */

@@ -66,6 +66,9 @@
 
 /* m: a ball that is nearer touches, because positions are rounded to less than that */
 #define CAROM_TOUCHING 1e-9
+/* of a cluster's duration: touches that are nearer in time begin at one time; and of an impulse:
+ * those that are nearer are alike */
+#define CAROM_SIMULTANEOUS_TOUCHES 1e-9
 #define CAROM_LEAST_OVERLAP 1e-15 /* m: of tip or slate where they touch anew */
 
 /* BETWEEN THE TWO, above: how free of the cloth a ball is by its height, m, and a contact of two
@@ -246,6 +249,8 @@ double carom_cluster_slate_impulse(const carom_cluster_state *cluster, int ball)
 int carom_cluster_begin_touch(carom_cluster_state *cluster, int contact, int last, double time,
                               double approach);
 void carom_cluster_find_places(carom_cluster_state *cluster);
+/* Reduces the shifts so that no two balls start too deep in each other; find_places() does so. */
+void carom_cluster_limit_shifts(carom_cluster_state *cluster);
 double carom_cluster_tip_lead(const carom_cluster_state *cluster);
 
 /* The impulse of a contact, friction's share with it. */

@@ -315,8 +315,8 @@ static void skip_blanks(reader *in) {
     in->position++;
 }
 
-/* Whether the next character, behind blanks, is c; then it is passed. */
-static bool next_is(reader *in, char c) {
+/* Passes over the next character, behind blanks, if it is c. Returns whether it is. */
+static bool pass_over(reader *in, char c) {
   skip_blanks(in);
   if (in->position == in->end || *in->position != c)
     return false;
@@ -325,7 +325,7 @@ static bool next_is(reader *in, char c) {
 }
 
 static bool expect(reader *in, char c, const char *what) {
-  if (next_is(in, c))
+  if (pass_over(in, c))
     return true;
   if (in->position == in->end)
     what = "is cut off: the line ends too soon";
@@ -366,20 +366,20 @@ static bool read_hash(reader *in, uint64_t *hash) {
   static const char digits[] = "0123456789abcdef";
   const char *digit;
   *hash = 0;
-  bool good = next_is(in, '"') && in->end - in->position > 16;
+  bool good = pass_over(in, '"') && in->end - in->position > 16;
   for (int k = 0; good && k < 16; k++, in->position++) {
     good = *in->position != '\0' && (digit = strchr(digits, *in->position)) != NULL;
     if (good)
       *hash = *hash << 4 | (uint64_t)(digit - digits);
   }
-  return (good && next_is(in, '"')) || wrong(in, "must be 16 hexadecimal digits in quotes");
+  return (good && pass_over(in, '"')) || wrong(in, "must be 16 hexadecimal digits in quotes");
 }
 
 /* A text in quotes, without escapes. */
 static bool read_text(reader *in, unsigned char *text) {
   int n = 0;
   memset(text, 0, CAROM_SEAT_NAME);
-  if (!next_is(in, '"'))
+  if (!pass_over(in, '"'))
     return wrong(in, "must be a text in quotes");
   for (; in->position < in->end && *in->position != '"'; in->position++) {
     if (n == CAROM_SEAT_NAME - 1 || !carom_is_in_text(*in->position))
@@ -475,7 +475,7 @@ static bool read_code_point(reader *in, words *target) {
 static bool read_words(reader *in, const carom_field *f, unsigned char *text) {
   words target = {text, 0, f->size - 1};
   memset(text, 0, f->size);
-  if (!next_is(in, '"'))
+  if (!pass_over(in, '"'))
     return wrong(in, "must be a text in quotes");
   while (in->position < in->end && *in->position != '"') {
     char c = *in->position++;
@@ -587,7 +587,7 @@ static unsigned char *begin_element(const carom_field *f, unsigned char *object,
 
 /* The elements of a list up to its bracket, and how many there are. */
 static bool read_elements(reader *in, const carom_field *f, unsigned char *object, int64_t *n) {
-  if (next_is(in, ']'))
+  if (pass_over(in, ']'))
     return true;
   do {
     in->index = (int)*n;
@@ -597,7 +597,7 @@ static bool read_elements(reader *in, const carom_field *f, unsigned char *objec
       return false;
     in->key = NULL;
     ++*n;
-  } while (next_is(in, ','));
+  } while (pass_over(in, ','));
   return expect(in, ']', "must be followed by ',' or ']'");
 }
 
@@ -668,12 +668,12 @@ static bool read_entry(reader *in, const carom_field *fields, unsigned char *obj
 
 static bool read_entries(reader *in, const carom_field *fields, unsigned char *object,
                          uint64_t *seen) {
-  if (next_is(in, '}'))
+  if (pass_over(in, '}'))
     return true;
   do {
     if (!read_entry(in, fields, object, seen))
       return false;
-  } while (next_is(in, ','));
+  } while (pass_over(in, ','));
   return expect(in, '}', "must be followed by ',' or '}'");
 }
 

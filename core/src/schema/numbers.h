@@ -119,7 +119,7 @@
   ROW(width, "w", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "width, for racks and drawings")   \
   ROW(length, "l", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "length, for racks and drawings") \
   ROW(ball_radius, "ball_radius", "m", 0, DBL_MAX, NAN, TABLE,                           \
-      "radius of the balls for which rails are placed; 0: that of the last ball")        \
+      "radius of the balls for which rails are placed; 0: the commonest radius")         \
   ROW(rail_width, "rail_width", "m", 0, DBL_MAX, NAN, TABLE,                             \
       "width of the tops of rails; 0: 0.12")                                             \
   ROW(pocket_back, "pocket_back", "m", 0, DBL_MAX, NAN, TABLE,                           \

@@ -21,6 +21,22 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
   return carom_ok_if(o->unused == 0 && CAROM_RESERVED_IS_ZERO(o), CAROM_ERROR_SHOT_OPTIONS);
 }
 
+int carom_reference_ball(const carom_prepared *prepared) {
+  int best = prepared->count - 1, most = 0;
+  for (int index = prepared->count - 1; index >= 0; index--) {
+    const double radius = prepared->kind[index]->radius;
+    int alike = 0;
+    for (int partner = 0; partner < prepared->count; partner++)
+      alike += prepared->kind[partner]->radius == radius;
+    const bool larger = radius > prepared->kind[best]->radius;
+    if (alike > most || (alike == most && larger)) {
+      best = index;
+      most = alike;
+    }
+  }
+  return best;
+}
+
 /* Prepares the table for the balls of a layout. In flat play all radii must be equal to the
  * first. */
 static carom_status prepare_table(const carom_prepared *prepared, bool flat,
@@ -37,8 +53,10 @@ static carom_status prepare_table(const carom_prepared *prepared, bool flat,
     greatest = carom_greater(greatest, radius);
   }
   double reference = least;
+  if (!flat && least != greatest)
+    reference = prepared->kind[carom_reference_ball(prepared)]->radius;
   if (!flat)
-    reference = carom_reference_of(prepared->table, prepared->kind[prepared->count - 1]->radius);
+    reference = carom_reference_of(prepared->table, reference);
   return carom_prepare_table(prepared->table, least, greatest, reference, features, where);
 }
 
@@ -269,10 +287,12 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
   if (count < 1 || count > CAROM_BALLS_MOST || ball < 0 || ball >= count)
     return CAROM_ERROR_BALLS;
   carom_features features;
+  carom_prepared layout;
+  carom_take_balls(&layout, balls, count);
   const carom_ball_kind *kind = &balls[ball].kind;
-  const double R = kind->radius, r[3] = {x, y, R};
-  const carom_status checked =
-      carom_check_parts(table, R, balls[count - 1].kind.radius, &features, in_the_way);
+  const double R = kind->radius, r[3] = {x, y, R},
+               usual = balls[carom_reference_ball(&layout)].kind.radius;
+  const carom_status checked = carom_check_parts(table, R, usual, &features, in_the_way);
   if (checked != CAROM_OK)
     return checked;
   if (!bounded(r, 1e6))

@@ -9,8 +9,6 @@
 #include <string.h>
 
 static const double neighborhood = 0.01; /* m; members.c looks closer */
-static const double simultaneous = 1e-9; /* of a contact's duration: touches that are nearer in
-                                            time count as one */
 
 /* The steps of a cluster in the duration of a contact, as requested or as usual. */
 static double steps_of(const carom_shot_options *opt) {
@@ -61,7 +59,7 @@ static void motion_of(const carom_cluster_ball *ball, double v[3], double w[3]) 
  * at one time by their indices. Returns how many. */
 static int in_order(const carom_cluster_state *cluster, uint8_t order[CAROM_CLUSTER_CONTACTS]) {
   int count = 0;
-  const double tie = simultaneous * cluster->duration;
+  const double tie = CAROM_SIMULTANEOUS_TOUCHES * cluster->duration;
   CAROM_PROMISE(cluster->contacts <= CAROM_CLUSTER_CONTACTS);
   for (int index = 0; index < cluster->contacts; index++) {
     if (!(cluster->contact[index].impulse > 0.0))
@@ -111,9 +109,29 @@ bool carom_third_is_near(const carom_sim *sim, int i, int j) {
  * Touches that do not overlap are successive events. Each has its contact by the model of two
  * balls, where their paths bring them together. A ball then starts now, from where and as fast as
  * its last path was, followed back to now; so friction with the cloth counts from the touch on. If
- * that would raise the energy, speeds are followed back by a share. With f the separation of a
- * cluster (places.c), its balls get f times that result plus 1 - f times the integrator's. So a
- * cluster that falls into two leaves no jump. */
+ * that would raise the energy, what friction and weight changed meanwhile is followed back by a
+ * share. A ball that a touch presses on the slate lands at that instant, as it would in an event.
+ *
+ * With f the separation of a cluster (places.c), its balls get f times that result plus 1 - f times
+ * the integrator's. So a cluster that falls into two leaves no jump. f is less where the impulses
+ * of the two differ: touches that begin at one instant are not successive, and a small one of them
+ * would become a large one if it went first. */
+
+double carom_agreement_in_turn(double difference, double most) {
+  static const double alike = 0.03, unlike = 0.1; /* of the largest impulse; conventions */
+  const double apart = (difference - alike * most) / ((unlike - alike) * most);
+  if (!(apart > 0.0))
+    return 1.0;
+  return apart < 1.0 ? (1.0 - apart) * (1.0 - apart) : 0.0;
+}
+
+/* A touch has left a ball at the slate moving into it. */
+static void land_in_turn(const carom_ball_kind *kind, carom_ball_state *state) {
+  if (!carom_flies(state) || state->v[2] >= 0.0 || state->r[2] > kind->radius)
+    return;
+  carom_hit_slate(kind, state);
+  carom_label_after(true, kind, state);
+}
 
 void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball_state *state_a,
                          carom_ball_state *state_b, double last, double since[2], double *impulse) {
@@ -146,17 +164,18 @@ void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball
 
   const bool in_space =
       carom_flies(state_a) || carom_flies(state_b) || kind[0]->radius != kind[1]->radius;
-  const double velocity[3] = {now[0].v[0], now[0].v[1], now[0].v[2]};
+  const carom_ball_state touching[2] = {now[0], now[1]};
   if (!(gap < CAROM_TOUCHING && time <= last) ||
       carom_model_balls(sim, pair, normal, in_space, &now[0], &now[1]) < 0)
     return;
 
-  /* the impulse, and both after it */
-  double change[3];
-  cluster_minus(false, now[0].v, velocity, change);
-  *impulse += kind[0]->mass * sqrt(cluster_dot(false, change, change));
+  /* both after it, and the mean impulse, as the cloth takes part in that of each */
   for (int side = 0; side < 2; side++) {
+    double change[3];
+    cluster_minus(false, now[side].v, touching[side].v, change);
+    *impulse += 0.5 * kind[side]->mass * sqrt(cluster_dot(false, change, change));
     carom_label_after(in_space, kind[side], &now[side]);
+    land_in_turn(kind[side], &now[side]);
     *ball[side] = now[side];
     since[side] = time;
   }
@@ -185,10 +204,14 @@ void carom_start_in_turn(const carom_ball_kind *kind, double since, double share
   carom_path_begin(&path, &rates, 0.0);
   carom_path_at(&path, &rates, since, &later);
   for (int axis = 0; axis < 3; axis++) {
-    state->r[axis] = later.r[axis] - 2.0 * since * state->v[axis];
-    state->v[axis] += share * (state->v[axis] - later.v[axis]);
+    const double change = share * since * path.a[axis]; /* a: half of the acceleration */
+    state->r[axis] -= since * (state->v[axis] - change);
+    state->v[axis] -= 2.0 * change;
     state->w[axis] += share * (state->w[axis] - later.w[axis]);
   }
+  /* none starts from below the slate */
+  if (carom_flies(state))
+    state->r[2] = carom_greater(state->r[2], kind->radius);
 }
 
 /* The touches of a cluster, to be resolved successively. */
@@ -229,16 +252,30 @@ void carom_take_in_turn(const carom_sim *sim, carom_in_turn *turn) {
   /* followed back to now: all of the change, or the share that does not raise the energy */
   for (int index = 0; index < turn->balls; index++) {
     const carom_ball_kind *kind = sim->layout->kind[turn->ball[index].index];
-    carom_ball_state state = turn->ball[index].state;
+    carom_ball_state state = turn->ball[index].state, slowed = state;
+    carom_start_in_turn(kind, since[index], 0.0, &state);
     touched += carom_energy_in_turn(kind, &state);
-    carom_start_in_turn(kind, since[index], 1.0, &state);
-    started += carom_energy_in_turn(kind, &state);
+    carom_start_in_turn(kind, since[index], 1.0, &slowed);
+    started += carom_energy_in_turn(kind, &slowed);
   }
   const double share = carom_share_in_turn(before, touched, started);
   for (int index = 0; index < turn->balls; index++)
     carom_start_in_turn(sim->layout->kind[turn->ball[index].index], since[index], share,
                         &turn->ball[index].state);
   turn->known = true;
+}
+
+/* How far the successive touches agree with the integrator. */
+static double agreement_of(const carom_in_turn *turn, const carom_cluster_state *cluster) {
+  double impulse[CAROM_CLUSTER_CONTACTS] = {0.0}, most = 0.0, difference = 0.0;
+  for (int index = 0; index < cluster->touches; index++)
+    impulse[cluster->touch[index].contact] += (double)turn->touch[index].impulse;
+  for (int index = 0; index < cluster->contacts; index++) {
+    const double size = carom_cluster_size_of_impulse(&cluster->contact[index]);
+    most = carom_greater(most, size);
+    difference = carom_greater(difference, fabs(impulse[index] - size));
+  }
+  return carom_agreement_in_turn(difference, most);
 }
 
 /* Mixes the result of successive touches into balls and contacts, by this fraction. */
@@ -256,6 +293,7 @@ static void pass_on(const carom_sim *sim, const carom_in_turn *turn, double shar
       ball->shift[axis] += share * (to->r[axis] - from.r[axis] - ball->shift[axis]);
     }
   }
+  carom_cluster_limit_shifts(cluster);
   for (int index = 0; index < cluster->touches; index++)
     impulse[cluster->touch[index].contact] += (double)turn->touch[index].impulse;
   for (int index = 0; index < cluster->contacts; index++) {
@@ -308,7 +346,7 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_in_turn *turn,
     return CAROM_TAKE_IN_TURN;
   }
   if (share > 0.0) {
-    pass_on(sim, turn, share, cluster);
+    pass_on(sim, turn, share * agreement_of(turn, cluster), cluster);
     count = in_order(cluster, order);
   }
 

@@ -46,11 +46,14 @@ void carom_cluster_take(const carom_cluster_ball *ball, carom_ball_state *state)
 void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball_state *state_a,
                          carom_ball_state *state_b, double last, double since[2], double *impulse);
 /* A ball becomes as it has to start now in order to be as given then; of the change of its motion
- * meanwhile, a share counts: all, unless the energy of all balls, which is `started` then and was
- * `touched` at their touches, would be above that before. */
+ * meanwhile, a share counts: all, unless the energy of all balls, which is `started` with all of it
+ * and `touched` with none, would be above that before. */
 void carom_start_in_turn(const carom_ball_kind *kind, double since, double share,
                          carom_ball_state *state);
 double carom_share_in_turn(double before, double touched, double started);
+/* How much successive touches count whose impulses differ from the integrator's by so much, where
+ * the largest one is `most`: 1 to 0. */
+double carom_agreement_in_turn(double difference, double most);
 double carom_energy_in_turn(const carom_ball_kind *kind, const carom_ball_state *state);
 
 /* Whether contacts of several balls last by these options. */

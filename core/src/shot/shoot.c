@@ -12,6 +12,9 @@
 #include <stddef.h>
 #include <string.h>
 
+/* m: two balls that rest overlap by no more, which a layout may do (CAROM_MOST_BALL_OVERLAP). */
+#define CAROM_REST_OVERLAP 5e-5
+
 /* Counts an event, and gives the position where its states go: in the caller's list, or a spare one
  * where that has no room. */
 static inline carom_event *note(carom_sim *sim, carom_event *spare,
@@ -52,43 +55,6 @@ static double impulse_of(const carom_sim *sim, const carom_event *event) {
   return sim->layout->kind[event->a]->mass * sqrt(x * x + y * y + z * z);
 }
 
-/* Resolves an event: event->before to the paths of its balls. The change itself is made in
- * path->from. */
-static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
-                            const carom_event *event) {
-  const int ball = pending_event->a, partner = pending_event->b;
-  carom_ball_state *state = &sim->path[ball].from;
-  switch (pending_event->type) {
-  case CAROM_EVENT_BALL_BALL:
-    *state = event->before[0];
-    sim->path[partner].from = event->before[1];
-    return sim->rules->resolve(sim, pending_event, state, &sim->path[partner].from);
-  case CAROM_EVENT_RAIL:
-  case CAROM_EVENT_JAW:
-    *state = event->before[0];
-    return sim->rules->resolve(sim, pending_event, state, NULL);
-  case CAROM_EVENT_POCKET: {
-    const carom_pocket *pocket = &sim->table->pocket[partner];
-    *state = (carom_ball_state){.r = {pocket->centre[0], pocket->centre[1], -pocket->depth},
-                                .label = CAROM_BALL_POCKETED};
-    return CAROM_OK;
-  }
-  case CAROM_EVENT_SLATE:
-  case CAROM_EVENT_RAIL_TOP:
-    *state = event->before[0];
-    carom_hit_slate(sim->layout->kind[ball], state);
-    carom_label_after(true, sim->layout->kind[ball], state);
-    return CAROM_OK;
-  case CAROM_EVENT_LEFT_TABLE:
-    *state = (carom_ball_state){.label = CAROM_BALL_OFF};
-    memcpy(state->r, event->before[0].r, sizeof state->r);
-    return CAROM_OK;
-  default: /* the end of a phase */
-    carom_path_end(&sim->path[ball], &sim->rates[ball], state);
-    return CAROM_OK;
-  }
-}
-
 /* A cluster that changes positions may move a ball on the cloth beyond a nose that it had not
  * reached: it stays at the nose, whose impact then follows. */
 static void stay_before_noses(const carom_sim *sim, int ball, const carom_ball_state *before,
@@ -119,6 +85,108 @@ static void stay_before_noses(const carom_sim *sim, int ball, const carom_ball_s
       state->r[0] = jaw->centre[0] + x * (reach / distance);
       state->r[1] = jaw->centre[1] + y * (reach / distance);
     }
+  }
+}
+
+/* How far a ball on the cloth is in another one, m, and the way out of it. */
+static double overlap_with(const carom_sim *sim, int partner, double radius,
+                           const carom_ball_state *state, double out[2]) {
+  carom_ball_state neighbor;
+  carom_path_at(&sim->path[partner], &sim->rates[partner], sim->time, &neighbor);
+  if (carom_is_out(neighbor.label) || carom_flies(&neighbor))
+    return 0.0;
+
+  /* on the cloth centres are 2 sqrt(R_i R_j) apart, seen from above, where balls touch */
+  const double reach = 2.0 * sqrt(radius * sim->rates[partner].radius);
+  const double x = state->r[0] - neighbor.r[0], y = state->r[1] - neighbor.r[1];
+  const double distance = sqrt(x * x + y * y);
+  out[0] = distance > 0.0 ? x / distance : 1.0;
+  out[1] = distance > 0.0 ? y / distance : 0.0;
+  return reach - distance;
+}
+
+/* Moves a ball out of all others, and of noses. Returns whether it is out of all then. */
+static bool move_out(const carom_sim *sim, int ball, carom_ball_state *state) {
+  enum { ROUNDS = 100 };
+  const double radius = sim->rates[ball].radius;
+  const carom_ball_state start = *state;
+  for (int round = 0; round < ROUNDS; round++) {
+    bool moved = false;
+    for (int partner = 0; partner < sim->count; partner++) {
+      double out[2];
+      const double overlap = partner == ball ? 0.0 : overlap_with(sim, partner, radius, state, out);
+      if (!(overlap > CAROM_TOUCHING))
+        continue;
+      moved = true;
+      state->r[0] += overlap * out[0];
+      state->r[1] += overlap * out[1];
+    }
+    if (!moved)
+      return true;
+    stay_before_noses(sim, ball, &start, state);
+  }
+  return false;
+}
+
+/* A cluster may leave balls that overlap (cluster/places.c). They separate, unless friction stops
+ * them before, or something else does. Two that rest would then be deeper in each other than a
+ * layout may be: the one that stops last comes to rest in front of the other. */
+static void rest_in_front(const carom_sim *sim, int ball, carom_ball_state *state) {
+  if (carom_flies(state) || carom_translates(state->label) || carom_is_out(state->label))
+    return;
+  const double radius = sim->rates[ball].radius;
+  bool too_deep = false;
+  for (int partner = 0; partner < sim->count; partner++) {
+    const carom_ball_state *neighbor = &sim->path[partner].from;
+    const double x = state->r[0] - neighbor->r[0], y = state->r[1] - neighbor->r[1];
+    double way[2];
+    /* most are far away, and others move */
+    if (x * x + y * y >= 4.0 * radius * sim->rates[partner].radius || partner == ball ||
+        carom_translates(neighbor->label))
+      continue;
+    too_deep |= overlap_with(sim, partner, radius, state, way) > CAROM_REST_OVERLAP;
+  }
+  carom_ball_state moved = *state;
+  if (too_deep && move_out(sim, ball, &moved))
+    *state = moved;
+}
+
+/* Resolves an event: event->before to the paths of its balls. The change itself is made in
+ * path->from. */
+static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
+                            const carom_event *event) {
+  const int ball = pending_event->a, partner = pending_event->b;
+  carom_ball_state *state = &sim->path[ball].from;
+  switch (pending_event->type) {
+  case CAROM_EVENT_BALL_BALL:
+    *state = event->before[0];
+    sim->path[partner].from = event->before[1];
+    return sim->rules->resolve(sim, pending_event, state, &sim->path[partner].from);
+  case CAROM_EVENT_RAIL:
+  case CAROM_EVENT_JAW:
+    *state = event->before[0];
+    return sim->rules->resolve(sim, pending_event, state, NULL);
+  case CAROM_EVENT_POCKET: {
+    const carom_pocket *pocket = &sim->table->pocket[partner];
+    *state = (carom_ball_state){.r = {pocket->centre[0], pocket->centre[1], -pocket->depth},
+                                .label = CAROM_BALL_POCKETED};
+    return CAROM_OK;
+  }
+  case CAROM_EVENT_SLATE:
+  case CAROM_EVENT_RAIL_TOP:
+    *state = event->before[0];
+    carom_hit_slate(sim->layout->kind[ball], state);
+    carom_label_after(true, sim->layout->kind[ball], state);
+    rest_in_front(sim, ball, state);
+    return CAROM_OK;
+  case CAROM_EVENT_LEFT_TABLE:
+    *state = (carom_ball_state){.label = CAROM_BALL_OFF};
+    memcpy(state->r, event->before[0].r, sizeof state->r);
+    return CAROM_OK;
+  default: /* the end of a phase */
+    carom_path_end(&sim->path[ball], &sim->rates[ball], state);
+    rest_in_front(sim, ball, state);
+    return CAROM_OK;
   }
 }
 

@@ -27,6 +27,9 @@ carom_status carom_check_job(const carom_shot_job *job);
 /* one layout on the table and with the same options, for which this prepares *features, unless
  * they are for its radii; */
 carom_status carom_prepare_row(carom_prepared *prepared, carom_features *features, int *where);
+/* The last ball of the radius that most balls have, and of such radii of the largest: a table that
+ * names no radius is meant for this one. */
+int carom_reference_ball(const carom_prepared *prepared);
 /* all of it. *where becomes the index of the part or the ball at fault, or -1. */
 carom_status carom_prepare(const carom_table *table, const carom_shot_ball *balls, int64_t count,
                            const carom_shot_options *opt, carom_features *features,

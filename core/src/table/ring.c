@@ -173,8 +173,8 @@ typedef struct hole {
 /* Whether a chain of parts that are at most `grown` apart winds around P, and around P otherwise
  * than around Q unless Q is NULL. Edges of up to `first` are taken before the others; *closing
  * is the edge that closed a chain. */
-static bool encloses(part_ring *ring, double first, double grown, const double P[2],
-                     const double *Q, hole *closing) {
+static bool wind_around(part_ring *ring, double first, double grown, const double P[2],
+                        const double *Q, hole *closing) {
   for (int i = 0; i < ring->count; i++) {
     ring->parent[i] = i;
     ring->windings[i] = 0;
@@ -255,11 +255,11 @@ bool carom_beside_longest(const carom_table *table, const carom_features *featur
 static bool find_place(part_ring *ring, const carom_ground *ground, double grown, double P[2]) {
   hole unused;
   const bool found = find_middle(ring, ground->table, P);
-  if (found && encloses(ring, grown, grown, P, NULL, &unused))
+  if (found && wind_around(ring, grown, grown, P, NULL, &unused))
     return true;
   double Q[2];
   if (!carom_beside_longest(ground->table, ground->features, ground->kind->radius, Q) ||
-      !is_free(ring, Q) || !encloses(ring, grown, grown, Q, NULL, &unused))
+      !is_free(ring, Q) || !wind_around(ring, grown, grown, Q, NULL, &unused))
     return found;
   P[0] = Q[0];
   P[1] = Q[1];
@@ -272,18 +272,18 @@ static bool find_hole(part_ring *ring, const double P[2], hole *found) {
   enum { BISECTIONS = 50 };                             /* to the last bit */
   static const double first_guess = 1e-3, widest = 1e6; /* m: no hole is wider */
   double low = touching, high = first_guess;
-  while (high < widest && !encloses(ring, high, high, P, NULL, found)) {
+  while (high < widest && !wind_around(ring, high, high, P, NULL, found)) {
     low = high;
     high *= 2.0;
   }
   for (int bisection = 0; bisection < BISECTIONS && high < widest; bisection++) {
     const double middle = 0.5 * (low + high);
-    if (encloses(ring, middle, middle, P, NULL, found))
+    if (wind_around(ring, middle, middle, P, NULL, found))
       high = middle;
     else
       low = middle;
   }
-  return high < widest && encloses(ring, low, high, P, NULL, found);
+  return high < widest && wind_around(ring, low, high, P, NULL, found);
 }
 
 /* Whether the played side of a rail faces away from the table: nowhere along it can a ball from P
@@ -299,7 +299,7 @@ static bool wrong_side(part_ring *ring, const carom_rail *rail, const double nor
         Q[axis] = rail->p[axis] + places[index] * (rail->q[axis] - rail->p[axis]) +
                   side * (radius + touching) * normal[axis];
       hole unused;
-      if (!is_free(ring, Q) || encloses(ring, touching, touching, P, Q, &unused))
+      if (!is_free(ring, Q) || wind_around(ring, touching, touching, P, Q, &unused))
         continue;
       if (side > 0)
         return false;
@@ -308,10 +308,10 @@ static bool wrong_side(part_ring *ring, const carom_rail *rail, const double nor
   return at_back;
 }
 
-/* Whether the ring is closed; if it is not, *fault describes the hole. */
-static bool is_closed(part_ring *ring, const double P[2], carom_table_fault *fault) {
+/* Checks that the ring is closed; if it is not, *fault describes the hole. */
+static bool check_closed(part_ring *ring, const double P[2], carom_table_fault *fault) {
   hole found;
-  if (encloses(ring, touching, touching, P, NULL, &found))
+  if (wind_around(ring, touching, touching, P, NULL, &found))
     return true;
   if (find_hole(ring, P, &found)) {
     const shape *a = &ring->shape[found.a], *b = &ring->shape[found.b];
@@ -332,7 +332,7 @@ carom_status carom_check_ring(const carom_ground *ground, carom_table_fault *fau
 
   /* with rails rounded */
   shapes_of(ground, 0.0, true, &ring);
-  if (!find_place(&ring, ground, touching, P) || !is_closed(&ring, P, fault))
+  if (!find_place(&ring, ground, touching, P) || !check_closed(&ring, P, fault))
     return CAROM_ERROR_TABLE_OPEN;
   for (int index = 0; index < table->rails; index++)
     if (wrong_side(&ring, &table->rail[index], ground->features->line[index], ground->rail[index],
@@ -345,7 +345,7 @@ carom_status carom_check_ring(const carom_ground *ground, carom_table_fault *fau
 
   /* and with rails as they are detected */
   shapes_of(ground, 0.0, false, &ring);
-  return carom_ok_if(is_closed(&ring, P, fault), CAROM_ERROR_TABLE_OPEN);
+  return carom_ok_if(check_closed(&ring, P, fault), CAROM_ERROR_TABLE_OPEN);
 }
 
 __attribute__((noinline, cold)) bool carom_is_cut_off(const carom_ground *ground,
@@ -362,7 +362,7 @@ __attribute__((noinline, cold)) bool carom_is_cut_off(const carom_ground *ground
    * treated as closed */
   shapes_of(ground, CAROM_RING_OVERLAP, false, &ring);
   double grown = 2.0 * ground->kind->radius;
-  if (encloses(&ring, closed, closed, P, NULL, &unused))
+  if (wind_around(&ring, closed, closed, P, NULL, &unused))
     grown = closed;
-  return encloses(&ring, grown, grown, P, point, &unused);
+  return wind_around(&ring, grown, grown, P, point, &unused);
 }

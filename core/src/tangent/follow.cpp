@@ -217,10 +217,10 @@ CAROM_APART void take_part(scene *s) {
   /* noses are placed by the radius of the table's balls */
   s->features.reference = w->reference;
 
-  /* the radius of the last ball determines the position of the nose, unless the table names one */
+  /* the commonest radius determines the position of the nose, unless the table names one */
   if (!(w->table->ball_radius > 0) && w->seeds->kind != nullptr)
     load(w->pass, w->seeds->kind,
-         (int64_t)(w->count - 1) * CAROM_KIND_NUMBERS +
+         (int64_t)w->reference_ball * CAROM_KIND_NUMBERS +
              (int)(offsetof(carom_ball_kind, radius) / sizeof(real)),
          &s->features.reference);
 
@@ -733,6 +733,8 @@ struct cluster {
   struct {
     real x[CAROM_MOTION_NUMBERS], d[CAROM_MOTION_NUMBERS]; /* v, w, shift; in this direction */
   } turn[text::CAROM_CLUSTER_IN_TURN];
+  /* the impulses of successive touches, in this direction */
+  real touch[text::CAROM_TURN_TOUCHES], touch_rate[text::CAROM_TURN_TOUCHES];
 };
 
 /* The balls of the events of a cluster, in the caller's order. */
@@ -910,16 +912,19 @@ CAROM_APART void take_in_turn(cluster *c) {
     number impulse = 0, times[2] = {since[two[0]], since[two[1]]};
     text::carom_touch_in_turn(&s.sim, &pair, &state[two[0]], &state[two[1]], c->task->duration,
                               times, &impulse);
+    c->touch[t] = impulse.x;
+    c->touch_rate[t] = impulse.d[c->direction];
     for (int side = 0; side < 2; side++)
       since[two[side]] = times[side];
   }
 
   for (int k = 0; k < c->count; k++) {
     load_kind(w, c->members[k].ball, kind[0]);
-    carom_ball_state start = state[k];
+    carom_ball_state start = state[k], slowed = state[k];
+    text::carom_start_in_turn(kind[0], since[k], 0, &start);
     touched += text::carom_energy_in_turn(kind[0], &start);
-    text::carom_start_in_turn(kind[0], since[k], 1, &start);
-    started += text::carom_energy_in_turn(kind[0], &start);
+    text::carom_start_in_turn(kind[0], since[k], 1, &slowed);
+    started += text::carom_energy_in_turn(kind[0], &slowed);
   }
   const number share = text::carom_share_in_turn(energy, touched, started);
   for (int k = 0; k < c->count; k++) {
@@ -933,6 +938,29 @@ CAROM_APART void take_in_turn(cluster *c) {
       c->turn[k].d[n] = x.d[c->direction];
     }
   }
+}
+
+number in_direction(const cluster *c, real x, real rate) {
+  number result = x;
+  result.d[c->direction] = rate;
+  return result;
+}
+
+/* How far the successive touches agree with the integrator, as in shot/clusters.c. */
+number agreement_in_turn(const cluster *c) {
+  const carom_tangent_cluster *task = c->task;
+  number most = 0, difference = 0;
+  for (int t = 0; t < task->touches; t++) {
+    /* all touches of one contact together */
+    const number size = in_direction(c, task->impulse[t], task->impulse_rate[t]);
+    number impulse = 0;
+    for (int other = 0; other < task->touches; other++)
+      if (task->touch[other][0] == task->touch[t][0] && task->touch[other][1] == task->touch[t][1])
+        impulse += in_direction(c, c->touch[other], c->touch_rate[other]);
+    most = text::carom_greater(most, size);
+    difference = text::carom_greater(difference, fabs(impulse - size));
+  }
+  return text::carom_agreement_in_turn(difference, most);
 }
 
 void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS + 1],
@@ -956,11 +984,11 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS + 1],
     if (n >= 3 && n < 6)
       *to[n] /= kind.radius;
   }
-  for (int n = 0; n < CAROM_MOTION_NUMBERS && c->in_turn; n++) {
-    number turn = c->turn[k].x[n], share = c->task->separation;
-    turn.d[c->direction] = c->turn[k].d[n];
-    share.d[c->direction] = c->task->separation_rate;
-    *to[n] += share * (turn - *to[n]);
+  if (c->in_turn) {
+    const number share =
+        in_direction(c, c->task->separation, c->task->separation_rate) * agreement_in_turn(c);
+    for (int n = 0; n < CAROM_MOTION_NUMBERS; n++)
+      *to[n] += share * (in_direction(c, c->turn[k].x[n], c->turn[k].d[n]) - *to[n]);
   }
   if (c->on_slate) {
     number J = x[CAROM_MOTION_NUMBERS];
@@ -1009,6 +1037,8 @@ CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
                                 .duration = 0,
                                 .touches = 0,
                                 .touch = {},
+                                .impulse = {},
+                                .impulse_rate = {},
                                 .V = 0,
                                 .V_rate = 0,
                                 .lead = 0,

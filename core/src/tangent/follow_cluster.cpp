@@ -38,6 +38,9 @@ void tell_touches(const text::carom_cluster_state &state, carom_tangent_cluster 
     const text::carom_cluster_contact_state &x = state.contact[state.touch[k].contact];
     c->touch[k][0] = x.i;
     c->touch[k][1] = x.j;
+    const number impulse = text::carom_cluster_size_of_impulse(&x);
+    c->impulse[k] = impulse.x;
+    c->impulse_rate[k] = impulse.d[0];
   }
 }
 

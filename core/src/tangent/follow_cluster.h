@@ -30,10 +30,11 @@ typedef struct carom_tangent_cluster {
   void *context;
   /* written before `take` is called: how far apart its touches are, places.c, and how long the
      integration lasts, with their tangents; the touches in their order, each by the positions of
-     its two balls */
+     its two balls, and the impulse of its contact */
   double separation, separation_rate, duration;
   int touches;
   int8_t touch[CAROM_TANGENT_TOUCHES][2];
+  double impulse[CAROM_TANGENT_TOUCHES], impulse_rate[CAROM_TANGENT_TOUCHES];
   /* written: of a push the speed of the cue after it, and the lead of its tip, with their
      tangents */
   double V, V_rate, lead, lead_rate;

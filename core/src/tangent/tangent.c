@@ -129,7 +129,8 @@ static void put(const work *w, carom_tangent_row *d, double *rows, int64_t index
 
 /* Where all balls begin. */
 static void begin(work *w, const carom_prepared *p) {
-  w->reference = p->kind[w->count - 1]->radius;
+  w->reference_ball = carom_reference_ball(p);
+  w->reference = p->kind[w->reference_ball]->radius;
   if (w->table->ball_radius > 0.0 && w->opt->space != CAROM_SPACE_FLAT)
     w->reference = w->table->ball_radius;
   w->slow_instants = 0;

@@ -80,6 +80,8 @@ number carom_cluster_slate_impulse(const carom_cluster_state *, int) {
 number carom_cluster_separation(const carom_cluster_state *) {
   return 0.0;
 }
+void carom_cluster_limit_shifts(carom_cluster_state *) {
+}
 
 #include "tangent/exact.h"
 

@@ -58,6 +58,7 @@ typedef struct carom_tangent_work {
   int count; /* balls */
   carom_tangent_pass pass;
   double reference;      /* radius of the balls that the table is meant for: nose.c */
+  int reference_ball;    /* has it, where the table names none */
   int64_t slow_instants; /* as in carom_sim */
   double slow_last;
   carom_tangent_ball ball[CAROM_BALLS_MOST];

@@ -204,8 +204,16 @@ static bool is_play(const carom_cue *cue) {
   return plays;
 }
 
+/* Whether all balls have the radius of this one, for which the rails are placed then. */
+static bool is_usual(double radius) {
+  bool usual = true;
+  for (int k = 0; k < count; k++)
+    usual &= balls[k].kind.radius == radius;
+  return usual;
+}
+
 /* Whether carom_table_check() finds no hole for any of the balls. It knows of one radius: between
- * noses of different heights there may be one for a ball of another radius than the last. */
+ * noses of different heights there may be one for a ball of another radius. */
 static bool is_closed(void) {
   bool alike = true;
   for (int k = 0; k < table.rails; k++)
@@ -214,7 +222,7 @@ static bool is_closed(void) {
     alike &= table.jaw[k].height == table.rail[0].height;
   for (int k = 0; k < count; k++)
     if (carom_table_check(&table, balls[k].kind.radius, NULL) != CAROM_OK ||
-        !(alike || balls[k].kind.radius == balls[count - 1].kind.radius))
+        !(alike || is_usual(balls[k].kind.radius)))
       return false;
   return true;
 }
@@ -601,7 +609,7 @@ static void tables(void) {
   carom_shot_ball alone = balls[ball];
   alone.state = (carom_ball_state){.r = {x, y, alone.kind.radius}};
   const carom_status layout = carom_shot_check(&table, &alone, 1, NULL, NULL, NULL);
-  if (layout == CAROM_ERROR_OFF_TABLE && balls[count - 1].kind.radius == alone.kind.radius)
+  if (layout == CAROM_ERROR_OFF_TABLE && is_usual(alone.kind.radius))
     fail("carom_shot_check refuses where carom_place_ball puts a ball");
 }
 

@@ -1,13 +1,11 @@
-/* No jump without a law. Layouts of few balls (core/tests/shots/recipes.h); a number of each moves
+/* No jump without a law. Layouts of few balls (core/reference/recipes.h); a number of each moves
  * over a wide range in STEPS steps. The states of all balls shortly after are compared, whether the
  * events are the same or not.
  *
- * Each step is halved towards the greater change. Of a smooth result the change halves too, of a
- * square root, as at a graze, it falls by 0.7: the search ends where three halvings leave less than
- * `smooth` of the change, or where the change is below `least`. What remains between two
- * neighbouring doubles is a jump. `least` is above the step of a square root between neighbours.
+ * Each step is halved towards the greater change (core/reference/sweep.h). What remains between two
+ * neighbouring doubles is a jump.
  *
- * The first event at which the two shots part gives the jump its kind (core/tests/shots/jumps.c),
+ * The first event at which the two shots part gives the jump its kind (core/reference/jumps.c),
  * unless it explains the jump. Every kind that may jump is a row of jumps.txt. Any other is an
  * error, as is a jump beyond the bound of its kind. The size of a jump is its greatest change of a
  * speed, R w too, `shortly` after that event; places may jump as far as that speed goes by then.
@@ -18,6 +16,7 @@
 #include "random.h"
 #include "row_file.h"
 #include "support.h"
+#include "sweep.h"
 
 enum {
   LAYOUTS = 30,
@@ -28,17 +27,7 @@ enum {
   SHOWN = 30,
   KINDS = 100
 };
-static const double least = 1e-6;   /* m/s and m: smaller changes are no jumps */
-static const double smooth = 0.2;   /* of the change, behind three halvings */
-static const double shortly = 5e-3; /* s: longer than tip, slate and balls touch */
-static const double later = 1.31;   /* of the time, where the stop hides what is before it */
-
-/* The recipe with a number at x. */
-static bool play_at(recipe *r, const recipe_number *number, double x, played *p) {
-  memcpy((char *)r + number->offset, &x, sizeof x);
-  p->x = x;
-  return recipe_play(r, p);
-}
+static const double later = 1.31; /* of the time, where the stop hides what is before it */
 
 /* ---- What was found */
 
@@ -84,19 +73,10 @@ static int kind_of(const char *name) {
   return kinds++;
 }
 
-/* What a jump at that time changes until shortly after. */
-static difference size_of(recipe a, recipe b, double time) {
-  static played p, q;
-  a.time = b.time = fmin(a.time, time + shortly);
-  if (!recipe_play(&a, &p) || !recipe_play(&b, &q))
-    return (difference){INFINITY, INFINITY};
-  return final_difference(&a, &p, &q);
-}
-
 /* Counts a jump between two recipes. */
 static void count_jump(const char *name, int layout, const recipe_number *number, const recipe *low,
                        const recipe *high, const played *a, const played *b, double time) {
-  const difference d = size_of(*low, *high, time);
+  const difference d = sweep_size(low, high, time);
   const double V = fmax(low->speed, low->pace), share = d.speed / V;
   const int k = kind_of(name);
   found[k].count++;
@@ -105,7 +85,7 @@ static void count_jump(const char *name, int layout, const recipe_number *number
   found[k].place = fmax(found[k].place, d.place);
   if (k < known) {
     const double limit = found[k].share_most * V + found[k].fixed_most;
-    if (d.speed <= limit && d.place <= limit * shortly + least)
+    if (d.speed <= limit && d.place <= limit * SWEEP_SHORTLY + SWEEP_LEAST)
       return;
   }
   found[k].beyond++;
@@ -122,29 +102,7 @@ static void count_jump(const char *name, int layout, const recipe_number *number
 
 /* ---- The search */
 
-static played low, high, middle;
-
-/* Halves the interval between the shots `low` and `high`. Whether a jump is left. */
-static bool halve(recipe *r, const recipe_number *number) {
-  double change = change_of(r, &low, &high), earlier = change;
-  for (int k = 1;; k++) {
-    const double x = low.x + 0.5 * (high.x - low.x);
-    if (change < least)
-      return false;
-    if (x == low.x || x == high.x)
-      return true;
-    if (!play_at(r, number, x, &middle))
-      return false;
-    const double left = change_of(r, &low, &middle), right = change_of(r, &middle, &high);
-    change = fmax(left, right);
-    *(left >= right ? &high : &low) = middle;
-    if (k % 3 == 0) {
-      if (change < smooth * earlier)
-        return false;
-      earlier = change;
-    }
-  }
-}
+static played low, high;
 
 /* Looks at one step. Where the stop of the shot explains its jump, once more with a later stop. */
 static void look(recipe *r, const recipe_number *number, int layout, const played *from,
@@ -153,7 +111,7 @@ static void look(recipe *r, const recipe_number *number, int layout, const playe
   const double time = r->time;
   low = *from;
   high = *to;
-  for (int trial = 0; trial < 2 && halve(r, number); trial++) {
+  for (int trial = 0; trial < 2 && sweep_halve(r, number, &low, &high); trial++) {
     recipe a = *r, b = *r;
     memcpy((char *)&a + number->offset, &low.x, sizeof low.x);
     memcpy((char *)&b + number->offset, &high.x, sizeof high.x);
@@ -166,7 +124,7 @@ static void look(recipe *r, const recipe_number *number, int layout, const playe
     if (is != STOPPED)
       break;
     r->time *= later;
-    if (!play_at(r, number, from->x, &low) || !play_at(r, number, to->x, &high))
+    if (!sweep_play(r, number, from->x, &low) || !sweep_play(r, number, to->x, &high))
       break;
   }
   r->time = time;
@@ -176,10 +134,10 @@ static void look(recipe *r, const recipe_number *number, int layout, const playe
 static int sweep(recipe r, const recipe_number *number, int layout) {
   static played p[2];
   int looked = 0;
-  bool good = play_at(&r, number, number->low, &p[0]);
+  bool good = sweep_play(&r, number, number->low, &p[0]);
   for (int k = 1; k <= STEPS; k++) {
     const double x = number->low + (number->high - number->low) * k / STEPS;
-    const bool next = play_at(&r, number, x, &p[k % 2]);
+    const bool next = sweep_play(&r, number, x, &p[k % 2]);
     if (good && next) {
       look(&r, number, layout, &p[(k + 1) % 2], &p[k % 2]);
       looked++;

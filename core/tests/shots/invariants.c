@@ -138,17 +138,32 @@ static double distance(const follower *f, int i, int j) {
   return hypot(length2(a->r[0] - b->r[0], a->r[1] - b->r[1]), z_a - z_b);
 }
 
+/* The radius that the table is meant for: its own, or the commonest, or the largest of these. */
+static double reference_of(const follower *f) {
+  double best = 0.0;
+  int most = 0;
+  if (f->table->ball_radius > 0.0)
+    return f->table->ball_radius;
+  for (int i = 0; i < f->count; i++) {
+    const double radius = f->balls[i].kind.radius;
+    int alike = 0;
+    for (int j = 0; j < f->count; j++)
+      alike += f->balls[j].kind.radius == radius;
+    if (alike > most || (alike == most && radius > best))
+      best = radius;
+    most = alike > most ? alike : most;
+  }
+  return best;
+}
+
 /* Noses are inside the walls that represent them, so that balls of the table's radius touch
  * those on the cloth. */
 static double nose_shift(const follower *f, double h) {
-  const double reference =
-      f->table->ball_radius > 0.0 ? f->table->ball_radius : f->balls[f->count - 1].kind.radius;
+  const double reference = reference_of(f);
   return reference - sqrt(h * (2.0 * reference - h));
 }
 static double reach_on_cloth(const follower *f, double h, double R) {
-  const double reference =
-      f->table->ball_radius > 0.0 ? f->table->ball_radius : f->balls[f->count - 1].kind.radius;
-  return R == reference ? R : nose_shift(f, h) + sqrt(h * (2.0 * R - h));
+  return R == reference_of(f) ? R : nose_shift(f, h) + sqrt(h * (2.0 * R - h));
 }
 /* How deep ball i is in a nose at a distance from its wall; of what is behind or under a flying one
  * the library judges. */
@@ -289,12 +304,32 @@ static void measure_start(follower *f, const carom_event *e) {
       }
 }
 
-/* An event by itself leaves its balls where they are, but for one that falls into a pocket. */
-static double way_of(const carom_event *e, int side) {
+/* How far a ball that comes to rest may move out of others that rest: twice its overlaps, if one is
+ * deeper than a layout may have it. */
+static double way_out(const follower *f, int i) {
+  double deepest = 0.0, sum = 0.0;
+  for (int j = 0; j < f->count; j++) {
+    if (j == i || is_out(&f->at[j]) || flies(&f->at[j]))
+      continue;
+    const double overlap = overlap_of(f, i > j ? i : j, i > j ? j : i);
+    deepest = fmax(deepest, overlap);
+    sum += fmax(overlap, 0.0);
+  }
+  return deepest > 5e-5 ? 2.0 * sum : 0.0;
+}
+
+/* An event by itself leaves its balls where they are, but for one that falls into a pocket, and for
+ * one that rests. */
+static double way_of(const follower *f, const carom_event *e, int side) {
   const double *r = e->before[side].r, *q = e->after[side].r;
   if (e->cluster > 0 || e->type == CAROM_EVENT_STRIKE || e->type == CAROM_EVENT_POCKET)
     return 0.0;
-  return hypot(length2(q[0] - r[0], q[1] - r[1]), q[2] - r[2]);
+  const double way = hypot(length2(q[0] - r[0], q[1] - r[1]), q[2] - r[2]);
+  const bool rests =
+      e->after[0].label == CAROM_BALL_STATIONARY || e->after[0].label == CAROM_BALL_SPINNING;
+  if (way > 0.0 && rests && e->type != CAROM_EVENT_BALL_BALL)
+    return fmax(way - way_out(f, e->a), 0.0);
+  return way;
 }
 
 /* The same for the contacts of a cluster together; of a push, by how much their momentum is above
@@ -420,7 +455,7 @@ shot_measures shot_measure(const carom_table *table, const carom_shot_ball *ball
         continue;
       const int i = side % 2 == 0 ? one->a : one->b;
       f.m.jump = fmax(f.m.jump, jump_of(&f.at[i], &one->before[side % 2], balls[i].kind.radius));
-      f.m.jump = fmax(f.m.jump, way_of(one, side % 2));
+      f.m.jump = fmax(f.m.jump, way_of(&f, one, side % 2));
       if (side % 2 == 1)
         f.m.again = fmax(f.m.again, f.left[one->b][one->a]);
       f.from[i] = f.at[i] = one->after[side % 2];

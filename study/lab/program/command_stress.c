@@ -5,6 +5,7 @@
  * solved by single calls. The precise solver behind the calls, whose own error is about 1e-9 at
  * most, is what they are compared with. The reference of core/reference decides where it and a call
  * differ by more than REFERENCE_FROM, and for 1 row in 1000 of each group. */
+#include "continuity.h"
 #include "kernel.h"
 #include "program/program.h"
 #include "random_impacts.h"
@@ -33,7 +34,8 @@ static const double REFERENCE_FROM = 1e-7, LEAST_ERROR = 1e-18, MOST_OF_PLAY = 1
 typedef struct stress_job {
   shared_options shared;
   int draws, seed, kind;
-  int cushions, coincidences; /* or these impacts */
+  int cushions, coincidences; /* or these impacts, */
+  int continuity;             /* or these strokes */
 } stress_job;
 
 /* Rows of one group that are counted, with an error above 1e-6, 1e-5, 2e-5, by status, without a
@@ -369,6 +371,10 @@ OPTION(stress_job, option_coincidences, "coincidences", coincidences, "N", set_c
        "instead: number of impacts of each kind of coincidence, of two balls and on a cushion: "
        "numbers that are exactly equal, zero or at the edge of a friction cone; planar motion; "
        "slips that are rounding errors; grazing impacts");
+OPTION(stress_job, option_continuity, "continuity", continuity, "N", set_count, 1,
+       "instead: number of strokes, of layouts in which contacts come near each other in time; one "
+       "number of each moves, and the steepest of its steps are halved: jumps above 1 mm/s and "
+       "1 mm for each 1000 strokes, by family");
 
 static const command_form form = {
     .name = "stress",
@@ -378,7 +384,8 @@ static const command_form form = {
              "they differ, with a reference in extended precision.\n",
     .options =
         (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_cushions,
-                                    &option_coincidences, &option_threads, &option_output, NULL},
+                                    &option_coincidences, &option_continuity, &option_threads,
+                                    &option_output, NULL},
     .details = "exit code: 0; 1 if an error is larger than carom.h promises, or if a batch has "
                "other bits than single calls; 2 for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
@@ -389,9 +396,10 @@ int command_stress(int argc, char **argv) {
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;
-  const int counts = (job.draws > 0) + (job.cushions > 0) + (job.coincidences > 0);
+  const int counts =
+      (job.draws > 0) + (job.cushions > 0) + (job.coincidences > 0) + (job.continuity > 0);
   if (counts > 1) {
-    complain("give one of --draws, --cushion and --coincidences");
+    complain("give one of --draws, --cushion, --coincidences and --continuity");
     return EXIT_USAGE;
   }
   if (job.kind != DRAW_REALISTIC && counts == 1 && job.draws == 0) {
@@ -401,6 +409,10 @@ int command_stress(int argc, char **argv) {
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
+  if (job.continuity > 0) {
+    continuity_print((uint64_t)job.seed, (uint64_t)job.continuity, job.shared.options.threads, out);
+    return output_commit() ? EXIT_GOOD : EXIT_USAGE;
+  }
   stress *total = allocate(1, sizeof *total);
   total->kind = (draw_kind)job.kind;
   if (job.cushions > 0)

@@ -25,7 +25,7 @@ static double any_gap(lab_random *r, double most) {
 /* Balls `first` to `last` near earlier ones, the first of them ahead of ball 0. */
 static void add_company(recipe *r, lab_random *random, int first, int last, double ahead) {
   for (int k = first; k <= last; k++) {
-    r->of[k] = k == first ? first - 1 : lab_whole(random, 0, k - 1);
+    r->anchor[k] = k == first ? first - 1 : lab_whole(random, 0, k - 1);
     r->gap[k] = any_gap(random, 5e-3);
     r->bearing[k] =
         k == first ? ahead + lab_uniform(random, -80.0, 80.0) : lab_uniform(random, -180.0, 180.0);
@@ -64,7 +64,7 @@ static void add_motion(recipe *r, lab_random *random, double heading) {
 /* A ball that comes at one that is in company. */
 static void add_attacker(recipe *r, lab_random *random, int target, double heading) {
   const int k = r->count++;
-  r->of[k] = target;
+  r->anchor[k] = target;
   r->gap[k] = lab_uniform(random, 1e-3, 0.03);
   r->bearing[k] = heading + 180.0 + lab_uniform(random, -50.0, 50.0);
   add_motion(r, random, heading);
@@ -153,15 +153,64 @@ static void fall(recipe *r, lab_random *random) {
   r->time = 0.15;
 }
 
+/* A rack of three to five rows, its balls with one gap, and a ball that comes at its head. */
+static void rack(recipe *r, lab_random *random) {
+  const int rows = lab_whole(random, 3, 5);
+  const double gap = any_gap(random, 5e-4);
+  int k = 0;
+  for (int row = 0; row < rows; row++)
+    for (int place = 0; place <= row; place++, k++) {
+      /* behind the ball before it in the row, or from the begin of the row before */
+      r->anchor[k] = place > 0 ? k - 1 : k - row;
+      r->bearing[k] = place > 0 ? 0.0 : 120.0;
+      r->gap[k] = gap;
+    }
+  r->count = k;
+  add_attacker(r, random, 0, 90.0);
+}
+
+/* Company of unlike radii and masses. */
+static void unlike(recipe *r, lab_random *random) {
+  if (lab_whole(random, 0, 1))
+    company(r, random);
+  else
+    cluster(r, random);
+  for (int k = 0; k < r->count; k++) {
+    r->radius[k] = lab_whole(random, 0, 1) ? lab_uniform(random, 0.7, 1.3) : 1.0;
+    r->weight[k] = lab_whole(random, 0, 1) ? lab_uniform(random, 0.5, 2.0) : 1.0;
+  }
+}
+
+/* Other models of cushions and of friction. */
+static void models(recipe *r, lab_random *random) {
+  static const carom_shot_cushion cushions[] = {CAROM_SHOT_CUSHION_MATHAVAN,
+                                                CAROM_SHOT_CUSHION_STRONGE, CAROM_SHOT_CUSHION_HAN};
+  if (lab_whole(random, 0, 1))
+    cushion_between(r, random);
+  else
+    cushion_company(r, random);
+  r->cushion_model = (int)cushions[lab_whole(random, 0, 2)];
+  r->friction = lab_whole(random, 0, 1);
+}
+
 static const struct {
   const char *name;
   void (*make)(recipe *r, lab_random *random);
 } families[] = {
-    {"company", company},         {"cushion", cushion}, {"cushion and company", cushion_company},
-    {"corner", corner},           {"cluster", cluster}, {"seam", seam},
-    {"between", cushion_between}, {"hop", hop},         {"fall", fall},
+    {"company", company},
+    {"cushion", cushion},
+    {"cushion and company", cushion_company},
+    {"corner", corner},
+    {"cluster", cluster},
+    {"seam", seam},
+    {"between", cushion_between},
+    {"hop", hop},
+    {"fall", fall},
+    {"rack", rack},
+    {"unlike", unlike},
+    {"models", models},
 };
-enum { FAMILIES = sizeof families / sizeof families[0] };
+enum { FAMILIES = sizeof families / sizeof families[0], OF_FEW = 9 };
 
 /* Whether its balls lie apart from each other and from the cushions. */
 static bool has_room(const recipe *r) {
@@ -183,12 +232,24 @@ static void draw(int family, lab_random *random, recipe *r) {
   families[family].make(r, random);
 }
 
-void recipe_make(uint64_t seed, uint64_t index, recipe *r) {
+int recipe_families(void) {
+  return FAMILIES;
+}
+
+const char *recipe_family(int family) {
+  return families[family].name;
+}
+
+void recipe_make_of(int family, uint64_t seed, uint64_t index, recipe *r) {
   lab_random random = {seed ^ (index * 0xd1342543de82ef95u)};
   lab_bits(&random);
   do
-    draw((int)(index % FAMILIES), &random, r);
+    draw(family, &random, r);
   while (!has_room(r));
+}
+
+void recipe_make(uint64_t seed, uint64_t index, recipe *r) {
+  recipe_make_of((int)(index % OF_FEW), seed, index, r);
 }
 
 /* ---- Numbers */
@@ -208,12 +269,12 @@ int recipe_numbers(const recipe *r, recipe_number numbers[RECIPE_NUMBERS]) {
     const double most = strcmp(r->family, "hop") == 0 ? 0.1 : 5e-3;
     add(r, "gap", &r->gap[k], 0.0, r->gap[k] < 2e-4 ? 3e-4 : most, numbers, &count);
   }
-  const int other = r->count - 1;
-  if (other > 0)
+  const int last = r->count - 1;
+  if (last > 0)
     add(r, "restitution", &r->restitution, 0.8, 1.0, numbers, &count);
-  if (other > 0)
-    add(r, "bearing", &r->bearing[other], r->bearing[other] - 40.0, r->bearing[other] + 40.0,
-        numbers, &count);
+  if (last > 0)
+    add(r, "bearing", &r->bearing[last], r->bearing[last] - 40.0, r->bearing[last] + 40.0, numbers,
+        &count);
   if (r->rail >= 0) {
     const bool at_end = strcmp(r->family, "seam") == 0;
     const double ends = at_end ? 0.02 : 3e-3;
@@ -244,22 +305,22 @@ int recipe_numbers(const recipe *r, recipe_number numbers[RECIPE_NUMBERS]) {
 /* ---- Layouts */
 
 /* The position of ball 0, and the bearing of the direction into its cushion. */
-static double put_first(const recipe *r, const carom_table *t, double R, double at[2]) {
+static double put_first(const recipe *r, const carom_table *t, double R, double spot[2]) {
   if (r->rail < 0) {
-    at[0] = 0.5 * t->width;
-    at[1] = 0.5 * t->length;
+    spot[0] = 0.5 * t->width;
+    spot[1] = 0.5 * t->length;
     return 0.0;
   }
   const carom_rail *rail = &t->rail[r->rail];
-  const double *from = r->end ? rail->q : rail->p, *to = r->end ? rail->p : rail->q;
-  const double x = to[0] - from[0], y = to[1] - from[1], size = sqrt(x * x + y * y);
+  const double *start = r->end ? rail->q : rail->p, *finish = r->end ? rail->p : rail->q;
+  const double x = finish[0] - start[0], y = finish[1] - start[1], size = sqrt(x * x + y * y);
   double out[2] = {-y / size, x / size};
-  if (out[0] * (0.5 * t->width - from[0]) + out[1] * (0.5 * t->length - from[1]) < 0.0) {
+  if (out[0] * (0.5 * t->width - start[0]) + out[1] * (0.5 * t->length - start[1]) < 0.0) {
     out[0] = -out[0];
     out[1] = -out[1];
   }
-  at[0] = from[0] + r->along * x / size + (R + r->away) * out[0];
-  at[1] = from[1] + r->along * y / size + (R + r->away) * out[1];
+  spot[0] = start[0] + r->along * x / size + (R + r->away) * out[0];
+  spot[1] = start[1] + r->along * y / size + (R + r->away) * out[1];
   return atan2(-out[1], -out[0]) / degree;
 }
 
@@ -268,23 +329,30 @@ void recipe_lay(const recipe *r, recipe_layout *l) {
   carom_table_make((carom_table_kind)r->table, &l->table);
   l->count = r->count;
   l->options.time_most = r->time;
+  l->options.cushion_model = r->cushion_model;
+  l->options.friction = r->friction;
   carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
-  const double R = kind.radius;
+  const double R = kind.radius, mass = kind.mass;
   double turn = 0.0;
   kind.restitution = r->restitution;
 
   /* the balls, each from an earlier one */
   for (int k = 0; k < r->count; k++) {
     carom_ball_state *s = &l->ball[k].state;
+    kind.radius = r->radius[k] > 0.0 ? R * r->radius[k] : R;
+    kind.mass = r->weight[k] > 0.0 ? mass * r->weight[k] : mass;
     l->ball[k].kind = kind;
-    s->r[2] = R;
+    s->r[2] = kind.radius;
     if (k == 0) {
       turn = put_first(r, &l->table, R, s->r);
       continue;
     }
-    const double *to = l->ball[r->of[k]].state.r, way = (turn + r->bearing[k]) * degree;
-    s->r[0] = to[0] + (2.0 * R + r->gap[k]) * cos(way);
-    s->r[1] = to[1] + (2.0 * R + r->gap[k]) * sin(way);
+    const double *base = l->ball[r->anchor[k]].state.r, way = (turn + r->bearing[k]) * degree;
+    const double base_radius = l->ball[r->anchor[k]].kind.radius,
+                 reach = kind.radius + base_radius + r->gap[k], lift = kind.radius - base_radius;
+    const double across = lift != 0.0 ? sqrt(reach * reach - lift * lift) : reach;
+    s->r[0] = base[0] + across * cos(way);
+    s->r[1] = base[1] + across * sin(way);
   }
 
   l->cue = carom_cue_of(CAROM_GAME_POOL);

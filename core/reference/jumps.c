@@ -36,7 +36,7 @@ static const double further = 1e-9;       /* of the follow-through */
 static const double at_end = 1e-6;        /* of the length of a rail */
 
 bool recipe_play(const recipe *r, played *p) {
-  static recipe_layout l;
+  static _Thread_local recipe_layout l;
   carom_shot shot = {.events = p->event, .room = JUMP_ROOM, .final = p->final};
   recipe_lay(r, &l);
   const carom_status status = carom_shoot(&l.table, l.ball, l.count, &l.cue, &l.options, &shot);
@@ -167,14 +167,14 @@ static void name_pair(const char *form, const carom_event *x, const carom_event 
 
 /* Whether a touch of the tip comes or goes with the end of the follow-through. */
 static bool ends_follow(const recipe *r, const carom_event *touch) {
-  static played moved;
+  static _Thread_local played moved;
   recipe longer = *r;
   longer.follow *= 1.0 + further;
   return recipe_play(&longer, &moved) && find_now(&moved, 0, touch) != NULL;
 }
 
 static bool is_at_end(const recipe *r, const carom_event *e) {
-  static carom_table table;
+  static _Thread_local carom_table table;
   if (e->type != CAROM_EVENT_RAIL)
     return false;
   carom_table_make((carom_table_kind)r->table, &table);
@@ -188,15 +188,15 @@ static bool is_at_end(const recipe *r, const carom_event *e) {
  * in both shots, but not out of the same motion. Then the order of the two decides. */
 static bool name_order(const played *with, const carom_event *e, const played *without, int index,
                        char name[JUMP_NAME]) {
-  for (const carom_event *other = e + 1; other < with->event + with->count; other++) {
-    if (!is_now(other, e))
+  for (const carom_event *rival = e + 1; rival < with->event + with->count; rival++) {
+    if (!is_now(rival, e))
       return false;
-    if (word_of(other) == NULL || is_same(other, e) || !are_linked(other, e))
+    if (word_of(rival) == NULL || is_same(rival, e) || !are_linked(rival, e))
       continue;
-    const carom_event *its = find_now(without, index, other);
-    if (its == NULL || apart(its->before, other->before) < agreement)
+    const carom_event *its = find_now(without, index, rival);
+    if (its == NULL || apart(its->before, rival->before) < agreement)
       continue;
-    name_pair("order of %s, %s", other, e, name);
+    name_pair("order of %s, %s", rival, e, name);
     return true;
   }
   return false;

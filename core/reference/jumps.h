@@ -1,6 +1,6 @@
 /* What two shots of neighbouring recipes differ in, and the kind of a jump between them. */
-#ifndef CAROM_TESTS_JUMPS_H
-#define CAROM_TESTS_JUMPS_H
+#ifndef CAROM_REFERENCE_JUMPS_H
+#define CAROM_REFERENCE_JUMPS_H
 
 #include "recipes.h"
 
