@@ -75,7 +75,13 @@ carom_break_play counts""".splitlines()
 # Objects that functions change, as carom_match_place() changes a match.
 OBJECTS = ("match", "record")
 # Macros without their own value: guards, marks, and expressions of other constants.
-NO_VALUE = {"CAROM_API", "CAROM_VERSION_NUMBER", "CAROM_STOP_AT", "CAROM_KIND_NUMBERS"}
+NO_VALUE = {
+    "CAROM_API",
+    "CAROM_VERSION_NUMBER",
+    "CAROM_SERVED",
+    "CAROM_STOP_AT",
+    "CAROM_KIND_NUMBERS",
+}
 A_UNIT = r"m/s\^2|m/s|rad/s|1/m|s/m|N s|kg|m|s|J|Pa|degrees"
 # A unit is first, after the lengths of an array, or after a comma; but "u, m/s" is about
 # another number.

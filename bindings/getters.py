@@ -16,7 +16,7 @@ from typing import NamedTuple
 #   struct  a copy of a struct
 ROWS = [
     ("phase", "phase", "word", ""),
-    ("player", "record.player", "index", ""),
+    ("side", "record.side", "index", "The side at the table."),
     ("seat", "seat", "index", ""),
     ("actor", "record.actor", "seat", "The seat that acted last."),
     ("winner", "winner", "side", "The side that has won."),
@@ -34,7 +34,7 @@ class Getter(NamedTuple):
     """A getter of a match."""
 
     name: str
-    path: list[str]  # the members that lead to the value: ["record", "player"]
+    path: list[str]  # the members that lead to the value: ["record", "side"]
     field: dict  # the last of them, as api.py describes it
     form: str
     type: str  # of the value, or the enumeration that its comment names

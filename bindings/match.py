@@ -70,7 +70,7 @@ class MatchLayer(Layer):
             parameters, passed = [], []
             for entry in arguments:
                 name = RENAMED.get(entry["name"], entry["name"])
-                if name == "player":
+                if name == "seat":
                     passed.append(self.SEAT[1])
                     continue
                 if entry["type"] not in self.ARGUMENTS:

@@ -118,7 +118,7 @@ def called_by(folder, pattern):
 class Layer:
     """A language: its declarations of C, and its layer without pointers. The functions that the
     layer does not call by hand are made here, by the roles of their arguments. Those of a match are
-    methods of its class, in which the player at the table acts.
+    methods of its class, in which the seat at the table acts.
     """
 
     def __init__(self, api):
@@ -336,7 +336,14 @@ namespace Carom {"""
     const string Library = "__Internal";
 #else
     const string Library = "carom";
-#endif"""
+#endif
+
+    static Native() {
+      if (carom_serves(10000 * CAROM_VERSION_MAJOR + 100 * CAROM_VERSION_MINOR) == 0)
+        throw new DllNotFoundException(
+            $"the library {Library} has another version; this package needs version " +
+            $"{CAROM_VERSION_MAJOR}.{CAROM_VERSION_MINOR}");
+    }"""
     CALLBACK = "[UnmanagedFunctionPointer(CallingConvention.Cdecl)]\n    public delegate {};"
     FUNCTION = "[DllImport(Library, CallingConvention = CallingConvention.Cdecl)]\n    public static extern {};"
 
@@ -400,9 +407,9 @@ namespace Carom {"""
         name = pascal(function["name"].removeprefix("carom_match_" if of_match else "carom_"))
         asks = {"result", "words"} & {role for _, role in roles}
         if of_match:
-            passed = ["Open", *("Seat" if entry == "player" else entry for entry in passed)]
+            passed = ["Open", *("Seat" if entry == "seat" else entry for entry in passed)]
         if of_match and not asks:
-            parameters = [entry for entry in parameters if entry != "int player"]
+            parameters = [entry for entry in parameters if entry != "int seat"]
             call = f"Native.{function['name']}({', '.join(passed)})"
             return [
                 f"    public void {name}({', '.join(parameters)}) {{",
@@ -635,13 +642,13 @@ impl Default for {0} {{
         own = "&*self.of" if asks else "&mut *self.of"
         call = f"sys::{function['name']}({', '.join([own] * of_match + passed)})"
         if of_match and not asks:
-            player = ["let player = self.at_table();"] if "player" in passed else []
+            seat = ["let seat = self.at_table();"] if "seat" in passed else []
             parameters = [
                 "&mut self",
-                *(entry for entry in parameters if not entry.startswith("player:")),
+                *(entry for entry in parameters if not entry.startswith("seat:")),
             ]
             result = "Result<(), Error>"
-            lines = [*player, f"let status = unsafe {{ {call} }};", "self.told(status)"]
+            lines = [*seat, f"let status = unsafe {{ {call} }};", "self.told(status)"]
         else:
             result, lines = self.result(function["returns"], roles, f"unsafe {{ {call} }}")
             parameters = ["&self"] * of_match + parameters

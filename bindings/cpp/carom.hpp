@@ -641,8 +641,8 @@ public:
     return static_cast<int>(match_->record.actor);
   }
   /* The side at the table; in games that each plays for itself, the seat. */
-  int player() const {
-    return static_cast<int>(match_->record.player);
+  int side() const {
+    return static_cast<int>(match_->record.side);
   }
   /* The seat at the table. */
   int seat() const {
@@ -664,19 +664,33 @@ public:
   /* With the rack of a game, to `target` points (0: the usual target of the game), and with equal
    * innings or without. */
   carom_status begin(carom_rules_kind rules, const carom_table &on, std::uint64_t seed,
-                     int player = 0, int target = 0, bool equal_innings = false) {
-    lines_.clear();
-    return told(carom_match_begin_to(match_.get(), rules, target, equal_innings ? 1 : 0, &on, seed,
-                                     player));
+                     int side = 0, int target = 0, bool equal_innings = false) {
+    carom_match_setup setup{};
+    setup.rules = rules;
+    setup.target = target;
+    setup.equal_innings = equal_innings ? 1 : 0;
+    setup.table = &on;
+    setup.seed = seed;
+    setup.side = side;
+    return begin(setup);
   }
   /* The same from any layout, by the rules of this kind or by `of`. */
   carom_status begin(carom_rules_kind rules, const carom_table &on,
                      span<const carom_shot_ball> balls, carom_leave leave = CAROM_LEAVE_AFTER,
-                     int player = 0, const carom_plan_rules *of = nullptr,
+                     int side = 0, const carom_plan_rules *of = nullptr,
                      const carom_shot_options &options = {}) {
-    lines_.clear();
-    return told(carom_match_begin_at(match_.get(), rules, of, &on, balls.data(),
-                                     static_cast<int>(balls.size()), &options, leave, player));
+    if (balls.data() == nullptr)
+      return CAROM_ERROR_NULL;
+    carom_match_setup setup{};
+    setup.rules = rules;
+    setup.of = of;
+    setup.table = &on;
+    setup.balls = balls.data();
+    setup.count = static_cast<std::int64_t>(balls.size());
+    setup.options = &options;
+    setup.leave = leave;
+    setup.side = side;
+    return begin(setup);
   }
   /* With seats, limits or a set: as carom_match_begin_with(). */
   carom_status begin(const carom_match_setup &setup) {

@@ -313,7 +313,7 @@ static class Program {
       Must(!ended && game.Last.Time == 0.2, "a shot that is stopped");
       Must(game.GoOn() && game.Last.Events.Length > 20 && game.Words != "", "a shot that goes on");
       using (var read = LiveMatch.Load(game.Lines))
-          Must(read.State.record.hash == game.State.record.hash && read.Player == game.Player,
+          Must(read.State.record.hash == game.State.record.hash && read.Side == game.Side,
                "a match that is read");
     }
     foreach (var kind in new[] { RulesKind.Straight, RulesKind.Onepocket, RulesKind.Bank }) {

@@ -211,6 +211,8 @@ typedef enum carom_status {
                                         a ball, or roll_loss_log of a ball, is not -1 to 1. */
   CAROM_ERROR_SMOOTH = -25,          /* a member of options or of a ball whose name begins with
                                         smooth_ is out of its range. */
+  CAROM_ERROR_VERSION = -26,         /* the caller was compiled with a header of a version that the
+                                        library does not serve: see carom_serves(). */
   CAROM_ERROR_TOO_MANY_EVENTS = -40, /* a shot has more than options.events_most events. */
   CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than 1000 s, and options.time_most is
                                         0. */
@@ -636,6 +638,19 @@ CAROM_API int carom_physics_revision(void);
  * call carom_serves(CAROM_VERSION_NUMBER). Before 1.0 the minor version must be equal. From 1.0 on,
  * the major version must be equal, and the minor one must not be above the library's. */
 CAROM_API int carom_serves(int header_version_number);
+
+/* The structs of this library may be longer in another version. The calls with which a program
+ * begins compare the versions therefore: carom_table_make(), carom_table_measured(),
+ * carom_shoot(), carom_shoot_batch(), carom_plan(), carom_match_begin(), carom_match_begin_with()
+ * and carom_match_read() return CAROM_ERROR_VERSION, before they read or write a struct, if the
+ * library does not serve the header with which the call was compiled. The program has nothing to
+ * initialize for that. Shared libraries are also told apart by their soname. A program that finds
+ * functions at run time, or in another language, calls carom_serves() itself. The library's own
+ * build, and compilers without statement expressions, do not compare. */
+#if defined(__GNUC__) && !defined(CAROM_BUILD)
+#define CAROM_SERVED(call) \
+  __extension__({ carom_serves(CAROM_VERSION_NUMBER) ? (call) : CAROM_ERROR_VERSION; })
+#endif
 
 #ifdef __cplusplus
 }

@@ -42,7 +42,7 @@ typedef enum carom_record_kind {
   CAROM_RECORD_CONTINUE = 7, /* "continue": a stopped shot is continued */
   CAROM_RECORD_EVENT = 8,    /* "event": an event of the shot before it; may be left out */
   CAROM_RECORD_END = 9,      /* "end": the last line; a recording without it was cut off */
-  CAROM_RECORD_GAME = 10,    /* "game": the rules, the player at the table, and the state of the
+  CAROM_RECORD_GAME = 10,    /* "game": the rules, the side at the table, and the state of the
                                 game */
   CAROM_RECORD_WRONG = 11,   /* a line that was rejected; nothing is read after it */
   CAROM_RECORD_ACT = 12,     /* "act", of a match: a player's decision other than a stroke or a
@@ -150,7 +150,7 @@ typedef struct carom_set {
   int64_t number;                /* of this match, from 1. */
   int64_t won[CAROM_SEATS_MOST]; /* how many matches each side had won before it. */
   int64_t seed;            /* of the rack of match 1, 0 to 2^53 - 1; match n has seed + n - 1. */
-  int64_t target;          /* as in carom_match_begin_to(). */
+  int64_t target;          /* as in carom_match_setup. */
   int64_t equal_innings;   /* 1: the match may have an equalizing inning, else 0. */
   double clock, extension; /* s: the time for a stroke, and by how much an extension lengthens it.
                               The caller measures the time; 0: no clock, no extensions. */
@@ -219,9 +219,9 @@ typedef struct carom_record {
                                                carom_plan.h; 0: anywhere. */
   int64_t rules;                            /* the rules of the game, a carom_rules_kind of
                                                carom_plan.h. */
-  int64_t player;                           /* the side at the table: 0 or 1, or the seat in games
+  int64_t side;                             /* the side at the table: 0 or 1, or the seat in games
                                                where each seat plays for itself. */
-  int64_t winner;        /* 1 + the player who has won; CAROM_DRAWN of carom_plan.h; 0: none yet. */
+  int64_t winner;        /* 1 + the side that has won; CAROM_DRAWN of carom_plan.h; 0: none yet. */
   int64_t foul;          /* the foul of the last stroke, a carom_foul of
                                                carom_plan.h. */
   int64_t act;           /* the last act that was decided, a carom_act of

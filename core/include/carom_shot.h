@@ -1318,6 +1318,14 @@ CAROM_API carom_status carom_calibrate(const carom_table *table, const carom_bal
 CAROM_API carom_status carom_ball_kind_resolve(const carom_table *table,
                                                carom_shot_options *options, carom_ball_kind *kind);
 
+/* The comparison of versions of carom_serves(). */
+#ifdef CAROM_SERVED
+#define carom_table_make(...) CAROM_SERVED(carom_table_make(__VA_ARGS__))
+#define carom_table_measured(...) CAROM_SERVED(carom_table_measured(__VA_ARGS__))
+#define carom_shoot(...) CAROM_SERVED(carom_shoot(__VA_ARGS__))
+#define carom_shoot_batch(...) CAROM_SERVED(carom_shoot_batch(__VA_ARGS__))
+#endif
+
 #ifdef __cplusplus
 }
 #endif

@@ -12,7 +12,7 @@ static class Match {
                    ? LiveMatch.Begin(RulesKind.Eightball, Billiards.Table(TableKind.Pool9ft), 5)
                    : LiveMatch.Load(lines.Substring(0, lines.LastIndexOf('\n') + 1))) {
       for (int k = int.Parse(arguments[1]); k > 0 && !game.Over; k--) {
-        int me = game.Player;
+        int me = game.Seat;
         var position = game.Position(cue, me == 0 ? 550 : 650);
         position.Opponent = game.Position(cue, me == 0 ? 650 : 550).Player;
         position.Options.shots = 300;

@@ -20,7 +20,7 @@ int main(int count, char **arguments) try {
   else
     game.load(lines.substr(0, lines.rfind('\n') + 1)); // half a line is what a crash leaves
   for (int k = std::atoi(arguments[2]); k > 0 && !game.over(); k--) {
-    const int me = game.player();
+    const int me = game.seat();
     options.opponent = &players[1 - me];
     const carom_plan_stroke best = game.plan(players[me], options)[0];
     game.take(best, carom::strike(players[me], 9, game.state().record.shots, best.cue));

@@ -10,7 +10,7 @@ for (const line of saved) game.read(line);
 const players = [550, 650].map((fargo) => carom.player({ fargo, rules: "eightball" }));
 let ended;
 for (let k = 0; k < strokes && !ended && game.phase !== "over"; k++) {
-  const me = game.player;
+  const me = game.seat;
   const player = players[me];
   const opponent = players[1 - me];
   const [best] = game.plan({ player, opponent, shots: 300 });

@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         if game.is_over() {
             break;
         }
-        let me = game.player();
+        let me = game.seat();
         let mut position = game.position(&carom::cue(Game::Pool), [550.0, 650.0][me]);
         position.opponent = Some(
             game.position(&carom::cue(Game::Pool), [650.0, 550.0][me])

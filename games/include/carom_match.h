@@ -28,10 +28,12 @@
  * An act that the rules forbid is rejected with CAROM_ERROR_ACT: match.refusal is the reason, and
  * match.fault describes what would be right. Nothing else has changed, and match.size is 0.
  *
- * A seat is who acts: match.seat, record.actor, and the argument `player` of every act. A side is
- * who wins: one seat, or partners. record.player, the `player` or `side` of a beginning,
- * match.winner - 1, and the arrays of carom_standing are of sides. carom_seating has the side of
- * each seat; of the usual two seats, seat 0 is side 0 and seat 1 is side 1.
+ * Three words, in all languages. A seat acts: match.seat is at the table, record.actor acted last,
+ * and each act has the argument `seat`. A side wins: it is one seat, or the seats of partners.
+ * record.side is at the table, a beginning names the side that breaks, match.winner is 1 + a side,
+ * and the arrays of carom_standing are of sides. A player, carom_player, is how exactly somebody
+ * aims. carom_seating has the side of each seat; of the usual two seats, seat 0 is side 0 and seat
+ * 1 is side 1. In the lines of recordings, "player" is the side of a "game" and the seat of an "act".
  *
  * Each act is a line of a recording, of format 3, and so is each ruling. Two functions read lines,
  * and both judge them again:
@@ -135,10 +137,10 @@ typedef enum carom_break_order {
 typedef enum carom_act {
   CAROM_ACT_CHOOSE = 1,  /* one of the choices */
   CAROM_ACT_CALL = 2,    /* a ball and a pocket */
-  CAROM_ACT_CONCEDE = 3, /* the player concedes the game */
+  CAROM_ACT_CONCEDE = 3, /* the seat concedes the game */
   CAROM_ACT_CLOCK = 4,   /* the time for a stroke is over: a foul */
-  CAROM_ACT_EXTEND = 5,  /* the player takes an extension of the time for this stroke */
-  CAROM_ACT_TIMEOUT = 6  /* the player takes a timeout */
+  CAROM_ACT_EXTEND = 5,  /* the seat takes an extension of the time for this stroke */
+  CAROM_ACT_TIMEOUT = 6  /* the seat takes a timeout */
 } carom_act;
 
 /* Why an act was rejected. */
@@ -171,7 +173,7 @@ enum {
 
 /* A match. The caller reads it, and changes it only by calls. It may be copied. */
 typedef struct carom_match {
-  carom_record record;    /* table, balls, count, options; player, the side at the table; actor,
+  carom_record record;    /* table, balls, count, options; side, the side at the table; actor,
                                   the seat that acted last; hand, whether the cue ball is to be
                                   placed. Its final states and facts are of the last shot. */
   carom_plan_rules rules; /* their state is that of the player at the table. */
@@ -219,28 +221,11 @@ typedef struct carom_match {
   char text[CAROM_MATCH_TEXT]; /* lines: `size` bytes of them, which the next call replaces. */
 } carom_match;
 
-/* Begins a match with the rack of a game, by gaps of 0.1 mm and the seed, on a table that it fits;
- * the side `player`, 0 or 1, breaks. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT for a game not
- * listed or another player; or an error of carom_rack(). */
+/* Begins a match of two seats with the rack of a game, by gaps of 0.1 mm and the seed, on a table
+ * that it fits; `side` 0 or 1 breaks. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT for a game or a
+ * side that is not listed; or an error of carom_rack(). */
 CAROM_API carom_status carom_match_begin(carom_match *match, carom_rules_kind rules,
-                                         const carom_table *table, uint64_t seed, int player);
-
-/* The same to `target` points; 0: the usual target of the game. With `equal_innings` 1 the player
- * who does not break has an equalizing inning, and the match may be drawn; 0: not. Also returns
- * CAROM_ERROR_ACT for a game without a target or without equal innings. */
-CAROM_API carom_status carom_match_begin_to(carom_match *match, carom_rules_kind rules,
-                                            int32_t target, int equal_innings,
-                                            const carom_table *table, uint64_t seed, int player);
-
-/* The same from any layout. `of` NULL: the rules of this kind, with their state at the beginning;
- * otherwise these rules, with their state. To read the match again, match->rules must have the same
- * custom rules. With `leave` ANYWHERE, KITCHEN, D or BAULK the cue ball is in hand. `options`,
- * which may be NULL, has the models. May also return an error of carom_shot_check(). */
-CAROM_API carom_status carom_match_begin_at(carom_match *match, carom_rules_kind rules,
-                                            const carom_plan_rules *of, const carom_table *table,
-                                            const carom_shot_ball *balls, int count,
-                                            const carom_shot_options *options, carom_leave leave,
-                                            int player);
+                                         const carom_table *table, uint64_t seed, int side);
 
 /* ---- Seats and sets -------------------------------------------------------------------------- */
 
@@ -255,14 +240,18 @@ CAROM_API carom_status carom_seating_make(carom_rules_kind rules, int seats,
 /* How a match begins. All zero except `table`: eight-ball for two, with a rack. */
 typedef struct carom_match_setup {
   carom_rules_kind rules;            /* the game. */
-  const carom_plan_rules *of;        /* as in carom_match_begin_at(); NULL: the rules of this
-                                        kind. */
+  const carom_plan_rules *of;        /* custom rules, with their state; match->rules must have
+                                        them before the match is read again. NULL: the rules of
+                                        this kind, with their state at the beginning. */
   const carom_table *table;          /* the table. */
   const carom_shot_ball *balls;      /* a layout; NULL: the rack of the game. */
   int64_t count;                     /* how many balls the layout has. */
-  const carom_shot_options *options; /* NULL: the defaults. */
-  carom_leave leave;                 /* of a layout. */
-  int32_t target, equal_innings;     /* as in carom_match_begin_to(). */
+  const carom_shot_options *options; /* the models; NULL: the defaults. */
+  carom_leave leave;                 /* of a layout: with ANYWHERE, KITCHEN, D or BAULK the cue
+                                        ball is in hand. */
+  int32_t target, equal_innings;     /* with a rack: the points that win, 0: as usual in the game;
+                                        and 1: the side that does not break has an equalizing
+                                        inning, and the match may be drawn, 0: it has none. */
   int64_t side;                      /* the side that breaks, or plays first. */
   uint64_t seed;                     /* of the rack. */
   const carom_seating *seating;      /* NULL: the usual two seats. */
@@ -270,8 +259,9 @@ typedef struct carom_match_setup {
                                         set; the call sets the other members. NULL: no set. */
 } carom_match_setup;
 
-/* Begins a match with any seats. Works as carom_match_begin_at(), or carom_match_begin_to() without
- * balls. Also returns CAROM_ERROR_ACT for invalid seats or an invalid set; a set needs a rack. */
+/* Begins a match with any seats, rules and layout. Returns as carom_match_begin(); CAROM_ERROR_ACT
+ * also for invalid seats, an invalid set or a set without a rack, and for a game without a target
+ * or without equal innings; an error of carom_shot_check() for a layout. */
 CAROM_API carom_status carom_match_begin_with(carom_match *match, const carom_match_setup *setup);
 
 /* Begins the next match of the set, with the same seats. match->text has the end of this match,
@@ -298,27 +288,27 @@ CAROM_API size_t carom_match_string(const carom_match *match, char *text, size_t
 
 /* ---- Acts ------------------------------------------------------------------------------------ */
 
-/* All return CAROM_OK, CAROM_ERROR_NULL or CAROM_ERROR_ACT. `player` is the seat that acts, not its
+/* All return CAROM_OK, CAROM_ERROR_NULL or CAROM_ERROR_ACT. `seat` is the seat that acts, not its
  * side. record.actor then has it, until the next act. */
 
 /* Makes one of the choices match->may. CAROM_CHOICE_PUSH applies to the next stroke; the others
  * replace it. */
-CAROM_API carom_status carom_match_choose(carom_match *match, int player, carom_choice choice);
+CAROM_API carom_status carom_match_choose(carom_match *match, int seat, carom_choice choice);
 
 /* Places the cue ball in hand at a position within match->bounds, m. Until the stroke it may be
  * placed again. The choice to leave it where it was is then no longer available. */
-CAROM_API carom_status carom_match_place(carom_match *match, int player, double x, double y);
+CAROM_API carom_status carom_match_place(carom_match *match, int seat, double x, double y);
 
 /* Calls the ball and the pocket of the next stroke; ball -1: a safety. In snooker it names a colour
  * or a free ball, and the pocket is not read. Without a call a stroke is a safety; in snooker it
  * calls the ball that is met first. */
-CAROM_API carom_status carom_match_call(carom_match *match, int player, carom_call call);
+CAROM_API carom_status carom_match_call(carom_match *match, int seat, carom_call call);
 
 /* The acts that a stroke of a plan requires before it is played: places a cue ball in hand, pushes
  * out and calls. A stroke of the kind CAROM_PLAN_PASS passes, and no stroke follows. match->text
  * has the lines of all these acts; if one is rejected, it has the lines of the preceding acts,
  * which remain. */
-CAROM_API carom_status carom_match_prepare(carom_match *match, int player,
+CAROM_API carom_status carom_match_prepare(carom_match *match, int seat,
                                            const carom_plan_stroke *stroke);
 
 /* Plays a stroke of match->cue_ball, and rules. `stop` says when to stop the shot, by time_most,
@@ -327,7 +317,7 @@ CAROM_API carom_status carom_match_prepare(carom_match *match, int player,
  * else events, brief and room in it are the caller's, and the rest is set. A stopped shot is not
  * ruled yet; it returns CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT. A shot that ends in an
  * error is ruled as one that met nothing, and the balls lie as before. */
-CAROM_API carom_status carom_match_stroke(carom_match *match, int player, const carom_cue *cue,
+CAROM_API carom_status carom_match_stroke(carom_match *match, int seat, const carom_cue *cue,
                                           const carom_shot_options *stop, carom_shot *shot);
 
 /* Continues a stopped shot, as carom_shot_continue() does, and judges it at its end. */
@@ -343,19 +333,19 @@ CAROM_API carom_status carom_match_replay(carom_match *match, carom_shot *shot);
 
 /* Takes an extension of the time for this stroke: the caller measures the time, and the match
  * counts the extensions. The act is refused where none is left. */
-CAROM_API carom_status carom_match_extend(carom_match *match, int player);
+CAROM_API carom_status carom_match_extend(carom_match *match, int seat);
 
 /* Takes a timeout: the caller measures the time, and the match counts the timeouts. The act is
  * refused where none is left. */
-CAROM_API carom_status carom_match_timeout(carom_match *match, int player);
+CAROM_API carom_status carom_match_timeout(carom_match *match, int seat);
 
 /* Concedes the game to the other side. A seat that plays for itself leaves the game. Any seat may
  * do this at any time. */
-CAROM_API carom_status carom_match_concede(carom_match *match, int player);
+CAROM_API carom_status carom_match_concede(carom_match *match, int seat);
 
-/* Ends the time of the player at the table: the match rules this as a stroke that met no ball,
+/* Ends the time of the seat at the table: the match rules this as a stroke that met no ball,
  * which is a foul. */
-CAROM_API carom_status carom_match_clock(carom_match *match, int player);
+CAROM_API carom_status carom_match_clock(carom_match *match, int seat);
 
 /* Writes a note of a seat into the recording: match->text is its line. `seat` -1: of nobody in
  * particular, such as a judge; note->by is not read. Every seat may do this in every phase,
@@ -430,6 +420,13 @@ CAROM_API carom_status carom_match_opponent(const carom_match *match, const caro
  * played. */
 CAROM_API carom_status carom_match_plan(carom_match *match, carom_plan_job *job,
                                         carom_plan_stroke *choices, int room, int *found);
+
+/* The comparison of versions of carom_serves(). */
+#ifdef CAROM_SERVED
+#define carom_match_begin(...) CAROM_SERVED(carom_match_begin(__VA_ARGS__))
+#define carom_match_begin_with(...) CAROM_SERVED(carom_match_begin_with(__VA_ARGS__))
+#define carom_match_read(...) CAROM_SERVED(carom_match_read(__VA_ARGS__))
+#endif
 
 #ifdef __cplusplus
 }

@@ -756,9 +756,10 @@ CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double l
 
 /* Continues a plan in slices, for an opponent who thinks between the frames of a game: plays
  * options->slice more events. *found is 0 until the plan has ended, and with an error. The choices
- * then have the bits of a plan in one call. 500 events take at most about 1 ms; a slice may take one shot longer, or
- * longer if it sorts candidates. The job, its memory and everything that it points to must not have
- * changed since the previous call. A plan that has ended does not change, and a plan whose
+ * then have the bits of a plan in one call. 500 events take at most about 1 ms; a slice may take
+ * one shot longer, or longer if it sorts candidates. The job, its memory and everything that it
+ * points to must not have changed since the previous call. A plan that has ended does not change,
+ * and a plan whose
  * options->stop was set ends. Returns CAROM_OK; CAROM_ERROR_NULL as in carom_plan(); or
  * CAROM_ERROR_STATE if the memory has no plan of this job.
  *
@@ -850,6 +851,11 @@ typedef struct carom_pot {
  * for an invalid cut; or an error of an argument, with nothing written. It takes one to ten ms. */
 CAROM_API carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, int count,
                                  const carom_shot_options *shot, carom_pot *pot, carom_cue *cue);
+
+/* The comparison of versions of carom_serves(). */
+#ifdef CAROM_SERVED
+#define carom_plan(...) CAROM_SERVED(carom_plan(__VA_ARGS__))
+#endif
 
 #ifdef __cplusplus
 }

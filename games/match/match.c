@@ -52,22 +52,22 @@ static const char *list_choices(int32_t choices, char text[128]) {
   return text;
 }
 
-/* Whether a match continues, and this player may act. */
-static carom_status check_player(carom_match *match, int player, const char *act) {
+/* Whether a match continues, and this seat may act. */
+static carom_status check_seat(carom_match *match, int seat, const char *act) {
   if (match->phase == CAROM_MATCH_NONE)
     return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, act, "the match has not begun");
   if (match->phase == CAROM_MATCH_OVER)
     return carom_match_refuse(match, CAROM_REFUSED_OVER, act, "the match is over");
-  if (player == match->seat)
+  if (seat == match->seat)
     return CAROM_OK;
   char right[64];
-  snprintf(right, sizeof right, "player %d is at the table", (int)match->seat);
+  snprintf(right, sizeof right, "seat %d is at the table", (int)match->seat);
   return carom_match_refuse(match, CAROM_REFUSED_TURN, act, right);
 }
 
 /* The same, and no ball may move. */
-static carom_status check_turn(carom_match *match, int player, const char *act) {
-  const carom_status status = check_player(match, player, act);
+static carom_status check_turn(carom_match *match, int seat, const char *act) {
+  const carom_status status = check_seat(match, seat, act);
   if (status != CAROM_OK || match->phase != CAROM_MATCH_MOVING)
     return status;
   return carom_match_refuse(match, CAROM_REFUSED_MOVING, act,
@@ -88,11 +88,11 @@ static void put_line(carom_match *match, carom_record_kind kind) {
                                              sizeof match->text - size);
 }
 
-static void put_act(carom_match *match, carom_act act, int player, int32_t choice,
+static void put_act(carom_match *match, carom_act act, int seat, int32_t choice,
                     carom_call call) {
   carom_record *record = &match->record;
   record->act = (int64_t)act;
-  record->actor = player;
+  record->actor = seat;
   record->choice = choice;
   record->call[0] = call.ball;
   record->call[1] = call.pocket;
@@ -232,8 +232,8 @@ static carom_status begin_seats(carom_match *match, const carom_match_setup *set
   if (fault != NULL)
     return refuse_beginning(match, fault);
   if (setup->side < 0 || setup->side >= carom_sides_of(&match->seating))
-    return refuse_beginning(match, "the player must be a side, 0 or 1 in games of two");
-  match->record.player = setup->side;
+    return refuse_beginning(match, "the side must be 0 or 1 in games of two");
+  match->record.side = setup->side;
   return CAROM_OK;
 }
 
@@ -392,37 +392,11 @@ carom_status carom_match_begin_with(carom_match *match, const carom_match_setup 
   return status;
 }
 
-carom_status carom_match_begin_at(carom_match *match, carom_rules_kind kind,
-                                  const carom_plan_rules *of, const carom_table *table,
-                                  const carom_shot_ball *balls, int count,
-                                  const carom_shot_options *options, carom_leave leave,
-                                  int player) {
-  if (balls == NULL)
-    return CAROM_ERROR_NULL;
-  return carom_match_begin_with(match, &(carom_match_setup){.rules = kind,
-                                                            .of = of,
-                                                            .table = table,
-                                                            .balls = balls,
-                                                            .count = count,
-                                                            .options = options,
-                                                            .leave = leave,
-                                                            .side = player});
-}
-
 carom_status carom_match_begin(carom_match *match, carom_rules_kind kind, const carom_table *table,
-                               uint64_t seed, int player) {
-  return carom_match_begin_to(match, kind, 0, 0, table, seed, player);
-}
-
-carom_status carom_match_begin_to(carom_match *match, carom_rules_kind kind, int32_t target,
-                                  int equal_innings, const carom_table *table, uint64_t seed,
-                                  int player) {
-  return carom_match_begin_with(match, &(carom_match_setup){.rules = kind,
-                                                            .target = target,
-                                                            .equal_innings = equal_innings,
-                                                            .table = table,
-                                                            .seed = seed,
-                                                            .side = player});
+                               uint64_t seed, int side) {
+  return carom_match_begin_with(
+      match,
+      &(carom_match_setup){.rules = kind, .table = table, .seed = seed, .side = side});
 }
 
 /* ---- Sets */
@@ -535,7 +509,7 @@ static void apply(carom_match *match, bool struck) {
     put_line(match, CAROM_RECORD_BALLS);
 
   /* who plays, and who has won */
-  const int64_t player = record->player;
+  const int64_t side = record->side;
   match->rulings++;
   match->rules.state = record->standing = ruling->state;
   record->foul = ruling->turn.foul;
@@ -544,13 +518,13 @@ static void apply(carom_match *match, bool struck) {
   case CAROM_TURN_KEEP:
     break;
   case CAROM_TURN_PASS:
-    record->player = 1 - player; /* for seats that play each for itself, the state has it */
+    record->side = 1 - side; /* for seats that play each for itself, the state has it */
     break;
   case CAROM_TURN_WIN:
-    record->winner = 1 + player;
+    record->winner = 1 + side;
     break;
   case CAROM_TURN_LOSE:
-    record->winner = 1 + (1 - player);
+    record->winner = 1 + (1 - side);
     if (match->rules.race == CAROM_RACE_SEATS)
       record->winner = 1 + (int64_t)ruling->state.seat;
     break;
@@ -617,12 +591,12 @@ static carom_status play(carom_match *match, carom_record_kind kind, const carom
   return CAROM_OK;
 }
 
-carom_status carom_match_stroke(carom_match *match, int player, const carom_cue *cue,
+carom_status carom_match_stroke(carom_match *match, int seat, const carom_cue *cue,
                                 const carom_shot_options *stop, carom_shot *shot) {
   if (match == NULL || cue == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
-  const carom_status error = check_turn(match, player, "stroke");
+  const carom_status error = check_turn(match, seat, "stroke");
   if (error != CAROM_OK)
     return error;
   if (match->phase == CAROM_MATCH_PLACE)
@@ -674,8 +648,8 @@ carom_status carom_match_replay(carom_match *match, carom_shot *shot) {
 
 /* ---- Placing, calls and choices */
 
-static carom_status place_cue_ball(carom_match *match, int player, double x, double y) {
-  const carom_status error = check_turn(match, player, "place");
+static carom_status place_cue_ball(carom_match *match, int seat, double x, double y) {
+  const carom_status error = check_turn(match, seat, "place");
   if (error != CAROM_OK)
     return error;
   if (match->leave < CAROM_LEAVE_ANYWHERE)
@@ -704,22 +678,22 @@ static carom_status place_cue_ball(carom_match *match, int player, double x, dou
     return carom_match_refuse(match, CAROM_REFUSED_OCCUPIED, "place", right);
   }
   put_line(match, CAROM_RECORD_PLACE);
-  record->actor = player;
+  record->actor = seat;
   match->phase = CAROM_MATCH_STROKE;
   match->may &= ~CAROM_CHOICE_STAY; /* it has moved */
   match->touching = carom_touching(record->balls, (int)record->count, match->cue_ball);
   return CAROM_OK;
 }
 
-carom_status carom_match_place(carom_match *match, int player, double x, double y) {
+carom_status carom_match_place(carom_match *match, int seat, double x, double y) {
   if (match == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
-  return place_cue_ball(match, player, x, y);
+  return place_cue_ball(match, seat, x, y);
 }
 
-static carom_status call_pocket(carom_match *match, int player, carom_call call) {
-  const carom_status error = check_turn(match, player, "call");
+static carom_status call_pocket(carom_match *match, int seat, carom_call call) {
+  const carom_status error = check_turn(match, seat, "call");
   if (error != CAROM_OK)
     return error;
   const bool calls = match->rules.calls != 0;
@@ -745,15 +719,15 @@ static carom_status call_pocket(carom_match *match, int player, carom_call call)
     return carom_match_refuse(match, CAROM_REFUSED_CALL, "call", right);
   }
   match->call = call;
-  put_act(match, CAROM_ACT_CALL, player, 0, call);
+  put_act(match, CAROM_ACT_CALL, seat, 0, call);
   return CAROM_OK;
 }
 
-carom_status carom_match_call(carom_match *match, int player, carom_call call) {
+carom_status carom_match_call(carom_match *match, int seat, carom_call call) {
   if (match == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
-  return call_pocket(match, player, call);
+  return call_pocket(match, seat, call);
 }
 
 /* The call of a choice: of a push-out, or of one that is taken instead of a stroke; 0 of another
@@ -777,8 +751,8 @@ static int32_t call_of(carom_choice choice) {
   }
 }
 
-static carom_status take_choice(carom_match *match, int player, carom_choice choice) {
-  const carom_status error = check_turn(match, player, "choose");
+static carom_status take_choice(carom_match *match, int seat, carom_choice choice) {
+  const carom_status error = check_turn(match, seat, "choose");
   if (error != CAROM_OK)
     return error;
   const int32_t bits = (int32_t)choice;
@@ -796,7 +770,7 @@ static carom_status take_choice(carom_match *match, int player, carom_choice cho
   carom_call call = {call_of(choice), -1};
   if (choice == CAROM_CHOICE_SPOT)
     call.pocket = match->call.ball;
-  put_act(match, CAROM_ACT_CHOOSE, player, (int32_t)choice, none);
+  put_act(match, CAROM_ACT_CHOOSE, seat, (int32_t)choice, none);
   if (choice == CAROM_CHOICE_PUSH) {
     match->call = call;
     return CAROM_OK;
@@ -808,43 +782,43 @@ static carom_status take_choice(carom_match *match, int player, carom_choice cho
   return CAROM_OK;
 }
 
-carom_status carom_match_choose(carom_match *match, int player, carom_choice choice) {
+carom_status carom_match_choose(carom_match *match, int seat, carom_choice choice) {
   if (match == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
-  return take_choice(match, player, choice);
+  return take_choice(match, seat, choice);
 }
 
 /* The acts before the stroke, up to one that is rejected. */
-static carom_status prepare(carom_match *match, int player, const carom_plan_stroke *stroke) {
+static carom_status prepare(carom_match *match, int seat, const carom_plan_stroke *stroke) {
   if (stroke->kind == CAROM_PLAN_PASS)
-    return take_choice(match, player, CAROM_CHOICE_PASS);
-  carom_status status = check_turn(match, player, "prepare");
+    return take_choice(match, seat, CAROM_CHOICE_PASS);
+  carom_status status = check_turn(match, seat, "prepare");
   if (status == CAROM_OK && match->phase == CAROM_MATCH_PLACE)
-    status = place_cue_ball(match, player, stroke->place[0], stroke->place[1]);
+    status = place_cue_ball(match, seat, stroke->place[0], stroke->place[1]);
   if (status == CAROM_OK && stroke->kind == CAROM_PLAN_PUSH)
-    status = take_choice(match, player, CAROM_CHOICE_PUSH);
+    status = take_choice(match, seat, CAROM_CHOICE_PUSH);
   const bool calls = match->rules.calls != 0 && stroke->ball >= 0 && stroke->pocket >= 0;
   if (status != CAROM_OK || !calls)
     return status;
-  return call_pocket(match, player, (carom_call){stroke->ball, stroke->pocket});
+  return call_pocket(match, seat, (carom_call){stroke->ball, stroke->pocket});
 }
 
-carom_status carom_match_prepare(carom_match *match, int player, const carom_plan_stroke *stroke) {
+carom_status carom_match_prepare(carom_match *match, int seat, const carom_plan_stroke *stroke) {
   if (match == NULL || stroke == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
-  return prepare(match, player, stroke);
+  return prepare(match, seat, stroke);
 }
 
 /* ---- Concessions, clocks, the end */
 
 /* A seat leaves a game that each plays for itself: the next one plays, or the last one has won. */
-static void leave_game(carom_match *match, int player) {
+static void leave_game(carom_match *match, int seat) {
   carom_rules_state *state = &match->rules.state;
   const int count = (int)match->seating.count;
   int remain = 0;
-  state->user[player] = 0;
+  state->user[seat] = 0;
   for (int k = 0; k < count; k++)
     remain += state->user[k] != 0;
   while (remain > 0 && state->user[state->seat] == 0)
@@ -853,25 +827,25 @@ static void leave_game(carom_match *match, int player) {
     match->record.winner = 1 + state->seat;
 }
 
-carom_status carom_match_concede(carom_match *match, int player) {
+carom_status carom_match_concede(carom_match *match, int seat) {
   if (match == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
   if (match->phase == CAROM_MATCH_NONE || match->phase == CAROM_MATCH_OVER)
-    return check_player(match, player, "concede");
+    return check_seat(match, seat, "concede");
   const bool is_own = match->rules.race == CAROM_RACE_SEATS;
   uint64_t *left = match->rules.state.user;
-  if (player < 0 || player >= match->seating.count || (is_own && left[player] == 0))
+  if (seat < 0 || seat >= match->seating.count || (is_own && left[seat] == 0))
     return carom_match_refuse(match, CAROM_REFUSED_TURN, "concede",
-                              "the player must be a seat that plays");
+                              "the seat must be one that plays");
   if (is_own && match->phase == CAROM_MATCH_MOVING)
     return check_turn(match, (int)match->seat, "concede");
-  put_act(match, CAROM_ACT_CONCEDE, player, 0, (carom_call){-1, -1});
+  put_act(match, CAROM_ACT_CONCEDE, seat, 0, (carom_call){-1, -1});
   carom_record *record = &match->record;
   if (is_own)
-    leave_game(match, player);
+    leave_game(match, seat);
   else
-    record->winner = 2 - match->seating.seat[player].side;
+    record->winner = 2 - match->seating.seat[seat].side;
   if (record->winner != 0)
     record->hand = 0;
   record->standing = match->rules.state;
@@ -882,17 +856,17 @@ carom_status carom_match_concede(carom_match *match, int player) {
 }
 
 /* What is counted of the time of a stroke. */
-static carom_status take_time(carom_match *match, int player, carom_act act) {
+static carom_status take_time(carom_match *match, int seat, carom_act act) {
   if (match == NULL)
     return CAROM_ERROR_NULL;
   const bool extends = act == CAROM_ACT_EXTEND;
   const char *name = carom_word(CAROM_WORDS_ACT, (int)act);
   begin_act(match);
-  const carom_status error = check_turn(match, player, name);
+  const carom_status error = check_turn(match, seat, name);
   if (error != CAROM_OK)
     return error;
   const carom_set *set = &match->record.set;
-  const int64_t side = match->record.player;
+  const int64_t side = match->record.side;
   int32_t *taken = &match->timeouts[side];
   int64_t most = set->timeouts;
   if (extends) {
@@ -902,26 +876,26 @@ static carom_status take_time(carom_match *match, int player, carom_act act) {
   if (*taken >= most)
     return carom_match_refuse(match, CAROM_REFUSED_TIME, name, "none is left");
   ++*taken;
-  put_act(match, act, player, 0, (carom_call){-1, -1});
+  put_act(match, act, seat, 0, (carom_call){-1, -1});
   return CAROM_OK;
 }
 
-carom_status carom_match_extend(carom_match *match, int player) {
-  return take_time(match, player, CAROM_ACT_EXTEND);
+carom_status carom_match_extend(carom_match *match, int seat) {
+  return take_time(match, seat, CAROM_ACT_EXTEND);
 }
 
-carom_status carom_match_timeout(carom_match *match, int player) {
-  return take_time(match, player, CAROM_ACT_TIMEOUT);
+carom_status carom_match_timeout(carom_match *match, int seat) {
+  return take_time(match, seat, CAROM_ACT_TIMEOUT);
 }
 
-carom_status carom_match_clock(carom_match *match, int player) {
+carom_status carom_match_clock(carom_match *match, int seat) {
   if (match == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
-  const carom_status error = check_turn(match, player, "clock");
+  const carom_status error = check_turn(match, seat, "clock");
   if (error != CAROM_OK)
     return error;
-  put_act(match, CAROM_ACT_CLOCK, player, 0, (carom_call){-1, -1});
+  put_act(match, CAROM_ACT_CLOCK, seat, 0, (carom_call){-1, -1});
   rule(match, true, (carom_call){-1, -1});
   apply(match, true);
   return CAROM_OK;

@@ -111,7 +111,7 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
     match->seating = record->seating;
   const char *fault =
       carom_seats_fault(&match->rules, (carom_rules_kind)record->rules, &match->seating);
-  if (fault == NULL && record->player >= carom_sides_of(&match->seating))
+  if (fault == NULL && record->side >= carom_sides_of(&match->seating))
     fault = "game.player must be a side";
   if (fault != NULL)
     return refuse_line(match, record->line, fault);
@@ -151,14 +151,14 @@ static act_of_line act_in(const carom_record *read) {
 
 /* Does what a line says, as the player would; match->text then begins with the act's own line. */
 static carom_status do_act(carom_match *match, const act_of_line *line) {
-  const int player = (int)match->seat, actor = (int)line->actor;
+  const int seat = (int)match->seat, actor = (int)line->actor;
   switch (line->kind) {
   case CAROM_RECORD_SHOT:
-    return carom_match_stroke(match, player, &line->cue, &line->options, NULL);
+    return carom_match_stroke(match, seat, &line->cue, &line->options, NULL);
   case CAROM_RECORD_CONTINUE:
     return carom_match_continue(match, &line->options, NULL);
   case CAROM_RECORD_PLACE:
-    return carom_match_place(match, player, line->place[0], line->place[1]);
+    return carom_match_place(match, seat, line->place[0], line->place[1]);
   case CAROM_RECORD_END:
     return carom_match_end(match);
   case CAROM_RECORD_ACT:

@@ -78,7 +78,7 @@ carom_status carom_match_opponent(const carom_match *match, const carom_player *
   *opponent = *player;
   if (match->phase == CAROM_MATCH_NONE || match->rules.race == CAROM_RACE_SEATS)
     return CAROM_OK;
-  const int32_t next = carom_seat_of_side(match, 1 - match->record.player);
+  const int32_t next = carom_seat_of_side(match, 1 - match->record.side);
   const double rating = match->seating.seat[next].rating;
   if (rating != 0.0) {
     *opponent = carom_player_rated(rating, (carom_rules_kind)match->record.rules);
@@ -91,7 +91,7 @@ carom_status carom_match_opponent(const carom_match *match, const carom_player *
   const double grown = carom_player_growth(player, usual_speed);
   const double own = fmax(player->phi * grown, carom_exp(log_error_of(0)));
   for (int64_t seat = 0; seat < match->seating.count; seat++) {
-    if (match->seating.seat[seat].side == match->record.player)
+    if (match->seating.seat[seat].side == match->record.side)
       continue;
     strokes += match->weighed[seat];
     for (int k = 0; k < CAROM_MATCH_ERRORS; k++)

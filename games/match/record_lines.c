@@ -12,7 +12,7 @@
 #define MEMBER_FIELD(NAME, member, ...) CAROM_MEMBER_FIELD(#member, carom_record, standing.member)
 static const carom_field game_fields[] = {
     CAROM_RECORD_FIELD("rules", INT64, true, 1, rules),
-    CAROM_RECORD_FIELD("player", INT64, false, 1, player),
+    CAROM_RECORD_FIELD("player", INT64, false, 1, side),
     CAROM_STATE_MEMBERS(MEMBER_FIELD) CAROM_RECORD_FIELD("user", INT64, false, 8, standing.user),
     CAROM_RECORD_FIELD("winner", INT64, false, 1, winner),
     CAROM_RECORD_FIELD("foul", INT64, false, 1, foul),
@@ -60,7 +60,7 @@ static const char *find_fault_of_game(const carom_record *record, const char **k
   if (record->winner < 0 || record->winner > CAROM_DRAWN)
     return "must be 0 to 9";
   *key = "player";
-  if (record->player < 0 || record->player >= CAROM_SEATS_MOST)
+  if (record->side < 0 || record->side >= CAROM_SEATS_MOST)
     return "must be 0 to 7";
   return NULL;
 }

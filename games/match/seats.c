@@ -240,15 +240,15 @@ int32_t carom_seat_of_side(const carom_match *match, int64_t side) {
 void carom_take_seat(carom_match *match) {
   carom_record *record = &match->record;
   if (match->rules.race == CAROM_RACE_SEATS)
-    record->player = match->rules.state.seat;
-  match->seat = carom_seat_of_side(match, record->player);
+    record->side = match->rules.state.seat;
+  match->seat = carom_seat_of_side(match, record->side);
   if (match->seating.count > 2)
     match->rules.state.seat = record->standing.seat = match->seat;
 }
 
 void carom_end_visit(carom_match *match, bool struck, bool passes) {
   if (struck && (passes || match->seating.alternate != 0))
-    match->turns[match->record.player]++;
+    match->turns[match->record.side]++;
 }
 
 /* ---- How a match stands */
@@ -266,7 +266,7 @@ carom_status carom_match_standing(const carom_match *match, carom_standing *stan
     if (match->rules.race == CAROM_RACE_SEATS)
       standing->points[k] = carom_seat_points((carom_rules_kind)record->rules, state->user[k]);
     else {
-      const bool other = k != record->player;
+      const bool other = k != record->side;
       standing->points[k] = (int64_t)state->score[other];
       if (carom_owes_points((carom_rules_kind)record->rules))
         standing->points[k] -= state->lost[other];

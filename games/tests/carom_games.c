@@ -31,8 +31,9 @@ TEST(games_without_equal_innings) {
   static carom_match match;
   for (int kind = 0; carom_rules_about_of((carom_rules_kind)kind) != NULL; kind++) {
     carom_table_make((carom_table_kind)carom_rules_about_of((carom_rules_kind)kind)->table, &table);
-    const carom_status status =
-        carom_match_begin_to(&match, (carom_rules_kind)kind, 0, 1, &table, 1, 0);
+    carom_match_setup setup = {
+        .rules = (carom_rules_kind)kind, .table = &table, .seed = 1, .equal_innings = 1};
+    const carom_status status = carom_match_begin_with(&match, &setup);
     if (kind == CAROM_RULES_THREECUSHION || kind == CAROM_RULES_STRAIGHTRAIL) {
       expect_ok(status);
       continue;
@@ -41,8 +42,9 @@ TEST(games_without_equal_innings) {
     ck_assert_str_eq(match.fault, "begin: innings must be 0, as the game has none");
   }
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
-  ck_assert_int_eq(carom_match_begin_to(&match, CAROM_RULES_EIGHTBALL, 5, 0, &table, 1, 0),
-                   CAROM_ERROR_ACT);
+  carom_match_setup setup = {
+      .rules = CAROM_RULES_EIGHTBALL, .table = &table, .seed = 1, .target = 5};
+  ck_assert_int_eq(carom_match_begin_with(&match, &setup), CAROM_ERROR_ACT);
   ck_assert_str_eq(match.fault, "begin: target must be 0, as the game has none");
 }
 

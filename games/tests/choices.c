@@ -380,8 +380,11 @@ static double chance_of(const carom_match *match, const carom_player *striker,
 /* What a push-out without errors is worth by plans of both sides from its leave. */
 static double worth_of_push(const carom_cue *stroke, const carom_player *opponent) {
   static carom_match match;
-  expect_ok(carom_match_begin_at(&match, CAROM_RULES_NINEBALL, &rules, &table, balls, 10, NULL,
-                                 CAROM_LEAVE_AFTER, 0));
+  expect_ok(carom_match_begin_with(&match, &(carom_match_setup){.rules = CAROM_RULES_NINEBALL,
+                                                                .of = &rules,
+                                                                .table = &table,
+                                                                .balls = balls,
+                                                                .count = 10}));
   expect_ok(carom_match_choose(&match, 0, CAROM_CHOICE_PUSH));
   expect_ok(carom_match_stroke(&match, 0, stroke, NULL, NULL));
   const double worth = 1.0 - chance_of(&match, opponent, &player);

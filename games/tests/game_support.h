@@ -62,10 +62,15 @@ static inline bool is_at(int ball, double x, double y) {
 }
 
 /* Begins a match of a game that knows equal innings with them, to so many points. */
-static inline void begin_equal(carom_match *match, carom_rules_kind kind, uint64_t seed, int player,
+static inline void begin_equal(carom_match *match, carom_rules_kind kind, uint64_t seed, int side,
                                int target) {
   carom_table_make((carom_table_kind)carom_rules_about_of(kind)->table, &table);
-  expect_ok(carom_match_begin_to(match, kind, target, 1, &table, seed, player));
+  expect_ok(carom_match_begin_with(match, &(carom_match_setup){.rules = kind,
+                                                               .target = target,
+                                                               .equal_innings = 1,
+                                                               .table = &table,
+                                                               .seed = seed,
+                                                               .side = side}));
 }
 static inline bool knows_equal_innings(carom_rules_kind kind) {
   const char *range;

@@ -16,9 +16,14 @@ static inline void keep(void) {
 }
 
 /* To so many points with equal innings, where there is a target. */
-static inline void begin(carom_rules_kind kind, uint64_t seed, int player, int target) {
+static inline void begin(carom_rules_kind kind, uint64_t seed, int side, int target) {
   carom_table_make((carom_table_kind)carom_rules_about_of(kind)->table, &table);
-  expect_ok(carom_match_begin_to(&match, kind, target, target > 0, &table, seed, player));
+  expect_ok(carom_match_begin_with(&match, &(carom_match_setup){.rules = kind,
+                                                                .target = target,
+                                                                .equal_innings = target > 0,
+                                                                .table = &table,
+                                                                .seed = seed,
+                                                                .side = side}));
   file_size = 0;
   keep();
 }

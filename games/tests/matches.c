@@ -21,7 +21,7 @@ TEST(a_clock_before_the_place) {
     else
       ck_assert_int_eq(match.phase, CAROM_MATCH_PLACE);
     before = match;
-    check_refusal("clock", carom_match_choose(&match, (int)match.record.player, CAROM_CHOICE_STAY),
+    check_refusal("clock", carom_match_choose(&match, (int)match.record.side, CAROM_CHOICE_STAY),
                   "choice", "the choices are");
   }
 }
@@ -33,7 +33,7 @@ static void play_some(carom_rules_kind kind, uint64_t seed, int strokes) {
   random_source r = {seed};
   begin(kind, seed, (int)(seed & 1), 0);
   for (int k = 0; k < strokes && match.phase != CAROM_MATCH_OVER; k++) {
-    const int player = (int)match.record.player;
+    const int player = (int)match.record.side;
     const carom_bounds *b = &match.bounds;
     while (match.phase == CAROM_MATCH_PLACE) {
       const double y = random_between(&r, b->low[1], b->high[1]);
@@ -97,14 +97,14 @@ TEST(cut_off_behind_a_shot) {
   const char *end = strchr(shot, '\n') + 1;
   expect_ok(read_all(file, (size_t)(end - file)));
   ck_assert(reader.size > 0 && memcmp(reader.text, end, (size_t)reader.size) == 0);
-  ck_assert_int_eq(reader.record.player, match.record.player);
+  ck_assert_int_eq(reader.record.side, match.record.side);
 }
 
 /* ---- Random matches */
 
 /* One random act, most of which are rejected: with a name, and with nothing changed. */
 static carom_status act(random_source *r, carom_rules_kind kind) {
-  const int player = (int)match.record.player ^ (random_between(r, 0.0, 1.0) < 0.05);
+  const int player = (int)match.record.side ^ (random_between(r, 0.0, 1.0) < 0.05);
   const carom_bounds *b = &match.bounds;
   const double what = random_between(r, 0.0, 1.0);
   carom_cue cue = cue_of(kind);
@@ -170,7 +170,7 @@ TEST(random_matches) {
       ck_assert_msg(match.refusal != CAROM_REFUSED_STROKE, "seed %llu: no stroke can be played: %s",
                     (unsigned long long)(seed + game), match.fault);
       ck_assert(match.record.hash == saved.record.hash && match.phase == saved.phase &&
-                match.record.player == saved.record.player && match.may == saved.may);
+                match.record.side == saved.record.side && match.may == saved.may);
       ck_assert_msg(++idle < 100, "seed %llu: a dead end: %s", (unsigned long long)(seed + game),
                     match.fault);
     }

@@ -68,7 +68,7 @@ TEST(strokes_tell_the_opponent) {
   int seats[2] = {0, 1};
   for (int n = 0; n < 2; n++) {
     carom_match asked = match;
-    asked.record.player = asked.seat = seats[n];
+    asked.record.side = asked.seat = seats[n];
     const double asks = errors[seats[n]], true_share = errors[1 - seats[n]] / asks;
     const double share = share_of(&asked, asks);
     printf("seat %d: %.2f, in truth %.2f\n", seats[n], share, true_share);

@@ -50,7 +50,7 @@ TEST(partners_play_in_turn) {
     for (int n = 0; n < 5; n++) { /* three fouls of a side in a row would lose */
       ck_assert_int_eq(match.seat, cases[k].seats[n]);
       ck_assert_int_eq(match.rules.state.seat, match.seat);
-      ck_assert_int_eq(match.record.player, match.seat % 2);
+      ck_assert_int_eq(match.record.side, match.seat % 2);
       expect_ok(play(200.0, 0.3));
     }
     check_recording("partners");
@@ -374,7 +374,7 @@ TEST(sets_are_played_and_read) {
     setup.set = &(carom_set){.race = 3, .order = cases[k].order, .timeouts = 1};
     begin_match();
     for (int n = 0; n < 4; n++) {
-      ck_assert_int_eq(match.record.player, cases[k].breaks[n]);
+      ck_assert_int_eq(match.record.side, cases[k].breaks[n]);
       ck_assert_int_eq(match.record.set.number, n + 1);
       lose(cases[k].loses[n]);
       if (n == 3)
@@ -419,7 +419,7 @@ TEST(time_is_counted) {
   before = match;
   check_refusal("a timeout", carom_match_timeout(&match, 0), "time", "none is left");
   before = match;
-  check_refusal("of another seat", carom_match_extend(&match, 1), "turn", "player 0");
+  check_refusal("of another seat", carom_match_extend(&match, 1), "turn", "seat 0");
   check_recording("an extension");
 }
 
@@ -500,7 +500,7 @@ TEST(points_are_those_of_who_made_them) {
       begin_match();
       carom_standing earlier, later;
       for (int n = 0; n < 60 && match.phase != CAROM_MATCH_OVER; n++) {
-        const int64_t side = match.record.player;
+        const int64_t side = match.record.side;
         expect_ok(carom_match_standing(&match, &earlier));
         play_stroke(&r, rows[k].kind);
         expect_ok(carom_match_standing(&match, &later));
@@ -578,9 +578,9 @@ TEST(layouts_that_the_rules_cannot_have) {
     for (int b = 1; b < count; b++)
       if (b == cases[k].gone || cases[k].gone < 0)
         lie[b].state.label = CAROM_BALL_POCKETED;
-    ck_assert_int_eq(carom_match_begin_at(&match, cases[k].kind, NULL, &table, lie, count, NULL,
-                                          CAROM_LEAVE_AFTER, 0),
-                     CAROM_ERROR_ACT);
+    carom_match_setup layout = {
+        .rules = cases[k].kind, .table = &table, .balls = lie, .count = count};
+    ck_assert_int_eq(carom_match_begin_with(&match, &layout), CAROM_ERROR_ACT);
     ck_assert_msg(strstr(match.fault, cases[k].words) != NULL, "%s: %s", about->name, match.fault);
   }
 }

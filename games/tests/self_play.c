@@ -25,12 +25,12 @@ static void check_ruling(const carom_ruling *r) {
 static void place_anywhere(random_source *r) {
   const carom_bounds *b = &match.bounds;
   const double x = random_between(r, b->low[0], b->high[0]);
-  carom_match_place(&match, (int)match.record.player, x, random_between(r, b->low[1], b->high[1]));
+  carom_match_place(&match, (int)match.record.side, x, random_between(r, b->low[1], b->high[1]));
 }
 
 /* One stroke by a plan, with a player's errors. */
 static carom_status play_planned(carom_plan_job *job, random_source *r, uint64_t number) {
-  const int player = (int)match.record.player;
+  const int player = (int)match.record.side;
   carom_cue cue =
       carom_cue_of((carom_game)carom_rules_about_of((carom_rules_kind)match.record.rules)->balls);
   cue.ball = match.cue_ball;
@@ -74,7 +74,7 @@ static int strokes_of_game(carom_rules_kind kind, uint64_t seed, bool equal, uin
   int strokes = 0;
   uint64_t hash = UINT64_C(0xcbf29ce484222325);
   while (match.phase != CAROM_MATCH_OVER && strokes < STROKES_MOST) {
-    const int64_t seat = match.record.player;
+    const int64_t seat = match.record.side;
     const carom_status status = play_planned(&job, &r, (uint64_t)strokes++);
     char text[300] = "";
     carom_ruling_string(&match.ruling, text, sizeof text);

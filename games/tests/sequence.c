@@ -130,8 +130,11 @@ static bool runs_by_match(uint64_t number) {
   static carom_match match;
   carom_plan_stroke choice;
   int found;
-  expect_ok(carom_match_begin_at(&match, CAROM_RULES_EIGHTBALL, &rules, &table, balls, BALLS, NULL,
-                                 CAROM_LEAVE_AFTER, 0));
+  expect_ok(carom_match_begin_with(&match, &(carom_match_setup){.rules = CAROM_RULES_EIGHTBALL,
+                                                                .of = &rules,
+                                                                .table = &table,
+                                                                .balls = balls,
+                                                                .count = BALLS}));
   for (uint64_t n = 0; match.phase != CAROM_MATCH_OVER; n++) {
     options.seed = 7000 + 100 * number + n;
     expect_ok(carom_match_plan(&match, &job, &choice, 1, &found));

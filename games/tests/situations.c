@@ -453,7 +453,7 @@ static situation standing(void) {
                  .put_back = match.ruling.put,
                  .leave = match.leave,
                  .targets = match.on,
-                 .player = (int32_t)match.record.player,
+                 .player = (int32_t)match.record.side,
                  .phase = match.phase,
                  .cue_ball = match.cue_ball,
                  .winner = match.winner,
@@ -491,8 +491,13 @@ static void begin_row(carom_rules_kind kind, char *text) {
     return;
   }
   const int count = lay_out_row(about, &row);
-  expect_ok(carom_match_begin_at(&match, kind, &game_rules, &table, balls, count, NULL,
-                                 (carom_leave)row.leave, row.player));
+  expect_ok(carom_match_begin_with(&match, &(carom_match_setup){.rules = kind,
+                                                                .of = &game_rules,
+                                                                .table = &table,
+                                                                .balls = balls,
+                                                                .count = count,
+                                                                .leave = (carom_leave)row.leave,
+                                                                .side = row.player}));
   file_size = 0;
   keep();
 }

@@ -29,7 +29,7 @@ TEST(standings_come_back) {
   begin_recording();
   game.standing = (carom_rules_state){.score = {0, 7}, .target = 100, .user = {1, [7] = 9}};
   game.rules = 4;
-  game.player = 1;
+  game.side = 1;
   const size_t length = write_line(CAROM_RECORD_GAME);
   ck_assert_uint_gt(length, 0);
   begin_reading();
@@ -79,7 +79,7 @@ static bool is_written(void) {
 /* What the reader rejects is not written. */
 TEST(standings_that_are_not_written) {
   NOT_WRITTEN(game.rules, -5);
-  NOT_WRITTEN(game.player, 77);
+  NOT_WRITTEN(game.side, 77);
   NOT_WRITTEN(game.standing.group, 9);
   NOT_WRITTEN(game.standing.fouls[0], 50);
   NOT_WRITTEN(game.winner, 10);

@@ -19,7 +19,7 @@
 static int plays_match(const carom_table &table, const carom_cue &cue, const carom_player &player,
                        const carom_plan_options &wanted, const std::vector<carom_shot_ball> &lie) {
   carom::match game;
-  CHECK(game.begin(CAROM_RULES_NINEBALL, table, 3, 1) == CAROM_OK && game.player() == 1);
+  CHECK(game.begin(CAROM_RULES_NINEBALL, table, 3, 1) == CAROM_OK && game.side() == 1);
 #ifdef __cpp_exceptions
   try {
     game.place(0.6, 1.0);

@@ -46,24 +46,24 @@ namespace Carom {
       return Billiards.Check(status);
     }
 
-    /// <summary>Begins a match with the rack of a game; `player`, 0 or 1, breaks. `target` points
+    /// <summary>Begins a match with the rack of a game; `side` 0 or 1 breaks. `target` points
     /// win, 0: the usual target of the game; with `equalInnings` the match may be drawn.</summary>
-    public static LiveMatch Begin(RulesKind rules, Table table, ulong seed, int player = 0,
+    public static LiveMatch Begin(RulesKind rules, Table table, ulong seed, int side = 0,
                                   int target = 0, bool equalInnings = false) {
-      var made = new LiveMatch();
-      made.Told(Native.carom_match_begin_to(made.match, rules, target, equalInnings ? 1 : 0, &table,
-                                            seed, player));
-      return made;
+      var setup = new MatchSetup { rules = rules, table = &table,   seed = seed,
+                                   side = side,   target = target, equalInnings = equalInnings ? 1 : 0 };
+      return Begin(&setup);
     }
 
     /// <summary>The same from any layout, by the rules of this kind; the cue ball is in hand if
     /// `leave` says so.</summary>
     public static LiveMatch Begin(RulesKind rules, Table table, ShotBall[] balls,
-                                  Leave leave = Leave.After, int player = 0) {
-      var made = new LiveMatch();
-      fixed(ShotBall *at = balls) made.Told(Native.carom_match_begin_at(
-          made.match, rules, null, &table, at, balls.Length, null, leave, player));
-      return made;
+                                  Leave leave = Leave.After, int side = 0) {
+      fixed(ShotBall *at = balls) {
+        var setup = new MatchSetup { rules = rules,         table = &table, balls = at,
+                                     count = balls.Length, leave = leave,  side = side };
+        return Begin(&setup);
+      }
     }
 
     /// <summary>The same with any seats, which carom_seating_make() initializes: names, sides,
@@ -71,7 +71,6 @@ namespace Carom {
     public static LiveMatch Begin(RulesKind rules, Table table, ulong seed, Seating seating,
                                   Set? set = null, int side = 0, int target = 0,
                                   bool equalInnings = false) {
-      var made = new LiveMatch();
       var of = set ?? default(Set);
       var setup = new MatchSetup { rules = rules,
                                    table = &table,
@@ -81,7 +80,11 @@ namespace Carom {
                                    target = target,
                                    set = set == null ? null : &of,
                                    equalInnings = equalInnings ? 1 : 0 };
-      made.Told(Native.carom_match_begin_with(made.match, &setup));
+      return Begin(&setup);
+    }
+    static LiveMatch Begin(MatchSetup *setup) {
+      var made = new LiveMatch();
+      made.Told(Native.carom_match_begin_with(made.match, setup));
       return made;
     }
 
@@ -236,9 +239,9 @@ namespace Carom {
         PlayedShot.Recorded(&match->record, (ShotBall *)&match->before, ref last, false,
                             to => Native.carom_match_replay(match, to), () => {});
     }
-    /// <summary>A player, 0 or 1, concedes the game.</summary>
-    public void Concede(int player) {
-      Told(Native.carom_match_concede(Open, player));
+    /// <summary>A seat concedes the game.</summary>
+    public void Concede(int seat) {
+      Told(Native.carom_match_concede(Open, seat));
     }
     /// <summary>Writes words into the recording: texts by their keys, such as "comment", and the
     /// time in s that the last stroke took the player, 0: none. docs/reference/files.md has the

@@ -87,10 +87,6 @@ STATUS(hand_bounds, ENUM(carom_leave, CAROM_LEAVE_KITCHEN), PTR(&table), NUM(0.0
 VALUE(is_within, MAYBE(&bounds), ANY(0.5), ANY(0.5))
 STATUS(match_begin, PTR(&match), ENUM(carom_rules_kind, CAROM_RULES_NINEBALL), PTR(&table), 1,
        INT(0))
-STATUS(match_begin_to, PTR(&match), ENUM(carom_rules_kind, CAROM_RULES_STRAIGHT), ANYINT(10),
-       INT(0), PTR(&table), 1, INT(0))
-STATUS(match_begin_at, PTR(&match), ANYENUM(carom_rules_kind, CAROM_RULES_NINEBALL), MAYBE(&rules),
-       PTR(&table), LAYOUT, NULL, ENUM(carom_leave, CAROM_LEAVE_ANYWHERE), INT(0))
 STATUS(match_begin_with, PTR(&match), PTR(&setup))
 VALUE(match_call, MAYBE(ready()), ANYINT(0), ((carom_call){ANYINT(1), ANYINT(1)}))
 VALUE(match_choose, MAYBE(ready()), ANYINT(0), ANYENUM(carom_choice, CAROM_CHOICE_PUSH))

@@ -35,7 +35,7 @@ static inline void record_game(carom_record *game) {
   add_line(game, CAROM_RECORD_CONTINUE);
 #ifndef CAROM_WITHOUT_PLAN
   game->standing = (carom_rules_state){.fouls = {0, 1}, .may = 2, .user = {0, 7}};
-  game->rules = game->player = 1;
+  game->rules = game->side = 1;
   add_line(game, CAROM_RECORD_GAME);
 #endif
   carom_record_place(game, 0, 0.3, 0.4, NULL);

@@ -63,7 +63,7 @@ def test_a_match_with_equal_innings_is_drawn():
     table, perfect = carom.tables.threecushion(), carom.player(0)
     match = carom.Match("straightrail", table, seed=1, state={"target": 1, "innings": 1})
     match.take(match.plan(shots=100, player=perfect)[0])
-    assert match.phase == "stroke" and match.player == 1 and match.state["innings"] == 3
+    assert match.phase == "stroke" and match.side == 1 and match.state["innings"] == 3
     assert not match.drawn and match.ruling.words == "the other has the equalizing inning"
     match.take(match.plan(shots=100, player=perfect)[0])
     assert match.phase == "over" and match.drawn and match.winner is None
@@ -71,12 +71,12 @@ def test_a_match_with_equal_innings_is_drawn():
 
 
 def test_a_file_that_was_cut_off_behind_a_shot_goes_on():
-    match = begun(player=1)
+    match = begun(side=1)
     match.place(0.6, 0.6)
     match.stroke(BREAK)
     index = next(k for k, line in enumerate(match.lines) if line.startswith('{"shot"'))
     restored = carom.Match.load(match.lines[: index + 1])
-    assert restored.lines == match.lines and restored.player == match.player
+    assert restored.lines == match.lines and restored.side == match.side
     assert pickle.loads(pickle.dumps(match)).lines == match.lines
     forged = [line.replace('"player":1', '"player":0') for line in match.lines]
     with pytest.raises(carom.CaromError, match="line"):
@@ -91,7 +91,7 @@ def test_a_game_that_was_saved_has_the_bounds_of_a_scratch():
             break
     restored = carom.Match.load(match.lines)
     assert restored.bounds == match.bounds and restored.bounds.high[1] == TABLE.length / 4
-    assert (restored.phase, restored.player) == ("place", match.player)
+    assert (restored.phase, restored.side) == ("place", match.side)
     with pytest.raises(carom.CaromError, match="place: .*0.635"):
         restored.place(0.6, 0.64)
     assert restored.plan(shots=100, best=1)[0]["place"][1] <= TABLE.length / 4
@@ -101,9 +101,9 @@ def test_choices_are_taken():
     match = begun()
     match.place(0.6, 0.6)
     match.stroke(carom.cue(speed=1.5, phi=90.0))  # no legal break
-    assert {"rack", "other_rack"} <= {*match.may} and match.player == 1
+    assert {"rack", "other_rack"} <= {*match.may} and match.side == 1
     match.choose("other_rack")
-    assert match.player == 0 and match.state["opening"] == 1
+    assert match.side == 0 and match.state["opening"] == 1
 
 
 class Last(carom.Rules):
@@ -137,7 +137,7 @@ def test_rules_of_ones_own():
     rules.broken = False
     match.stroke(cue)
     assert (
-        match.player == 1
+        match.side == 1
         and match.state["user"][0] == 1
         and match.ruling.words == "the other plays"
     )
@@ -158,7 +158,7 @@ def test_plans_are_those_of_the_match():
     best = match.plan(shots=1000, best=1)[0]
     assert (best["cue"]["ball"], best["ball"]) == (1, 2)
     match.take(best)
-    assert match.player == 0
+    assert match.side == 0
 
     # A ball behind the head string may not be met first by a cue ball that was placed there.
     balls = carom.racks.eightball(TABLE)
@@ -205,17 +205,17 @@ def test_partners_play_a_set_with_handicaps_limits_and_time():
         (match.extend, "extend: none is left"),
         (match.timeout, "timeout: none is left"),
         (match.next, "next: no match has been won"),
-        (lambda: match.clock(seat=2), "clock: player 0 is at the table"),
+        (lambda: match.clock(seat=2), "clock: seat 0 is at the table"),
     ]:
         with pytest.raises(carom.CaromError, match=message):
             act()
     cue["phi"], cue["speed"] = 200.0, 1.0
     match.stroke(cue)
-    assert (match.seat, match.player) == (1, 1)
+    assert (match.seat, match.side) == (1, 1)
     match.concede(3)
     assert match.winner == 0 and match.words == "Ann (seat 0) and Cy (seat 2) have won"
     match.next()
-    assert match.set["number"] == 2 and match.set["won"] == (1, 0) and match.player == 0
+    assert match.set["number"] == 2 and match.set["won"] == (1, 0) and match.side == 0
     match.concede()
     match.next()
     match.concede(0)
@@ -325,7 +325,7 @@ def test_every_game_is_planned_with_its_own_cue():
     for game in GAMES:
         table = getattr(carom.tables, tables.get(game, "pool_9ft"))()
         seats = ["", {"rating": 500}, ""][: 3 if game == "cutthroat" else 2]
-        match = carom.Match(game, table, seed=1, player=1, seats=seats)
+        match = carom.Match(game, table, seed=1, side=1, seats=seats)
         best = match.plan(shots=100, best=1)[0]
         assert best["cue"][stick] == match.cue[stick] == match.seats[1].cue[stick], game
         match.prepare(best)

@@ -67,7 +67,7 @@ export const KEYS = {
   turn: keysOf<OwnTurn>({ turn: 1, leave: 1, reason: 1, spot: 1, points: 1 }),
   match: keysOf<MatchOptions>({
     seed: 1,
-    player: 1,
+    side: 1,
     seats: 1,
     alternate: 1,
     limits: 1,

@@ -138,12 +138,12 @@ export class Match extends MatchActs<Host> {
   /** @internal */
   begin(game: Partial<GameState>, table: Table, options: MatchOptions): void {
     refuseUnknown(options, KEYS.match, "options");
-    const { seed, player, balls, hand = "no", shot = {} } = options;
+    const { seed, balls, hand = "no", shot = {} } = options;
     this.#customRules = game.own;
     const rules = game.own ? OWN : value("carom_rules_kind", game.rules ?? "eightball", "rules");
     if (game.own && balls === undefined)
       throw new TypeError("balls: custom rules have no rack; a layout is needed");
-    const side = whole(player, "player", values.CAROM_SEATS_MOST - 1);
+    const side = whole(options.side, "side", values.CAROM_SEATS_MOST - 1);
     const draws = whole(seed, "seed", Number.MAX_SAFE_INTEGER);
     this.#using(
       ["carom_match_setup", "carom_table", "carom_seating", "carom_set"],

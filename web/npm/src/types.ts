@@ -642,7 +642,7 @@ export interface MatchOptions {
   /** For the displacements of the balls in the rack, whose gaps are 0.1 mm. */
   seed?: number;
   /** The side that plays first. */
-  player?: number;
+  side?: number;
   /**
    * The seats: their number, or their names, or what differs from the defaults. Two sides
    * alternate: of four seats, 0 and 2 are partners. Only the stick and the tip of a cue are read.

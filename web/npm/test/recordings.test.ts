@@ -75,10 +75,10 @@ test("a forged stroke, damage and other revisions are told", () => {
 });
 
 test.each(builds)("a match refuses, rules and is judged again, by $name", ({ carom }) => {
-  const match = carom.match("eightball", carom.table("9ft"), { seed: 7, player: 1 });
+  const match = carom.match("eightball", carom.table("9ft"), { seed: 7, side: 1 });
   const begun = match.lines;
   const { bounds } = match;
-  expect([match.phase, match.player, bounds?.high[1]]).toEqual([
+  expect([match.phase, match.side, bounds?.high[1]]).toEqual([
     "place",
     1,
     match.table.length / 4,
@@ -110,11 +110,11 @@ test.each(builds)("a match refuses, rules and is judged again, by $name", ({ car
   expect(match.continue() && half.continue()).toBe(true);
   for (const { events } of [half.shot!, carom.continue(moving)])
     expect(events).toEqual(match.shot!.events);
-  expect([match.player, match.may]).toEqual([0, expect.arrayContaining(["rack", "other_rack"])]);
+  expect([match.side, match.may]).toEqual([0, expect.arrayContaining(["rack", "other_rack"])]);
   expect(match.ruling?.facts.first[0]).toBe(match.shot?.firstContact?.ball);
   const { length } = match.lines;
   match.choose("other_rack");
-  expect([match.player, match.game.opening]).toEqual([1, true]);
+  expect([match.side, match.game.opening]).toEqual([1, true]);
 
   // Another program reads it, cut off behind the shot, and the rest of it; then it takes an act.
   const { lines } = match;
@@ -146,7 +146,7 @@ test.each(builds)("a match with equal innings is drawn, by $name", ({ carom }) =
   const player = carom.player({ errors: 0 });
   const play = () => match.take(match.plan({ shots: 100, player })[0]!);
   play();
-  expect([match.phase, match.player, match.game.innings]).toEqual(["stroke", 1, 3]);
+  expect([match.phase, match.side, match.game.innings]).toEqual(["stroke", 1, 3]);
   expect([match.drawn, match.winner]).toEqual([false, undefined]);
   play();
   expect([match.phase, match.drawn, match.winner]).toEqual(["over", true, undefined]);
@@ -178,10 +178,10 @@ test.each(builds)("partners, a set, limits and time, by $name", ({ carom }) => {
     [() => match.extend(), "extend: none is left"],
     [() => match.timeout(), "timeout: none is left"],
     [() => match.next(), "next: no match has been won"],
-    [() => match.clock(2), "clock: player 0 is at the table"],
+    [() => match.clock(2), "clock: seat 0 is at the table"],
   );
   match.stroke({ phi: 200, speed: 1 });
-  expect([match.seat, match.player]).toEqual([1, 1]);
+  expect([match.seat, match.side]).toEqual([1, 1]);
   match.concede(3);
   expect([match.winner, match.words]).toEqual([0, "Ann (seat 0) and Cy (seat 2) have won"]);
   match.next();
@@ -258,7 +258,7 @@ test("a game is planned with its own cue", () => {
     ["fourball", "fourball"],
   ] as const) {
     const table = carom.table(name);
-    const match = carom.match(game, table, { seed: 1, player: 1, seats: ["", { rating: 500 }] });
+    const match = carom.match(game, table, { seed: 1, side: 1, seats: ["", { rating: 500 }] });
     const [best] = match.plan({ shots: 100, best: 1 });
     const stick = ({ mass, endMass, tipRadius }: Cue) => [mass, endMass, tipRadius];
     expect(stick(best!.cue), game).toEqual(stick(match.seats[1]!.cue));
@@ -303,7 +303,7 @@ test.each(builds)("in pyramid a plan strikes the ball that wins most, by $name",
   });
   expect(advice!.cue.ball).toBe(0);
   match.take(best!);
-  expect([match.player, match.strikable]).toEqual([0, [0, 1]]);
+  expect([match.side, match.strikable]).toEqual([0, [0, 1]]);
 });
 
 test.each(builds)("plans of a match are by its rules, by $name", ({ carom }) => {
@@ -339,11 +339,11 @@ test.each(builds)("plans of a match are by its rules, by $name", ({ carom }) => 
   );
   const { length } = frame.lines;
   frame.take({ ...best!, kind: "pass", place: [NaN, NaN] });
-  expect([frame.player, frame.phase, frame.hand]).toEqual([1, "place", "d"]);
+  expect([frame.side, frame.phase, frame.hand]).toEqual([1, "place", "d"]);
   expect(frame.lines[length]).toMatch(/^{"act"/);
   refuses(
     [() => frame.call("2" as unknown as number), 'ball: it must be a whole number, not "2"'],
-    [() => frame.concede(2), "concede: the player must be a seat that plays"],
+    [() => frame.concede(2), "concede: the seat must be one that plays"],
   );
   frame.concede(0);
   expect(() => frame.plan()).toThrow("the match is over");
@@ -359,7 +359,7 @@ test("a match that is read again has the bounds of a scratch, and nothing behind
   } while (match.hand !== "kitchen" && phi < 96);
   const replay = carom.match();
   for (const line of match.lines) replay.read(line);
-  expect([replay.hand, replay.phase, replay.player]).toEqual(["kitchen", "place", match.player]);
+  expect([replay.hand, replay.phase, replay.side]).toEqual(["kitchen", "place", match.side]);
   expect(replay.bounds).toEqual(match.bounds);
   const beyond = table.length / 4 + 1e-3;
   expect(() => replay.place(0.6, beyond)).toThrow(/place: .*0\.635/);

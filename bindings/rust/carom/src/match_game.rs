@@ -17,14 +17,14 @@ pub struct Match {
 }
 
 impl Match {
-    /// Begins a match with the rack of a game; `player`, 0 or 1, breaks.
+    /// Begins a match with the rack of a game; `side` 0 or 1 breaks.
     pub fn begin(
         rules: RulesKind,
         table: &Table,
         seed: u64,
-        player: usize,
+        side: usize,
     ) -> Result<Match, Error> {
-        Match::begin_to(rules, 0, false, table, seed, player)
+        Match::begin_to(rules, 0, false, table, seed, side)
     }
 
     /// The same to `target` points, 0: the usual target of the game; with `equal_innings` the match
@@ -35,19 +35,17 @@ impl Match {
         equal_innings: bool,
         table: &Table,
         seed: u64,
-        player: usize,
+        side: usize,
     ) -> Result<Match, Error> {
-        let mut made = Match::empty();
-        let (kind, equal, player) = (
-            rules.into(),
-            equal_innings.into(),
-            player.min(sys::CAROM_SEATS_MOST as usize) as i32,
-        );
-        let status = unsafe {
-            sys::carom_match_begin_to(&mut *made.of, kind, target, equal, table, seed, player)
-        };
-        made.told(status)?;
-        Ok(made)
+        Match::begin_with(&sys::carom_match_setup {
+            rules: rules.into(),
+            target,
+            equal_innings: equal_innings.into(),
+            table,
+            seed,
+            side: side as i64,
+            ..Default::default()
+        })
     }
 
     /// The same from any layout, by the rules of this kind; the cue ball is in hand if `leave` says
@@ -57,54 +55,43 @@ impl Match {
         table: &Table,
         balls: &[ShotBall],
         leave: Leave,
-        player: usize,
+        side: usize,
     ) -> Result<Match, Error> {
-        let mut made = Match::empty();
-        let (kind, of, options) = (rules.into(), std::ptr::null(), std::ptr::null());
-        let (at, count, player) = (
-            balls.as_ptr(),
-            count_of(balls),
-            player.min(sys::CAROM_SEATS_MOST as usize) as i32,
-        );
-        let status = unsafe {
-            let to = &mut *made.of;
-            sys::carom_match_begin_at(
-                to,
-                kind,
-                of,
-                table,
-                at,
-                count,
-                options,
-                leave.into(),
-                player,
-            )
-        };
-        made.told(status)?;
-        Ok(made)
+        Match::begin_with(&sys::carom_match_setup {
+            rules: rules.into(),
+            table,
+            balls: balls.as_ptr(),
+            count: count_of(balls).into(),
+            leave: leave.into(),
+            side: side as i64,
+            ..Default::default()
+        })
     }
 
     /// The same with any seats, which `seating_make` initializes: names, sides, handicaps, cues and
-    /// limits; and optionally with a set. The side `player` breaks.
+    /// limits; and optionally with a set. `side` breaks.
     pub fn begin_seats(
         rules: RulesKind,
         table: &Table,
         seed: u64,
         seating: &sys::carom_seating,
         set: Option<&sys::carom_set>,
-        player: usize,
+        side: usize,
     ) -> Result<Match, Error> {
-        let mut made = Match::empty();
-        let setup = sys::carom_match_setup {
+        Match::begin_with(&sys::carom_match_setup {
             rules: rules.into(),
             table,
             seed,
             seating,
             set: set.map_or(std::ptr::null(), |of| of),
-            side: player as i64,
+            side: side as i64,
             ..Default::default()
-        };
-        let status = unsafe { sys::carom_match_begin_with(&mut *made.of, &setup) };
+        })
+    }
+
+    fn begin_with(setup: &sys::carom_match_setup) -> Result<Match, Error> {
+        let mut made = Match::empty();
+        let status = unsafe { sys::carom_match_begin_with(&mut *made.of, setup) };
         made.told(status)?;
         Ok(made)
     }
@@ -305,9 +292,9 @@ impl Match {
     /// Plays a stroke; `stop` sets when its shot is stopped. Returns whether the shot has ended,
     /// and was judged.
     pub fn stroke(&mut self, cue: &Cue, stop: &Options) -> Result<bool, Error> {
-        let player = self.at_table();
+        let seat = self.at_table();
         self.play(false, |of, to| unsafe {
-            sys::carom_match_stroke(of, player, cue, stop, to)
+            sys::carom_match_stroke(of, seat, cue, stop, to)
         })
     }
 
@@ -335,10 +322,10 @@ impl Match {
         Ok(status == sys::CAROM_OK)
     }
 
-    /// A player concedes the game.
-    pub fn concede(&mut self, player: usize) -> Result<(), Error> {
-        let player = player.min(sys::CAROM_SEATS_MOST as usize) as i32;
-        let status = unsafe { sys::carom_match_concede(&mut *self.of, player) };
+    /// A seat concedes the game.
+    pub fn concede(&mut self, seat: usize) -> Result<(), Error> {
+        let seat = seat.min(sys::CAROM_SEATS_MOST as usize) as i32;
+        let status = unsafe { sys::carom_match_concede(&mut *self.of, seat) };
         self.told(status)
     }
 
@@ -442,7 +429,7 @@ mod tests {
         assert!(game.last().map_or(0, |shot| shot.events().len()) > 20);
         let file = game.lines();
         let again = Match::load(file)?;
-        assert_eq!(again.player(), game.player());
+        assert_eq!(again.side(), game.side());
         assert_eq!(again.state().record.hash, game.state().record.hash);
         assert!(
             Match::load(&file.replace("\"foul\":", "\"foul\":1")).is_err()

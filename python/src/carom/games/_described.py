@@ -96,9 +96,9 @@ class MatchActs:
         return _PHASES[int(self._c.phase)]
 
     @property
-    def player(self) -> int:
-        """The side at the table: 0 or 1, or the seat in games where each seat plays for itself."""
-        return int(self._c.record.player)
+    def side(self) -> int:
+        """The side at the table."""
+        return int(self._c.record.side)
 
     @property
     def seat(self) -> int:
@@ -206,8 +206,8 @@ class MatchActs:
         )
 
     def clock(self, seat: int | None = None) -> None:
-        """End the time of the player at the table: the match rules this as a stroke that met no
-        ball, which is a foul.
+        """End the time of the seat at the table: the match rules this as a stroke that met no ball,
+        which is a foul.
         """
         self._act(
             lambda: lib.carom_match_clock(self._c, self._seat(seat)),

@@ -170,7 +170,7 @@ class Match(MatchVerbs, MatchActs):
         table: Table,
         *,
         seed: Seed = 0,
-        player: int = 0,
+        side: int = 0,
         seats: int | Iterable[str | Mapping[str, Any] | Seat] | None = None,
         alternate: bool = False,
         limits: Mapping[str, Any] | None = None,
@@ -190,7 +190,7 @@ class Match(MatchVerbs, MatchActs):
         table : Table
         seed : int
             Seed of the gaps in the rack, at most 0.1 mm.
-        player : int
+        side : int
             The side that plays first.
         seats : int, or list of str, dict or Seat
             The players: a number, a list of names, or a list of mappings with any of `name`,
@@ -230,7 +230,7 @@ class Match(MatchVerbs, MatchActs):
                 "rules": game,
                 "table": pointed,
                 "options": models,
-                "side": whole(player, "player", most=lib.CAROM_SEATS_MOST - 1),
+                "side": whole(side, "side", most=lib.CAROM_SEATS_MOST - 1),
                 "seed": seed_of(seed),
                 "seating": seating,
             },

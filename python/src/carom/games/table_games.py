@@ -265,7 +265,7 @@ class TableGame:
             self._place(match, action[4:], draws)
         if match.bounds is None and match.phase == "place":  # a choice is due
             match.choose(match.may[0])
-            if match.player != 0 or self._is_over(match):
+            if match.side != 0 or self._is_over(match):
                 return
             self._place(match, action[4:], draws)
         meant = self._cue(match, self.base.cues(action[:4]))
@@ -304,7 +304,7 @@ class TableGame:
 
     def _visit(self, match: matches.Match, draws: Draws) -> None:
         """The opponent's strokes, until the agent plays again or the game has ended."""
-        while match.phase != "over" and match.player == 1:
+        while match.phase != "over" and match.side == 1:
             key = draws.key(0)
             best = match.plan(
                 player=self.opponent, shots=self.opponent_shots, seed=key % 2**31, best=1

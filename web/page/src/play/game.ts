@@ -250,7 +250,7 @@ export class Play {
   }
   /** Who is at the table, and who has won. */
   get turn(): number {
-    return this.#match?.player ?? 0;
+    return this.#match?.side ?? 0;
   }
   get winner(): number | undefined {
     return this.#match?.winner;
