@@ -35,7 +35,7 @@ TEST(standings_come_back) {
   begin_reading();
   expect_ok(carom_record_read(&again, text + size, length));
   ck_assert_int_eq(again.rules, 4);
-  ck_assert_int_eq(again.player, 1);
+  ck_assert_int_eq(again.side, 1);
   ck_assert_uint_eq(again.hash, game.hash);
   ck_assert_mem_eq(&again.standing, &game.standing, sizeof game.standing);
 }
