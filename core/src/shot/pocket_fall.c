@@ -44,7 +44,7 @@ static const double inward_speed = 1.0;   /* m/s: at which the wall pushes a bal
 static const double least_overlap = 1e-9; /* m */
 enum { ROUNDS = 12, LAST_ROUNDS = 400, STILL = 40 };
 
-typedef enum phase { ON_TABLE, ALONE, TOUCHING, LYING } phase;
+typedef enum fall_phase { ON_TABLE, ALONE, TOUCHING, LYING } fall_phase;
 
 /* A fall. */
 typedef struct pocket_fall {
@@ -55,7 +55,7 @@ typedef struct pocket_fall {
   double start;     /* s: when it begins */
   double wall, hit; /* W, and when the ball is there, s from its begin */
   double end;       /* when it would be at the depth, s from its begin */
-  phase phase;
+  fall_phase phase;
   bool is_alone;             /* it has met no other */
   bool counts;               /* it falls, lies, or comes soon */
   bool touches;              /* something, in this step */
