@@ -14,7 +14,8 @@
  * is left. It is looked for from the first contact of the cue ball with another ball or a cushion
  * after a touch on: before that the ball runs away from the cue, but in slow draws, in which an arm
  * stops. A tip that closes slower than CAROM_LEAST_TOUCH is at the ball until the next event; a tip
- * that passes its middle misses: there the follow-through ends. */
+ * that passes its middle misses: there the follow-through ends. A push may also stop the cue, or
+ * throw it back. The cue is in the way even then, until the arm takes it away. */
 #include "cluster/cue.h"
 #include "motion/gap.h"
 #include "shot/clusters.h"
@@ -27,6 +28,10 @@
 static const double least_distance2 = 0.25; /* |p|^2, of R^2 */
 static const double least_ahead = 0.1;
 
+/* A cue that is slower than this fraction of its first speed, or moves backwards, is taken away as
+ * soon as a cue of that speed would have ended. This is a convention. */
+static const double slowest = 0.1;
+
 void carom_follow_on(carom_play *play, double speed, double lead) {
   const carom_sim *sim = &play->sim;
   const carom_cue *cue = sim->cue;
@@ -36,11 +41,10 @@ void carom_follow_on(carom_play *play, double speed, double lead) {
   /* how far it still goes; balls must last as it touches them */
   const double left = cue->follow - follow->along;
   follow->end = -1.0;
-  if (!(left > 0.0 && speed > 0.0) || cue->tip_time < 0.0 || !sim->rules->clusters ||
-      !carom_lasts(sim->opt))
+  if (!(left > 0.0) || cue->tip_time < 0.0 || !sim->rules->clusters || !carom_lasts(sim->opt))
     return;
   follow->start = sim->time;
-  follow->end = sim->time + left / speed;
+  follow->end = sim->time + left / carom_greater(speed, slowest * cue->speed);
   follow->V = speed;
 }
 

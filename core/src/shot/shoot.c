@@ -336,8 +336,9 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   const carom_status of_contacts = note_contacts(sim, &cluster, order, count, changed, contact);
   if (*status == CAROM_OK)
     *status = of_contacts;
-  /* a tip that has left does not move */
-  carom_follow_on(play, cluster.tip.gone ? 0.0 : cluster.tip.V, carom_cluster_tip_lead(&cluster));
+  carom_follow_on(play, cluster.tip.V, carom_cluster_tip_lead(&cluster));
+  if (cluster.tip.gone) /* it has passed the ball, or does not follow through */
+    play->follow.end = -1.0;
   return true;
 }
 
@@ -527,17 +528,19 @@ touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
   carom_sim *sim = &play->sim;
   carom_follow *f = &play->follow;
   const carom_follow until_now = *f;
+  carom_ball_state ball;
+  carom_path_at(&sim->path[sim->struck], &sim->rates[sim->struck], sim->time, &ball);
   carom_cue cue;
   carom_status status = CAROM_OK;
   const bool touches = carom_follow_cue(play, &cue);
   /* its force has a part down or up under a level cue too */
   const bool raised = sim->opt->space != CAROM_SPACE_FLAT;
+  const double most = 2.0 * fabs(cue.speed) + carom_space_size(ball.v);
   f->along += f->V * (sim->time - f->start);
   f->end = -1.0;
   f->time = INFINITY;
   pending_event->type = CAROM_DUE_NOTHING;
-  const bool pushes =
-      touches && push(play, &cue, 2.0 * cue.speed, raised, PUSH_AGAIN, pending_event, &status);
+  const bool pushes = touches && push(play, &cue, most, raised, PUSH_AGAIN, pending_event, &status);
   *lies = touches && !pushes;
   if (pushes) {
     sim->turned = false;

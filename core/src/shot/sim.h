@@ -16,7 +16,7 @@ struct carom_rules;
 
 /* The cue that continues after its push, follow_through.c. */
 typedef struct carom_follow {
-  double end;       /* s: it moves up to then; -1: it does not */
+  double end;       /* s: it is there up to then; -1: it is not */
   double start, V;  /* s: it moves since then; at this speed, m/s */
   double along;     /* m: where it was then, along its axis from where it struck first */
   double origin[3]; /* m: the struck ball at that first strike */

@@ -219,9 +219,9 @@ static bool good_follow(const carom_play *play) {
   const carom_sim *sim = &play->sim;
   const carom_follow *f = &play->follow;
   return f->end < 0.0 ||
-         (f->end < INFINITY && f->start >= 0.0 && f->start <= sim->time && f->V > 0.0 &&
-          f->V < INFINITY && fabs(f->along) < INFINITY && carom_is_finite(f->origin) &&
-          f->time >= sim->time && carom_check_cue(&f->cue) == CAROM_OK);
+         (f->end < INFINITY && f->start >= 0.0 && f->start <= sim->time && fabs(f->V) < INFINITY &&
+          fabs(f->along) < INFINITY && carom_is_finite(f->origin) && f->time >= sim->time &&
+          carom_check_cue(&f->cue) == CAROM_OK);
 }
 
 /* Whether all indices and numbers are possible for a shot of sim->layout on sim->table; those that
