@@ -232,8 +232,9 @@ impl Match {
 
     /// Repeats the act that was undone last. False: there is nothing to repeat.
     pub fn redo(&mut self) -> Result<bool, Error> {
-        let Some(act) = self.undone.pop() else {
-            return Ok(false);
+        let act = match self.undone.pop() {
+            Some(act) => act,
+            None => return Ok(false),
         };
         let lines = format!("{}{act}", self.lines);
         self.read_all(&lines)?;
