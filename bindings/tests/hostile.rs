@@ -59,7 +59,9 @@ fn read_in_part(
         let before = judged.lines().to_string();
         assert!(!judged.receive(&act[1], Some(0))?);
         assert!(judged.receive(following, None)?);
-        assert!(judged.lines().starts_with(&format!("{before}{following}\n")));
+        assert!(judged
+            .lines()
+            .starts_with(&format!("{before}{following}\n")));
     }
     let mut spoken = partial.copy()?;
     spoken.note(Some(1), &[("comment", "between")], 0.0)?;

@@ -96,11 +96,20 @@ mod tests {
         assert!(known.len() > 1);
         for name in &known {
             let value = named::<T>(name).unwrap();
-            assert_eq!(named::<T>(&name.replace('_', "-").to_uppercase()), Ok(value));
+            assert_eq!(
+                named::<T>(&name.replace('_', "-").to_uppercase()),
+                Ok(value)
+            );
             let wrong = misspelt(name);
             let fault = named::<T>(&wrong).unwrap_err().to_string();
-            assert!(fault.starts_with(&format!("unknown name \"{wrong}\"; ")), "{fault}");
-            assert!(fault.contains(&format!("did you mean \"{name}\"?")), "{fault}");
+            assert!(
+                fault.starts_with(&format!("unknown name \"{wrong}\"; ")),
+                "{fault}"
+            );
+            assert!(
+                fault.contains(&format!("did you mean \"{name}\"?")),
+                "{fault}"
+            );
         }
     }
 
@@ -112,8 +121,13 @@ mod tests {
         every_name::<ShotCushion>();
         every_name::<Condition>();
         every_name::<EventType>();
-        let fault = named::<TableKind>("billiards room").unwrap_err().to_string();
-        assert!(fault.starts_with("unknown name \"billiards room\"; use one of "), "{fault}");
+        let fault = named::<TableKind>("billiards room")
+            .unwrap_err()
+            .to_string();
+        assert!(
+            fault.starts_with("unknown name \"billiards room\"; use one of "),
+            "{fault}"
+        );
         assert!(named::<TableKind>("9\0ft").is_err() && named::<TableKind>("").is_err());
     }
 
