@@ -481,9 +481,9 @@ int carom_word_value(carom_words kind, const char *text) {
     return -1;
   for (int value = 0; value < VALUES_MOST; value++) {
     const char *word = carom_word(kind, value);
-    const int near = word == NULL ? 0 : nearness(text, word);
-    if (near > best) {
-      best = near;
+    const int rank = word == NULL ? 0 : nearness(text, word);
+    if (rank > best) {
+      best = rank;
       found = value;
     }
   }

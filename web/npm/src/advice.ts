@@ -220,7 +220,7 @@ export class Advice {
     this.#host.writeLayout(table, balls);
     this.#plans.writeCue({ speed: 9, ...options.cue });
     const memorySize = exports.carom_break_memory();
-    return this.#using([memorySize, BREAK_JOB.size, COUNTS.size, 16], (room, job, at, place) => {
+    return this.#using([memorySize, BREAK_JOB.size, COUNTS.size, 16], (room, job, counts, place) => {
       const shot = this.#host.writeShotOptions(options.shot ?? {});
       setStruct(memory, job!, "carom_break_job", {
         table: addresses.table,
@@ -240,13 +240,13 @@ export class Advice {
         memory: room,
         memorySize,
       });
-      const code = exports.carom_break_play(job!, 0n, BigInt(many), at!);
+      const code = exports.carom_break_play(job!, 0n, BigInt(many), counts!);
       this.#host.refuseShot(code, balls.length, shot, "rack");
-      const spread = exports.carom_break_spread(at!, place!);
+      const spread = exports.carom_break_spread(counts!, place!);
       const hasRules = exports.carom_break_has_rules(kind) !== 0;
       return {
-        ...sharesOf(readStruct<C.BreakCounts>(memory, at!, "carom_break_counts"), many, hasRules),
-        fell: this.#fell(at! + COUNTS.offset.fell, balls.length, table.pockets.length, many),
+        ...sharesOf(readStruct<C.BreakCounts>(memory, counts!, "carom_break_counts"), many, hasRules),
+        fell: this.#fell(counts! + COUNTS.offset.fell, balls.length, table.pockets.length, many),
         place: [memory.f64[place! / 8]!, memory.f64[place! / 8 + 1]!],
         spread,
       };
@@ -324,8 +324,8 @@ export class Advice {
   #reviewed(line: number, earlier: Match, cue: Cue, players: PracticeOptions): Reviewed {
     const { balls, table, seat, called } = earlier;
     const options: PlanOptions = { ...earlier.game, shot: stopsOf(earlier.options, false) };
-    for (const [key, given] of Object.entries(players))
-      if (given !== undefined) Object.assign(options, { [key]: given });
+    for (const [key, option] of Object.entries(players))
+      if (option !== undefined) Object.assign(options, { [key]: option });
     return {
       line,
       seat,
@@ -334,6 +334,14 @@ export class Advice {
       review: this.#plans.review(table, balls, cue, called, options),
     };
   }
+}
+
+/** A way without what it meets. */
+function wayOf({ kind, ...fields }: C.ShotWay): Way {
+  const way = Object.fromEntries(
+    Object.entries(fields).filter(([key]) => key !== "part" && key !== "parts"),
+  ) as Omit<Way, "kind">;
+  return kind < 0 ? way : { ...way, kind: names.carom_plan_kind[kind]! };
 }
 
 function usualGoal({ pockets }: Table, balls: readonly ShotBall[]): WayGoal {
@@ -365,18 +373,18 @@ function sharesOf(
 }
 
 const costOf = ({ review }: Reviewed): number => review.missCost + review.placeCost;
-const sum = (numbers: readonly number[]): number => numbers.reduce((all, one) => all + one, 0);
+const sum = (numbers: readonly number[]): number => numbers.reduce((total, number) => total + number, 0);
 
 /** The sums of a group. */
 function practiceOf(group: string, strokes: readonly Reviewed[]): Practice {
   const reviews = strokes.map(({ review }) => review);
   const off = reviews.map((review) => review.off).filter(Number.isFinite);
   const mean = off.length > 0 ? sum(off) / off.length : NaN;
-  const squares = off.map((one) => (one - mean) ** 2);
+  const squares = off.map((error) => (error - mean) ** 2);
   return {
     group,
     strokes: strokes.length,
-    kept: reviews.filter(({ kept }) => kept).length,
+    kept: reviews.filter((review) => review.kept).length,
     due: sum(reviews.map(({ told }) => told).filter(Number.isFinite)),
     missCost: sum(reviews.map(({ missCost }) => missCost)),
     placeCost: sum(reviews.map(({ placeCost }) => placeCost)),

@@ -274,7 +274,7 @@ export class Shots extends Owner {
   potted(ball?: readonly number[]): boolean[][];
   potted(ball?: number | readonly number[]): (boolean | boolean[])[] {
     return Array.from({ length: this.n }, (_, k) => {
-      const final = Array.from({ length: this.count }, (_, one) => this.state(k, one));
+      const final = Array.from({ length: this.count }, (_, index) => this.state(k, index));
       return chosenOf(pottedOf(this.balls(k), final), ball);
     });
   }

@@ -682,10 +682,10 @@ export class Carom {
   rack(name: RackName, table: Table, options: RackOptions = {}): ShotBall[] | ShotBall[][] {
     refuseUnknown(options, KEYS.rack);
     const { gap = 1e-4, seed = 1, cueBall } = options;
-    const isList = (given: unknown): given is readonly unknown[] => Array.isArray(given);
+    const isList = (option: unknown): option is readonly unknown[] => Array.isArray(option);
     const arePlaces = isList(cueBall) && isList(cueBall[0] ?? []);
     const lists = Object.entries({ gap, seed, cueBall: arePlaces ? cueBall : undefined }).flatMap(
-      ([key, given]) => (isList(given) ? [{ key, length: given.length }] : []),
+      ([key, option]) => (isList(option) ? [{ key, length: option.length }] : []),
     );
     const [first, ...others] = lists;
     const unlike = others.find(({ length }) => length !== first!.length);
@@ -1309,9 +1309,9 @@ export class Carom {
       memory: this.#memory,
       statusName: (code) => this.statusName(code),
       replay: (recording) => this.replay(recording),
-      again: ({ table, balls, cue, options }, before) => {
+      replayed: ({ table, balls, cue, options }, previous) => {
         try {
-          if (before) return this.continue(before, stopsOf(options));
+          if (previous) return this.continue(previous, stopsOf(options));
           return this.simulate(table, balls, cue.speed > 0 ? cue : undefined, options);
         } catch (error) {
           if (error instanceof CaromError && error.shot) return error.shot;
@@ -1501,29 +1501,29 @@ export class Carom {
     table: Table,
     balls: readonly ShotBall[],
     cue: Partial<Cue>,
-    at: CutOf & { cut: readonly number[] },
+    aim: CutOf & { cut: readonly number[] },
     options?: ShotOptions,
   ): Hit[];
   aim(
     table: Table,
     balls: readonly ShotBall[],
     cue: Partial<Cue>,
-    at: CutOf & { cut?: number },
+    aim: CutOf & { cut?: number },
     options?: ShotOptions,
   ): Hit;
   aim(
     table: Table,
     balls: readonly ShotBall[],
     cue: Partial<Cue>,
-    at: AimOf | CutOf,
+    aim: AimOf | CutOf,
     options: ShotOptions = {},
   ): Aim | Hit | Hit[] {
-    refuseUnknown(at, KEYS.aim, "aim");
-    const { ball, pocket, via = [], cut }: Partial<AimOf & CutOf> = at;
+    refuseUnknown(aim, KEYS.aim, "aim");
+    const { ball, pocket, via = [], cut }: Partial<AimOf & CutOf> = aim;
     if (pocket !== undefined) {
       if (cut !== undefined)
         throw new TypeError("pocket, cut: a pocket determines the cut; give only one of both");
-      return this.#plans.aim(table, balls, cue, at as AimOf, options);
+      return this.#plans.aim(table, balls, cue, aim as AimOf, options);
     }
     if (via.length > 0) throw new TypeError("via: it needs a pocket; give one, or leave via out");
     const cuts = typeof cut === "object" ? cut : [cut ?? 0];

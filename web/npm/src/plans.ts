@@ -150,18 +150,19 @@ function numbersOf(call: Call | undefined): { ball: number; pocket: number } {
 }
 
 /** Why there is no such aim. */
-function whyNoAim({ outcome, met, elevation }: C.Pot, cueBall: number): string {
-  const isBall = names.carom_event_type[met.type] === "ball_ball";
+function whyNoAim(pot: C.Pot, cueBall: number): string {
+  const { a, b, type } = pot.met;
+  const isBall = names.carom_event_type[type] === "ball_ball";
   const obstacle = isBall
-    ? `ball ${met.a === cueBall ? met.b : met.a}`
+    ? `ball ${a === cueBall ? b : a}`
     : "a cushion, a jaw or a pocket";
   const reasons: Partial<Record<Aim["outcome"], string>> = {
     no_way: "no direction of the cue makes the cue ball meet it first at this cut",
     barred: `${obstacle} is in the way`,
     short: "the cue ball comes to rest before it; raise the cue's speed",
-    stick: `the stick would have to be raised by ${elevation.toFixed(1)} degrees to clear what is behind the cue ball; nobody plays above 60`,
+    stick: `the stick would have to be raised by ${pot.elevation.toFixed(1)} degrees to clear what is behind the cue ball; nobody plays above 60`,
   };
-  const word = names.carom_pot_outcome[outcome]!;
+  const word = names.carom_pot_outcome[pot.outcome]!;
   return reasons[word] ?? word;
 }
 

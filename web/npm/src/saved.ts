@@ -7,7 +7,6 @@ import type { Memory } from "./memory.js";
 import type { Replayed } from "./recording.js";
 import type { Shot } from "./shot.js";
 import { readState, writeBalls, writeOptions, writeStruct, writeTable } from "./structs.js";
-import type { ShotOptions } from "./types.js";
 
 const RECORD = layout.carom_record.offset;
 const END = layout.carom_record_end.offset;
@@ -20,7 +19,7 @@ export interface Host {
   statusName(code: number): string;
   replay(recording: string | Iterable<string>): Iterable<Replayed>;
   /** The shot of a recording with its events, after the shot before it where it continues that. */
-  again(shot: Replayed, before: Shot | undefined): Shot;
+  replayed(shot: Replayed, previous: Shot | undefined): Shot;
 }
 
 /** A shot that is written: the members of `Shot` that a recording has. */
@@ -50,7 +49,7 @@ export function recordingOf(
 
   /** The lines of a shot. One that was continued is played in parts up to its end. */
   const linesOf = (shot: Played, name: string): string => {
-    const playedAgain = `${name}: playing it again has other bits, so it cannot be saved; its table, balls or cue have been changed since it was played`;
+    const differs = `${name}: playing it again has other bits, so it cannot be saved; its table, balls or cue have been changed since it was played`;
     writeBalls(memory, record + RECORD.balls, shot.balls);
     memory.i64[(record + RECORD.moved) / 8] = 0n;
     let lines = line(values.CAROM_RECORD_BALLS);
@@ -73,7 +72,7 @@ export function recordingOf(
       readState(memory, record + RECORD.final + k * layout.carom_ball_state.size),
     );
     if (number(RECORD.played + END.events) !== shot.count || !isSame(final, shot.final))
-      throw new TypeError(playedAgain);
+      throw new TypeError(differs);
     return lines;
   };
 
@@ -107,8 +106,8 @@ export function shotsOf(host: Host, recording: string | Iterable<string>): Shot[
         `shot ${read.shot} has other bits here than when it was recorded`,
         `line ${read.line}`,
       );
-    const before = read.continues ? shots.pop() : undefined;
-    shots.push(host.again(read, before));
+    const previous = read.continues ? shots.pop() : undefined;
+    shots.push(host.replayed(read, previous));
   }
   if (shots.length === 0) throw new RangeError("recording: it contains no shot");
   return shots;

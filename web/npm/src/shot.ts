@@ -34,13 +34,14 @@ export function firstOf(
   count: number,
 ): FirstEvent | undefined {
   refuseUnknown(options, KEYS.first);
-  const { ball, after = -1 } = options;
+  const { ball } = options;
+  const earliest = options.after ?? -1;
   const type = names.carom_event_type[value("carom_event_type", kind, "kind")]!;
   if (ball !== undefined) whole(ball, "ball", count - 1);
   const index = events.findIndex((event) => {
     const isOfBall =
       ball === undefined || event.a === ball || (type === "ball_ball" && event.b === ball);
-    return event.type === type && event.time > after && isOfBall;
+    return event.type === type && event.time > earliest && isOfBall;
   });
   const event = events[index];
   if (event === undefined) return undefined;
@@ -68,9 +69,9 @@ export function chosenOf(
   potted: readonly boolean[],
   ball: number | readonly number[] | undefined,
 ): boolean | boolean[] {
-  const one = (k: number): boolean => potted[whole(k, "ball", potted.length - 1)]!;
+  const potsBall = (k: number): boolean => potted[whole(k, "ball", potted.length - 1)]!;
   if (ball === undefined) return [...potted];
-  return typeof ball === "number" ? one(ball) : ball.map(one);
+  return typeof ball === "number" ? potsBall(ball) : ball.map(potsBall);
 }
 
 /**

@@ -31,7 +31,7 @@ export function readSynonymsOf(memory: Memory): void {
 /** Whether a text is a word as players write it, by carom_word_means(): "9-ball" is "nineball". */
 function means(text: string, word: string): boolean {
   if (library === undefined) return false;
-  const bytes = [text, word].map((one) => new TextEncoder().encode(`${one}\0`));
+  const bytes = [text, word].map((name) => new TextEncoder().encode(`${name}\0`));
   const pointers = bytes.map(({ length }) => library!.allocate(length));
   try {
     pointers.forEach((pointer, k) => library!.u8.set(bytes[k]!, pointer));
@@ -249,7 +249,7 @@ export function readOptions<T>(
   struct: keyof typeof OPTIONS,
 ): Partial<T> {
   const fields = readStruct<Record<string, number>>(memory, pointer, struct);
-  const given = OPTIONS[struct].flatMap(({ key, form, enumeration }): [string, unknown][] => {
+  const entries = OPTIONS[struct].flatMap(({ key, form, enumeration }): [string, unknown][] => {
     const number = fields[key] ?? 0;
     if (number === 0) return [];
     if (form === "words") return [[key, NAMES[enumeration as keyof typeof NAMES][number]]];
@@ -259,7 +259,7 @@ export function readOptions<T>(
       enumeration === "" ? [] : ["contact", ...NAMES[enumeration].slice(1)];
     return [[key, members(number).map((k) => names[k] ?? k)]];
   });
-  return Object.fromEntries(given) as Partial<T>;
+  return Object.fromEntries(entries) as Partial<T>;
 }
 
 /** A struct as an object: numbers, lists of numbers, and structs in it. */

@@ -23,8 +23,9 @@ function cutOf(shot: Shot): number {
   const { before, a } = shot.events.find(({ type }) => type === "ball_ball")!;
   const [cue, ball] = a === 0 ? [before[0]!, before[1]!] : [before[1]!, before[0]!];
   const [vx, vy] = cue.v;
-  const [nx, ny] = [ball.r[0] - cue.r[0], ball.r[1] - cue.r[1]];
-  return (180 / Math.PI) * Math.atan2(vx * ny - vy * nx, vx * nx + vy * ny);
+  const x = ball.r[0] - cue.r[0];
+  const y = ball.r[1] - cue.r[1];
+  return (180 / Math.PI) * Math.atan2(vx * y - vy * x, vx * x + vy * y);
 }
 
 // ---- Aims
