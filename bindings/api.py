@@ -62,7 +62,6 @@ carom_ball_kind_for kind
 carom_ball_kind_resolve options
 carom_ball_kind_resolve kind
 carom_condition_give kind
-carom_cushion_start kind
 carom_record_play shot
 carom_spot_ball balls
 carom_spot_ball_of balls

@@ -194,12 +194,16 @@ from carom._described import Choice, Phase
 from carom._rows import choice, number, text_of
 from carom.dtypes import Records
 '''
-    # Enumerations whose words the package takes, and those that it has as such, with the functions
-    # of C that have the texts of their values.
+    # Enumerations whose words the package takes, and those that it has as such, with the sets of
+    # words that have the texts of their values.
     WORDS = {"Group": "carom_group", "Race": "carom_race", "BreakOrder": "carom_break_order"}
     ENUMS = {
-        "Foul": ("carom_foul", "carom_foul_string"),
-        "Kind": ("carom_plan_kind", "carom_plan_kind_name"),
+        "Foul": (
+            "carom_foul",
+            "FOUL",
+            'The description of a foul, such as "the cue ball met no ball".',
+        ),
+        "Kind": ("carom_plan_kind", "PLAN_KIND", 'The name of a kind, such as "bank".'),
     }
     ACTS = '''
 
@@ -256,15 +260,14 @@ class MatchActs:
         for name, of in self.WORDS.items():
             words = ", ".join(f'"{word}"' for word in self.words[of])
             lines.append(f"{name} = Literal[{words}]")
-        comments = {function["name"]: function["comment"] for function in self.api["functions"]}
-        for name, (of, function) in self.ENUMS.items():
+        for name, (of, words, about) in self.ENUMS.items():
             enum = next(entry for entry in self.api["enums"] if entry["name"] == of)
             lines += ["", "", f"class {name}(enum.IntEnum):", *self.about(enum["comment"], ""), ""]
             for end, value in zip(ends(enum), enum["values"]):
                 lines.append(f"    {end} = {value['value']}")
             lines += ["", "    @property", "    def text(self) -> str:"]
-            lines += self.about(comments[function].split(";")[0] + ".", "    ")
-            lines.append(f"        return text_of(lib.{function}(self))")
+            lines += self.about(about, "    ")
+            lines.append(f"        return text_of(lib.carom_word_text(lib.CAROM_WORDS_{words}, self))")
         return lines
 
     def head(self):

@@ -170,8 +170,8 @@ static void tell_most_falls(FILE *out, const shot_line *line, const counts *c) {
 static void tell(FILE *out, const breaker *b, const shot_line *line, double gap, const counts *c) {
   double r[2];
   const double far = carom_break_spread(c, r), p = share(c->makes, c);
-  fprintf(out, "%s on the %s table, cue at %.3g m/s, ", carom_rack_name(b->rack), line->table->id,
-          line->cue.speed);
+  fprintf(out, "%s on the %s table, cue at %.3g m/s, ", carom_word(CAROM_WORDS_RACK, (int)b->rack),
+          line->table->id, line->cue.speed);
   if (b->aimed || b->cut)
     fprintf(out, "aim %.2f degrees, ", line->cue.phi);
   if (line->cue.theta != 0.0)
@@ -201,7 +201,7 @@ static void tell(FILE *out, const breaker *b, const shot_line *line, double gap,
 /* What a row begins with: the stroke and the gap. */
 static void begin_row(FILE *out, const breaker *b, const shot_line *line, double gap) {
   const carom_cue *cue = &line->cue;
-  fprintf(out, "%s,%.17g,", carom_rack_name(b->rack), cue->speed);
+  fprintf(out, "%s,%.17g,", carom_word(CAROM_WORDS_RACK, (int)b->rack), cue->speed);
   if (b->aimed || b->cut)
     fprintf(out, "%.17g", cue->phi);
   fprintf(out, ",%.17g,%.17g,%.17g,%.6g,", cue->theta, 0.0 - cue->a, cue->b, 1e3 * gap);
@@ -386,8 +386,9 @@ static bool tell_best(FILE *out, const breaker *b, const shot_line *line, double
             "%d. wins %.1f %% (error %.1f): %s, cue ball at %.3f, %.3f m, cue at %.3g m/s, tip "
             "%.2f above, raised %.1f, aim %.2f degrees%s\n",
             k + 1, 100.0 * c->wins / (double)c->breaks, 100.0 * error_of_wins(c),
-            carom_rack_name(b->rack), of->place[0], of->place[1], of->cue.speed, of->cue.b,
-            of->cue.theta, of->cue.phi, text_if(of->aim == CAROM_BREAK_FULL, ", at the middle"));
+            carom_word(CAROM_WORDS_RACK, (int)b->rack), of->place[0], of->place[1], of->cue.speed,
+            of->cue.b, of->cue.theta, of->cue.phi,
+            text_if(of->aim == CAROM_BREAK_FULL, ", at the middle"));
     fprintf(out, "   makes a ball in %.1f %%, plays on in %.1f %%, fouls in %.1f %%\n",
             100.0 * share(c->makes, c), 100.0 * share(c->plays_on, c), 100.0 * share(c->fouls, c));
   }

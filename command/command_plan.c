@@ -139,7 +139,7 @@ static void write_rows(FILE *out, const shot_line *line, const carom_plan_stroke
     const char *pocket = c->pocket >= 0 ? line->table->pocket[c->pocket] : NULL;
     fprintf(out,
             "%d,%s,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.6f,%.6f,%.6f,%.6f,%.6f,%lld\n",
-            k + 1, carom_plan_kind_name((carom_plan_kind)c->kind),
+            k + 1, carom_word_text(CAROM_WORDS_PLAN_KIND, c->kind),
             c->ball >= 0 ? line->name[c->ball] : "", pocket != NULL ? pocket : "", c->place[0],
             c->place[1], c->cue.speed, c->cue.phi, c->cue.theta, c->cue.a, c->cue.b, c->value,
             c->error, c->keep, c->foul, c->lose, (long long)c->seen);
@@ -161,8 +161,8 @@ static void write_lines(FILE *out, const plan_job *job, const shot_line *line,
     json_t *written = shot_line_json(&placed, json_string(text), &c->cue);
     json_object_set_new(written, "plan",
                         json_pack("{s: s, s: f, s: f, s: f, s: f}", "kind",
-                                  carom_plan_kind_name((carom_plan_kind)c->kind), "value", c->value,
-                                  "error", c->error, "keep", c->keep, "foul", c->foul));
+                                  carom_word_text(CAROM_WORDS_PLAN_KIND, c->kind), "value",
+                                  c->value, "error", c->error, "keep", c->keep, "foul", c->foul));
     if (c->leave[0] > 0.0)
       json_object_set_new(json_object_get(written, "plan"), "leave",
                           json_pack("[f, f]", c->leave[0], c->leave[1]));

@@ -125,7 +125,7 @@ static void tell_groups(FILE *out, const group_sums sums[CAROM_PRACTICE_OTHER + 
     const group_sums *s = &sums[k];
     if (s->strokes == 0)
       continue;
-    fprintf(out, "%-24s %7d %5d", carom_practice_name((carom_practice)k), s->strokes, s->kept);
+    fprintf(out, "%-24s %7d %5d", carom_word_text(CAROM_WORDS_PRACTICE, k), s->strokes, s->kept);
     if (k < CAROM_PRACTICE_INDIRECT) {
       const double mean = s->off / s->strokes;
       fprintf(out, " %5.1f %12.2f %13.2f %6.2f, give or take %.2f", s->told, s->miss_cost,
@@ -161,8 +161,8 @@ static void tell_drill(FILE *out, const games *g, const stroke *s, int number) {
   snprintf(text, sizeof text, "Pot the %d into the %s pocket: a cut of %.0f degrees over %.1f m.%s",
            drill.ball, pocket, fabs(review->cut), review->distance, place);
   if (g->job->csv) {
-    fprintf(out, "\"%s %d\",\"%s\",\"", carom_practice_name((carom_practice)review->group), number,
-            text);
+    fprintf(out, "\"%s %d\",\"%s\",\"", carom_word_text(CAROM_WORDS_PRACTICE, review->group),
+            number, text);
     tell_balls(out, s, true);
     fprintf(out, "\",\"pot=%d@%s", drill.ball, pocket);
     if (drill.radius > 0.0)

@@ -77,7 +77,8 @@ static bool any_drawn(void) {
   return carom_shot_drawn(&table, rack, BALLS, &shot, &time, 1, states) == CAROM_OK;
 }
 static bool any_turns(void) {
-  return carom_shot_orientation(rack, BALLS, &shot, 0.5 * shot.time, turned) == CAROM_OK;
+  return carom_shot_frames(rack, BALLS, &shot, &(double){0.5 * shot.time}, 1, NULL, NULL, turned) ==
+         CAROM_OK;
 }
 static bool check(void) {
   return carom_shot_check(&table, lie, BALLS, &cue, NULL, NULL) == CAROM_OK;
@@ -133,7 +134,7 @@ static const struct {
     {"the frame before it, of a film that runs back", last_frame, 10},
     {"carom_shot_at(): states in the middle of the break", any_states, 10},
     {"carom_shot_drawn(): the same, with balls that fall", any_drawn, 10},
-    {"carom_shot_orientation(): turns in the middle of the break", any_turns, 1},
+    {"carom_shot_frames(): turns in the middle of the break", any_turns, 1},
     {"carom_shot_check(): a layout", check, 100},
     {"carom_place_ball(): ball in hand", put_ball, 100},
     {"carom_aim(): a pot", aim, 1},

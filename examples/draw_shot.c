@@ -36,7 +36,8 @@ int main(void) {
     carom_rolling_velocity(out.a.v, out.a.w, radius, rolling);
     printf("%-8s  cue ball: %+.4f m/s, rolls back at %+.4f m/s; object ball: %+.4f m/s; normal "
            "impulse %.4f N s\n",
-           carom_slip_name(options.slip), out.a.v[1], rolling[1], out.b.v[1], detail.normal);
+           carom_word(CAROM_WORDS_SLIP, (int)options.slip), out.a.v[1], rolling[1], out.b.v[1],
+           detail.normal);
   }
   return 0;
 }

@@ -32,7 +32,7 @@ int main(void) {
     if (fabs(atan2(out[k].b.v[0], out[k].b.v[1])) > fabs(atan2(out[most].b.v[0], out[most].b.v[1])))
       most = k;
   printf("%d collisions on %s: the greatest throw, %.2f degrees, is at a cut of %.1f degrees\n",
-         CUTS, carom_isa_name(carom_isa_in_force()),
+         CUTS, carom_word(CAROM_WORDS_ISA, (int)carom_isa_in_force()),
          fabs(atan2(out[most].b.v[0], out[most].b.v[1])) / degree, 0.1 * most);
   return 0;
 }

@@ -49,7 +49,7 @@ int main(int argc, char **argv) {
             mark - 2, mark, 1 - mark, mark);
   int bad = 0;
   for (int m = 0; m < 4; m++) {
-    const char *name = carom_cushion_model_name(models[m]);
+    const char *name = carom_word(CAROM_WORDS_CUSHION_MODEL, (int)models[m]);
     if (picture != NULL)
       fprintf(picture,
               "<text x=\"95\" y=\"%d\" font-size=\"5\" fill=\"%s\">%s</text>\n<polyline "

@@ -76,8 +76,9 @@ static carom_status look_at_times(looking *with, size_t k, const carom_shot *sho
       .r = {NAN, NAN, NAN}, .v = {NAN, NAN, NAN}, .w = {NAN, NAN, NAN}, .label = -1};
   for (size_t i = 0; i < m * count; i++)
     states[i] = unknown;
-  return shot == NULL ? CAROM_ERROR_TIME
-                      : carom_shot_at_times(balls_of(with, k), (int)count, shot, times, m, states);
+  return shot == NULL
+             ? CAROM_ERROR_TIME
+             : carom_shot_frames(balls_of(with, k), (int)count, shot, times, m, NULL, states, NULL);
 }
 
 /* One shot. False: there is no memory. */

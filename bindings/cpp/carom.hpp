@@ -233,8 +233,8 @@ public:
   }
   std::vector<std::array<double, 4>> orientations(double time) const {
     std::vector<std::array<double, 4>> turned(balls_.size());
-    if (checked(carom_shot_orientation(balls_.data(), count(), &shot_, time,
-                                       reinterpret_cast<double(*)[4]>(turned.data()))) < 0)
+    if (checked(carom_shot_frames(balls_.data(), count(), &shot_, &time, 1, NULL, NULL,
+                                  reinterpret_cast<double(*)[4]>(turned.data()))) < 0)
       turned.clear();
     return turned;
   }

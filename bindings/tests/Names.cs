@@ -46,6 +46,7 @@ static class NamesTest {
     EveryName<ShotCushion>();
     EveryName<Condition>();
     EveryName<ShotEventType>();
+    EveryName<Choice>();
     foreach (var name in new[] { "9-ball", "9ball", "Nine-ball", "nineball" })
       Must(Names.Value<RulesKind>(name) == RulesKind.Nineball, name);
     Must(Names.Value<TableKind>("9-foot") == TableKind.Pool9ft, "9-foot");

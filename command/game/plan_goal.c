@@ -12,7 +12,7 @@ OPTION_SET(set_goal) {
   const size_t size = strcspn(text, ":");
   char *target = text[size] == ':' ? text + size + 1 : NULL;
   for (int kind = CAROM_GOAL_HIDDEN; kind <= CAROM_GOAL_APART; kind++) {
-    const char *word = carom_game_word(CAROM_GAME_WORDS_GOAL, kind);
+    const char *word = carom_word(CAROM_WORDS_GOAL, kind);
     const bool is_word = strlen(word) == size && strncmp(word, text, size) == 0;
     if (!is_word || (target == NULL) != (kind == CAROM_GOAL_HIDDEN))
       continue;
@@ -44,7 +44,7 @@ bool plan_goal_of(const given_goal *given, const shot_line *line, const carom_pl
     complain(
         "--leave %s: the game has no opponent who must hit a ball with the same cue ball; give "
         "--rules eightball, nineball, snooker or another game of two with pockets",
-        carom_game_word(CAROM_GAME_WORDS_GOAL, given->kind));
+        carom_word(CAROM_WORDS_GOAL, given->kind));
     return false;
   }
   if (given->kind == CAROM_GOAL_NEAR) {

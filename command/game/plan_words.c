@@ -37,7 +37,7 @@ static void kind_words(const carom_plan_stroke *c, char text[40]) {
   else if (c->kind == CAROM_PLAN_RAIL_FIRST)
     snprintf(text, 40, ", rail first");
   else if (c->kind != CAROM_PLAN_POT && c->kind != CAROM_PLAN_GIVEN)
-    snprintf(text, 40, ", by a %s", carom_plan_kind_name((carom_plan_kind)c->kind));
+    snprintf(text, 40, ", by a %s", carom_word_text(CAROM_WORDS_PLAN_KIND, c->kind));
 }
 
 /* What a choice does, by the names of the file. */
@@ -48,7 +48,7 @@ void plan_describe(const shot_line *line, const carom_plan_stroke *c, char text[
   else if (c->kind == CAROM_PLAN_PASS)
     snprintf(text, PLAN_TEXT, "pass: the other plays");
   else if (c->kind == CAROM_PLAN_PUSH || c->kind == CAROM_PLAN_BREAK)
-    snprintf(text, PLAN_TEXT, "a %s", carom_plan_kind_name((carom_plan_kind)c->kind));
+    snprintf(text, PLAN_TEXT, "a %s", carom_word_text(CAROM_WORDS_PLAN_KIND, c->kind));
   else if (!carom_names_ball(c))
     snprintf(text, PLAN_TEXT, "%s", words_without_ball(line, c));
   else if (c->pocket < 0)

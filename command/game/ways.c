@@ -5,7 +5,7 @@
 
 const char *way_name(const ways_search *s, const way *w) {
   if (s->job.goal == CAROM_WAY_POT)
-    return carom_plan_kind_name((carom_plan_kind)w->kind);
+    return carom_word_text(CAROM_WORDS_PLAN_KIND, w->kind);
   return s->job.goal == CAROM_WAY_SCORE ? "point" : "place";
 }
 

@@ -114,7 +114,7 @@ static void write_shot(FILE *out, const played *p) {
   const char *separator = "";
   for (int64_t k = 0; k < p->shot->count && k < p->shot->room; k++) {
     const carom_event *e = &p->shot->events[k];
-    const char *name = carom_event_name((carom_event_type)e->type);
+    const char *name = carom_word(CAROM_WORDS_EVENT, e->type);
     if (name == NULL)
       continue;
     fprintf(out, "%s[%.6f,\"%s\",%d,%d]", separator, e->time, name, (int)e->a, (int)e->b);

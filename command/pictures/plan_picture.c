@@ -34,7 +34,7 @@ static int failure_of(const carom_turn *turn) {
 /* Says how often a failure came. */
 static void say_failure(FILE *out, int failure, int times, bool points) {
   if (failure < FOULS)
-    fprintf(out, " %d foul: %s.", times, carom_foul_string(failure));
+    fprintf(out, " %d foul: %s.", times, carom_word_text(CAROM_WORDS_FOUL, failure));
   else if (failure == LOSS)
     fprintf(out, " %d lose the game.", times);
   else if (points)

@@ -74,7 +74,7 @@ static bool isa_is_known(void) {
   char names[100] = "";
   if (request == NULL || request[0] == '\0')
     return true;
-  for (int isa = 0; (name = carom_isa_name((carom_isa)isa)) != NULL; isa++) {
+  for (int isa = 0; (name = carom_word(CAROM_WORDS_ISA, isa)) != NULL; isa++) {
     if (same_text(request, name))
       return true;
     append(names, sizeof names, ", ", "%s", name);

@@ -25,10 +25,10 @@ int print_report(const char *name) {
   /* the instruction sets that this processor has and the library was built for */
   printf("instruction sets");
   const char *set;
-  for (int isa = 0; (set = carom_isa_name((carom_isa)isa)) != NULL; isa++)
+  for (int isa = 0; (set = carom_word(CAROM_WORDS_ISA, isa)) != NULL; isa++)
     if (carom_isa_available((carom_isa)isa))
       printf(" %s", set);
-  printf("; in force: %s\n", carom_isa_name(carom_isa_in_force()));
+  printf("; in force: %s\n", carom_word(CAROM_WORDS_ISA, (int)carom_isa_in_force()));
 
   /* what changes results or messages */
   static const char *const variables[] = {"CAROM_ISA", "LC_ALL", "LANG"};

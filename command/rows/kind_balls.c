@@ -24,7 +24,7 @@ static const column columns[NUMBERS] = {
 static const double defaults[NUMBERS] = {0};
 
 static const char *name(const shared_options *shared) {
-  return carom_solver_name(shared->options.solver);
+  return carom_word(CAROM_WORDS_SOLVER, (int)shared->options.solver);
 }
 
 static carom_status check(const void *in, const shared_options *shared, int *field) {

@@ -32,7 +32,7 @@ static const column columns[NUMBERS] = {PLAIN("vx"),
 static const double defaults[NUMBERS] = {[NORMAL + 1] = 1.0};
 
 static const char *name(const shared_options *shared) {
-  return carom_cushion_model_name(shared->rail.model);
+  return carom_word(CAROM_WORDS_CUSHION_MODEL, (int)shared->rail.model);
 }
 
 static carom_status check(const void *in, const shared_options *shared, int *field) {

@@ -90,7 +90,8 @@ static carom_table_kind table_kind_of(const shoot_flags *f) {
 /* Chooses the table, with the slope of a fit; false after a complaint. */
 static bool lay_table(const shoot_flags *f, shot_file *file, layout *l) {
   const carom_table_kind kind = table_kind_of(f);
-  const char *name = f->table.text != NULL ? f->table.text : carom_table_name(kind);
+  const char *name =
+      f->table.text != NULL ? f->table.text : carom_word(CAROM_WORDS_TABLE, (int)kind);
   const double *slope = f->shared.with.slope;
   char sloped[200];
   if (slope[0] != 0.0 || slope[1] != 0.0) {

@@ -99,7 +99,7 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
 
 carom_table_kind table_of_rack(carom_rack_kind rack) {
   const char *game = carom_word(CAROM_WORDS_RACK, (int)rack), *name;
-  for (int kind = 0; (name = carom_table_name((carom_table_kind)kind)) != NULL; kind++)
+  for (int kind = 0; (name = carom_word(CAROM_WORDS_TABLE, kind)) != NULL; kind++)
     if (same_text(name, game))
       return (carom_table_kind)kind;
   return CAROM_TABLE_POOL_9FT;
@@ -175,7 +175,7 @@ named_table *built_in_table(const char *id, json_fault *f) {
   const size_t size = strcspn(id, ",");
   int kind = 0;
   f->text[0] = '\0';
-  while ((name = carom_table_name((carom_table_kind)kind)) != NULL &&
+  while ((name = carom_word(CAROM_WORDS_TABLE, kind)) != NULL &&
          (strlen(name) != size || strncmp(id, name, size) != 0))
     kind++;
   if (name == NULL)

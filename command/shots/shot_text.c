@@ -18,7 +18,7 @@ int64_t shot_events_kept(const carom_shot *shot) {
 }
 
 const char *shot_event_name(int type) {
-  return carom_event_name((carom_event_type)type);
+  return carom_word(CAROM_WORDS_EVENT, type);
 }
 
 const char *shot_part_name(const named_table *table, const carom_event *event) {

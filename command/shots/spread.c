@@ -214,7 +214,7 @@ void spread_of(const player_error *error, const shot_line *line, const carom_sho
   carom_status status = carom_shot_tangent(&line->table->table, line->ball, line->count, &line->cue,
                                            options, shot, &seeds, &tangent);
   if (status == CAROM_OK && bands)
-    status = carom_shot_at_times(line->ball, line->count, shot, t.times, times, t.states);
+    status = carom_shot_frames(line->ball, line->count, shot, t.times, times, NULL, t.states, NULL);
   result->flags = tangent.all_flags;
   for (int k = 0; k < line->count && status == CAROM_OK; k++) {
     add_covariance(t.final + k * NUMBERS, result->final[k]);

@@ -74,7 +74,7 @@ static double path_length(const shot_line *line, const carom_shot *shot, int bal
     begin = end;
   }
   times[count++] = shot->time;
-  carom_shot_at_times(line->ball, line->count, shot, times, count, states);
+  carom_shot_frames(line->ball, line->count, shot, times, count, NULL, states, NULL);
   for (size_t k = 1; k < count; k++)
     length += plane_distance(states[k * (size_t)line->count + (size_t)ball].r,
                              states[(k - 1) * (size_t)line->count + (size_t)ball].r);

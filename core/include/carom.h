@@ -191,7 +191,9 @@ typedef enum carom_status {
   CAROM_ERROR_POINTS = -21,          /* a trace needs at least 2 points. */
   CAROM_ERROR_UNRESOLVED = -22,      /* the result depends on rounding errors, or needs more work
                                         than a call may do. */
-  CAROM_ERROR_OPTIONS = -23,         /* a reserved or unused field of the options is not 0. */
+  CAROM_ERROR_OPTIONS = -23,         /* a number of the options, the job or the player is out of its
+                                        range, or a reserved or unused field is not 0.
+                                        carom_plan_fault() says which one of a plan. */
   CAROM_ERROR_CUSHION_MODEL = -30,   /* options.model of carom_shot.h is not one of
                                         carom_cushion_model. */
   CAROM_ERROR_NORMAL = -32,          /* the direction into a cushion is not finite, or 0. */
@@ -345,10 +347,6 @@ typedef enum carom_slip {
                               opposite sign of the spin. Only for parity with pooltool. */
 } carom_slip;
 
-/* The names of these values ("euler", "paper"), or NULL for a value not listed. */
-CAROM_API const char *carom_solver_name(carom_solver solver);
-CAROM_API const char *carom_slip_name(carom_slip slip);
-
 enum {
   CAROM_DEFAULT_STEPS = 1000, /* of Euler's method */
   CAROM_ALL_THREADS = -1,     /* for options.threads */
@@ -466,9 +464,6 @@ typedef enum carom_isa {
   CAROM_ISA_AVX512 = 4, /* x86-64: 8 doubles at a time. */
 } carom_isa;
 
-/* The name of an instruction set, or NULL for a value not listed. */
-CAROM_API const char *carom_isa_name(carom_isa isa);
-
 /* Whether this build and this processor have the instruction set: 1 or 0. */
 CAROM_API int carom_isa_available(carom_isa isa);
 
@@ -562,6 +557,65 @@ CAROM_API carom_status carom_check(const carom_impact *in, const carom_options *
 /* The C name of number `field` of a carom_impact, 0 to 25: "a.r[0]" ... "restitution". NULL
  * outside that range. */
 CAROM_API const char *carom_field_name(int field);
+
+/* ---- Names of values ------------------------------------------------------------------------- */
+
+/* Enumerations whose values have names ("words"), the same in the command, in recordings and in all
+ * languages. From RULES on they belong to games, except CONDITION and ISA; a build without games
+ * has no words for them. */
+typedef enum carom_words {
+  CAROM_WORDS_WORLD = 0,              /* values of carom_world */
+  CAROM_WORDS_BALL_MODEL = 1,         /* values of carom_ball_model */
+  CAROM_WORDS_SHOT_CUSHION = 2,       /* values of carom_shot_cushion */
+  CAROM_WORDS_BALL_FRICTION = 3,      /* values of carom_ball_friction */
+  CAROM_WORDS_SPACE = 4,              /* values of carom_space */
+  CAROM_WORDS_SIMULTANEOUS = 5,       /* values of carom_simultaneous */
+  CAROM_WORDS_CUSHION_MODEL = 6,      /* values of carom_cushion_model */
+  CAROM_WORDS_CUSHION_CONVENTION = 7, /* values of carom_cushion_convention */
+  CAROM_WORDS_CUSHION_LAW = 8,        /* values of carom_cushion_law */
+  CAROM_WORDS_GAME = 9,               /* values of carom_game */
+  CAROM_WORDS_EVENT = 10,             /* values of carom_event_type */
+  CAROM_WORDS_LABEL = 11,             /* values of carom_label */
+  CAROM_WORDS_TABLE = 12,             /* values of carom_table_kind */
+  CAROM_WORDS_RACK = 13,              /* values of carom_rack_kind */
+  CAROM_WORDS_SOLVER = 14,            /* values of carom_solver */
+  CAROM_WORDS_SLIP = 15,              /* values of carom_slip */
+  CAROM_WORDS_RULES = 16,             /* values of carom_rules_kind */
+  CAROM_WORDS_CONDITION = 17,         /* values of carom_condition */
+  CAROM_WORDS_ISA = 18,               /* values of carom_isa */
+  CAROM_WORDS_TURN = 19,              /* values of carom_turn_outcome */
+  CAROM_WORDS_LEAVE = 20,             /* values of carom_leave */
+  CAROM_WORDS_FOUL = 21,              /* values of carom_foul; the text of NONE is "" */
+  CAROM_WORDS_CHOICE = 22,            /* values of carom_choice */
+  CAROM_WORDS_GROUP = 23,             /* values of carom_group */
+  CAROM_WORDS_PHASE = 24,             /* values of carom_match_phase */
+  CAROM_WORDS_ACT = 25,               /* values of carom_act */
+  CAROM_WORDS_REFUSAL = 26,           /* values of carom_refusal; the text of NOT is "" */
+  CAROM_WORDS_GOAL = 27,              /* values of carom_goal_kind */
+  CAROM_WORDS_PLAN_KIND = 28,         /* values of carom_plan_kind; the text is its name, such as
+                                         "rail first" */
+  CAROM_WORDS_PRACTICE = 29           /* values of carom_practice; the text is its name, such as
+                                         "long thin cut" */
+} carom_words;
+
+/* The word of a value ("han", "double_hit"), and a short description of the value; NULL for a value
+ * that is not listed. Words are found by value: `for (int k = 0; carom_word(of, k) != NULL; k++)`
+ * finds all words of most sets; events begin with 1, and the values of CHOICE are powers of 2. */
+CAROM_API const char *carom_word(carom_words of, int value);
+CAROM_API const char *carom_word_text(carom_words of, int value);
+
+/* The value whose word is `text`, as carom_word_means() compares them; -1 if there is none. A text
+ * that is itself a word of the enumeration has that word's value. */
+CAROM_API int carom_word_value(carom_words of, const char *text);
+
+/* 1 if `text` is `word` as players write it, else 0. Capitals, hyphens, underscores and blanks do
+ * not matter, nor does the order of the parts of a word with a hyphen ("left-side" is "side-left").
+ * Words also have synonyms: "9-ball" is "nineball", "top-right" the pocket "foot-right". The
+ * function works for all words of the library, and for names of rails and pockets. */
+CAROM_API int carom_word_means(const char *text, const char *word);
+
+/* Synonym k of a word, from 0 on ("9ball" of "nineball"); NULL if there are no more. */
+CAROM_API const char *carom_word_synonym(const char *word, int k);
 
 /* ---- Version --------------------------------------------------------------------------------- */
 

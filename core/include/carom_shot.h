@@ -133,9 +133,6 @@ typedef struct carom_cushion_options {
   uint64_t reserved[2];    /* must be 0. */
 } carom_cushion_options;
 
-/* The name of a model ("mathavan"), or NULL for a value not listed. */
-CAROM_API const char *carom_cushion_model_name(carom_cushion_model model);
-
 /* Resolves one impact. `opt` may be NULL for the defaults; `out` may not overlap `in`.
  * CAROM_OK: `*out` is the motion after the impact. CAROM_SEPARATING: the ball does not move into
  * the cushion, and `*out` is its motion before. An error: every number of `*out` is NaN (but
@@ -247,9 +244,6 @@ typedef enum carom_label {
   CAROM_BALL_OFF = 6         /* off the table, out of play. The position is where the ball left the
                                 table */
 } carom_label;
-
-/* The name of a label ("sliding"), or NULL for a value not listed. */
-CAROM_API const char *carom_label_name(carom_label label);
 
 /* The constants of a ball and of its cloth. All doubles, without gaps. */
 typedef struct carom_ball_kind {
@@ -415,10 +409,6 @@ typedef enum carom_table_kind {
   CAROM_TABLE_FOURBALL = 9      /* 1.27 x 2.54 m, no pockets */
 } carom_table_kind;
 
-/* The name of a table ("9ft", "threecushion"), as in files of `carom shoot`, or NULL for a value
- * not listed. */
-CAROM_API const char *carom_table_name(carom_table_kind kind);
-
 /* The game for whose balls a table is made: CAROM_GAME_POOL unless it is a table of another
  * game. */
 CAROM_API carom_game carom_game_of_table(carom_table_kind table);
@@ -570,9 +560,6 @@ typedef enum carom_rack_kind {
                                  on the spot of the black. */
 } carom_rack_kind;
 
-/* The name of a rack ("eightball"), or NULL for a value not listed. */
-CAROM_API const char *carom_rack_name(carom_rack_kind kind);
-
 /* The number of balls of a rack; 0 if there is no such kind. */
 CAROM_API int carom_rack_size(carom_rack_kind kind);
 
@@ -705,7 +692,7 @@ typedef enum carom_ball_friction {
 /* Whether balls can leave the cloth. With 3D, a shot in which no ball leaves the cloth has the same
  * bits and the same speed as with FLAT: two balls on the cloth collide by the 2014 model, and a
  * ball on the cloth meets a cushion by the flat model. A ball that flies has the contacts of
- * spheres in space (carom_impact3()). Balls of different radii, and balls less than 1 mm above the
+ * spheres in space. Balls of different radii, and balls less than 1 mm above the
  * cloth, follow a law between the two (docs/using/shots.md), which changes continuously with radius
  * and height. With pooltool's rules the space is always flat. */
 typedef enum carom_space {
@@ -784,9 +771,9 @@ typedef struct carom_shot_options {
                                        CAROM_STOP_AT(type) of a carom_event_type,
                                        CAROM_STOP_AT_CONTACT, or several joined by |. 0: it is not
                                        stopped. */
-  int32_t fast;                     /* 0: the bits are the same on all machines. 1: the exact limit
-                                       of a cushion is computed with the instruction set in use, and
-                                       has its bits. */
+  int32_t fast;                     /* 1: impacts by the cushion model MATHAVAN are computed with
+                                       the instruction set in use, and have its bits. Other shots
+                                       do not change. 0: the bits are the same on all machines. */
   carom_simultaneous simultaneous;  /* contacts of several balls at one instant. */
   int32_t cluster_steps;            /* steps of the integrator of clusters for the duration of a
                                        contact, at most 10000; 0: 25. */
@@ -824,10 +811,6 @@ typedef enum carom_event_type {
   CAROM_EVENT_LEFT_TABLE = 12          /* airborne ball a leaves the table: it falls or flies off
                                           it, or stops on a rail. The shot continues. */
 } carom_event_type;
-
-/* The name of an event ("ball_linear_cushion" for a rail), as in files of `carom shoot`, or NULL
- * for a value not listed. */
-CAROM_API const char *carom_event_name(carom_event_type type);
 
 /* One event. before[1] and after[1] are the states of ball b of a CAROM_EVENT_BALL_BALL, and
  * otherwise all zero. Each contact of a cluster is an event; the events are in the order in which
@@ -982,15 +965,6 @@ typedef struct carom_shot {
   uint64_t reserved[1];     /* not read or written yet. */
 } carom_shot;
 
-/* The collision of two spheres in space along any line of centres: one impulse in closed form, for
- * any radii and masses, with restitution e and Coulomb's friction mu_ball, which either stops the
- * slip or slips to the end. The cloth is not involved, so mu_slide is not read. Only the direction
- * of b.r - a.r matters. Returns CAROM_OK; CAROM_SEPARATING, with the motion before, if the balls do
- * not close; an error of a field; or CAROM_ERROR_OVERFLOW if speeds are above 1e300 m/s or impulses
- * are not within 1e-290 to 1e300 kg m/s. With an error *out is all NaN (untouched when a pointer is
- * NULL). */
-CAROM_API carom_status carom_impact3(const carom_impact *in, carom_result *out);
-
 /* One contact of a cluster. */
 typedef struct carom_cluster_contact {
   int32_t a, b;       /* indices of its balls, a < b. */
@@ -1081,14 +1055,6 @@ CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom
  * motion is not finite, or needs more steps than any shot does. */
 CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count,
                                      const carom_shot *shot, double time, carom_ball_state *states);
-
-/* The states at `n` times: for times[k] they are written to states[k * count ...], with the bits of
- * carom_shot_at(). Times in ascending order take about 20 ns per ball. If a time is before the
- * preceding one, the call starts again from the first event. Returns the status of carom_shot_at()
- * for the first time in error; the states of the times before it have been written. */
-CAROM_API carom_status carom_shot_at_times(const carom_shot_ball *balls, int count,
-                                           const carom_shot *shot, const double *times, size_t n,
-                                           carom_ball_state *states);
 
 /* The same for drawing: a pocketed ball falls freely from the edge, along the wall of its pocket
  * and around the balls that are already there. It stops at the depth of the pocket or on these
@@ -1187,31 +1153,28 @@ CAROM_API carom_status carom_shot_check(const carom_table *table, const carom_sh
 CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count,
                                         int ball, double x, double y, carom_part *in_the_way);
 
-/* How each ball has turned since the start of the shot, for drawing it: unit quaternions (w, x, y,
- * z), which turn the marks on a ball from the start to the time. They depend only on the events,
- * not on earlier calls. They are exact except for rounding while the axis of the spin keeps its
- * direction (in flight, on the spot, rolling without side spin, in straight slides), and otherwise
- * within 1e-7 rad for each phase of the ball. `turned` receives `count` quaternions. Returns the
- * status of carom_shot_at(), or CAROM_ERROR_UNRESOLVED, with some quaternions written, if balls
- * turn by more than 5,000,000 rad. A call takes about 0.1 us for each radian that balls with side
- * spin have turned. carom_shot_frames() is faster, because it continues from the previous time. */
-CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count,
-                                              const carom_shot *shot, double time,
-                                              double (*turned)[4]);
-
 /* The progress of carom_shot_frames(), in the caller's memory; all zero before the first call. It
  * is valid in one process only, so do not keep it in files. */
 typedef struct carom_frames {
   uint64_t opaque[15400]; /* for the library alone. */
 } carom_frames;
 
-/* Frames: states and quaternions at `n` times, for times[k] from states[k * count] and turned[k *
- * count] on, with the bits of carom_shot_at() and carom_shot_orientation(). With `onward`, a call
+/* Frames: the states of all balls at `n` times, and how each ball has turned since the start of the
+ * shot, for times[k] from states[k * count] and turned[k * count] on. One of states and turned may
+ * be NULL. States have the bits of carom_shot_at(). turned[] receives unit quaternions (w, x, y,
+ * z), which turn the marks on a ball from the start to the time. They depend only on the events,
+ * not on earlier calls. They are exact except for rounding while the axis of the spin keeps its
+ * direction (in flight, on the spot, rolling without side spin, in straight slides), and otherwise
+ * within 1e-7 rad for each phase of the ball. Times in ascending order take about 20 ns per ball
+ * for states, and 0.1 us for each radian that balls with side spin turn; if a time is before the
+ * preceding one, a call without `onward` starts again from the first event. With `onward`, a call
  * continues from the last time of the previous call, if the balls and the events until then are the
  * same, as they are after carom_shot_continue(). For an earlier time it continues from one of about
  * 100 times of the shot that `onward` keeps, so that a film may run backwards; otherwise it starts
  * from the first event. The bits are the same. `onward` may be NULL. A frame of the 16 balls of a
- * break takes 2 us. Errors are as for carom_shot_at_times() and carom_shot_orientation().
+ * break takes 2 us. Returns the status of carom_shot_at() for the first time in error; the frames
+ * before it have been written. CAROM_ERROR_NULL if states and turned are both NULL;
+ * CAROM_ERROR_UNRESOLVED also if balls turn by more than 5,000,000 rad.
  *
  *     static carom_frames film;
  *     double turned[10][4];
@@ -1351,52 +1314,6 @@ CAROM_API carom_status carom_calibrate(const carom_table *table, const carom_bal
  * written. */
 CAROM_API carom_status carom_ball_kind_resolve(const carom_table *table,
                                                carom_shot_options *options, carom_ball_kind *kind);
-
-/* The start of a fit of recorded shots for a model of the cushion: writes the restitution_cushion,
- * mu_cushion and nose_height that the model needs for single impacts on the table of
- * CAROM_GAME_BILLIARD, and returns 1. Returns 0 and writes nothing if the model has no such
- * start. */
-CAROM_API int carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind);
-
-/* Enumerations whose values have names ("words"). */
-typedef enum carom_words {
-  CAROM_WORDS_WORLD = 0,              /* values of carom_world */
-  CAROM_WORDS_BALL_MODEL = 1,         /* values of carom_ball_model */
-  CAROM_WORDS_SHOT_CUSHION = 2,       /* values of carom_shot_cushion */
-  CAROM_WORDS_BALL_FRICTION = 3,      /* values of carom_ball_friction */
-  CAROM_WORDS_SPACE = 4,              /* values of carom_space */
-  CAROM_WORDS_SIMULTANEOUS = 5,       /* values of carom_simultaneous */
-  CAROM_WORDS_CUSHION_MODEL = 6,      /* values of carom_cushion_model */
-  CAROM_WORDS_CUSHION_CONVENTION = 7, /* values of carom_cushion_convention */
-  CAROM_WORDS_CUSHION_LAW = 8,        /* values of carom_cushion_law */
-  CAROM_WORDS_GAME = 9,               /* values of carom_game */
-  CAROM_WORDS_EVENT = 10,             /* values of carom_event_type */
-  CAROM_WORDS_LABEL = 11,             /* values of carom_label */
-  CAROM_WORDS_TABLE = 12,             /* values of carom_table_kind */
-  CAROM_WORDS_RACK = 13,              /* values of carom_rack_kind */
-  CAROM_WORDS_SOLVER = 14,            /* values of carom_solver */
-  CAROM_WORDS_SLIP = 15,              /* values of carom_slip */
-  CAROM_WORDS_RULES = 16,             /* values of carom_rules_kind; none in a build without the
-                                         planner */
-  CAROM_WORDS_CONDITION = 17          /* values of carom_condition */
-} carom_words;
-
-/* The word of a value ("han"), and a short description of the value; NULL if there is none. */
-CAROM_API const char *carom_word(carom_words of, int value);
-CAROM_API const char *carom_word_text(carom_words of, int value);
-
-/* The value whose word is `text`, as carom_word_means() compares them; -1 if there is none. A text
- * that is itself a word of the enumeration has that word's value. */
-CAROM_API int carom_word_value(carom_words of, const char *text);
-
-/* 1 if `text` is `word` as players write it, else 0. Capitals, hyphens, underscores and blanks do
- * not matter, nor does the order of the parts of a word with a hyphen ("left-side" is "side-left").
- * Words also have synonyms: "9-ball" is "nineball", "top-right" the pocket "foot-right". The
- * function works for all words of the library, and for names of rails and pockets. */
-CAROM_API int carom_word_means(const char *text, const char *word);
-
-/* Synonym k of a word, from 0 on ("9ball" of "nineball"); NULL if there are no more. */
-CAROM_API const char *carom_word_synonym(const char *word, int k);
 
 #ifdef __cplusplus
 }

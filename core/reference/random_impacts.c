@@ -147,7 +147,7 @@ const char *draw_name(draw_kind kind, int group) {
   if (kind == DRAW_COINCIDENCES)
     return coincidence_name(group);
   if (kind != DRAW_CUSHION)
-    return carom_slip_name((carom_slip)group);
+    return carom_word(CAROM_WORDS_SLIP, group);
   return group == CUSHION_PLAY ? "play" : "any";
 }
 

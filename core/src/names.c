@@ -78,7 +78,10 @@ static status_words words_of(carom_status status) {
     STATUS(ERROR_UNRESOLVED, "unresolved",
            "the collision is too extreme: its result depends on rounding errors, or needs more "
            "work than a call may do")
-    STATUS(ERROR_OPTIONS, "bad_options", "a reserved or unused field of the options is not 0")
+    STATUS(
+        ERROR_OPTIONS, "bad_options",
+        "a number of the options, the job or the player is out of its range, or a reserved field "
+        "is not 0")
     STATUS(ERROR_CUSHION_MODEL, "bad_cushion_model",
            "options.model is not one of carom_cushion_model")
     STATUS(ERROR_NORMAL, "bad_normal", "the direction into the cushion must be finite and not 0")
@@ -233,30 +236,6 @@ const char *carom_status_name(carom_status status) {
 
 const char *carom_status_string(carom_status status) {
   return words_of(status).text;
-}
-
-const char *carom_solver_name(carom_solver solver) {
-  return carom_word(CAROM_WORDS_SOLVER, (int)solver);
-}
-
-const char *carom_slip_name(carom_slip slip) {
-  return carom_word(CAROM_WORDS_SLIP, (int)slip);
-}
-
-const char *carom_event_name(carom_event_type type) {
-  return carom_word(CAROM_WORDS_EVENT, (int)type);
-}
-
-const char *carom_label_name(carom_label label) {
-  return carom_word(CAROM_WORDS_LABEL, (int)label);
-}
-
-const char *carom_table_name(carom_table_kind kind) {
-  return carom_word(CAROM_WORDS_TABLE, (int)kind);
-}
-
-const char *carom_rack_name(carom_rack_kind kind) {
-  return carom_word(CAROM_WORDS_RACK, (int)kind);
 }
 
 const char *carom_field_name(int field) {

@@ -337,19 +337,19 @@ const carom_number *carom_ball_fault(const carom_ball_kind *k, char *text, size_
 
 /* ---- Starts of fits */
 
-int carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind) {
+bool carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind) {
 #define START(NAME, name, impact, flight, rows, start, ...) {start},
   static const struct start {
     bool known;
     double e, mu, height;
   } starts[] = {CAROM_CUSHION_MODELS(START)};
 #undef START
-  if ((uint32_t)model >= CAROM_CUSHION_MODEL_COUNT || kind == NULL || !starts[model].known)
-    return 0;
+  if ((uint32_t)model >= CAROM_CUSHION_MODEL_COUNT || !starts[model].known)
+    return false;
   kind->restitution_cushion = starts[model].e;
   kind->mu_cushion = starts[model].mu;
   kind->nose_height = starts[model].height;
-  return 1;
+  return true;
 }
 
 /* ---- Words */
@@ -475,11 +475,14 @@ static int nearness(const char *text, const char *word) {
 }
 
 int carom_word_value(carom_words kind, const char *text) {
-  enum { VALUES_MOST = 64 }; /* more than any enumeration has; events begin at 1 */
+  enum {
+    VALUES_MOST = 64, /* more than any enumeration has; events begin at 1 */
+    FLAG_MOST = 1 << 16, /* above it, CHOICE has no power of 2 */
+  };
   int found = -1, best = 0;
   if (text == NULL)
     return -1;
-  for (int value = 0; value < VALUES_MOST; value++) {
+  for (int value = 0; value <= FLAG_MOST; value = value < VALUES_MOST ? value + 1 : 2 * value) {
     const char *word = carom_word(kind, value);
     const int rank = word == NULL ? 0 : nearness(text, word);
     if (rank > best) {

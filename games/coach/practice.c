@@ -61,15 +61,6 @@ static int32_t group_of(const carom_review *review) {
   return is_long ? CAROM_PRACTICE_LONG_CUT : CAROM_PRACTICE_CUT;
 }
 
-const char *carom_practice_name(carom_practice group) {
-  static const char *const names[] = {"short straight pot",      "short cut", "short thin cut",
-                                      "long straight pot",       "long cut",  "long thin cut",
-                                      "bank, kick, combination", "no pot"};
-  if ((uint32_t)group > CAROM_PRACTICE_OTHER)
-    return "";
-  return names[group];
-}
-
 /* The costs of a stroke, compared with the intended one with the player's errors. */
 static void find_costs(const carom_plan_job *job, carom_call call, carom_ruling *ruling,
                        carom_review *review) {

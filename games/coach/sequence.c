@@ -442,6 +442,8 @@ static carom_status play_slice(run_out *r, int *found) {
 carom_status carom_sequence(const carom_plan_job *job, int in_hand, double within,
                             carom_sequence_stroke *strokes, int room, int *found) {
   run_out *r;
+  if (found != NULL)
+    *found = 0;
   if (strokes == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
   carom_status status = begin(job, in_hand, &r);
@@ -460,6 +462,8 @@ carom_status carom_sequence(const carom_plan_job *job, int in_hand, double withi
 }
 
 carom_status carom_sequence_continue(const carom_plan_job *job, int *found) {
+  if (found != NULL)
+    *found = 0;
   if (found == NULL || !is_whole(job))
     return CAROM_ERROR_NULL;
   run_out *r = job->memory;

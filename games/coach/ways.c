@@ -643,6 +643,8 @@ static carom_status begin(ways_search *s, const carom_ways_job *job, int64_t roo
 carom_status carom_ways(const carom_ways_job *job, carom_shot_way *ways, int64_t room,
                         carom_ways_result *result) {
   ways_search s;
+  if (result != NULL)
+    *result = (carom_ways_result){0};
   if (ways == NULL || result == NULL)
     return CAROM_ERROR_NULL;
   const carom_status status = begin(&s, job, room);

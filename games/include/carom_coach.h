@@ -112,8 +112,8 @@ CAROM_API size_t carom_ways_memory(int64_t room);
  * the strokes. A pot whose directions are less than 0.02 degrees apart is left out. Returns
  * CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is too little memory;
  * CAROM_ERROR_OPTIONS for a number out of its range, an invalid player, or cues of different balls;
- * or an error of carom_shoot(), with *result up to that point of the search. The ways depend only
- * on the arguments, not on the number of threads. */
+ * or an error of carom_shoot(), with *result up to that point of the search, which is 0 if it did
+ * not begin. The ways depend only on the arguments, not on the number of threads. */
 CAROM_API carom_status carom_ways(const carom_ways_job *job, carom_shot_way *ways, int64_t room,
                                   carom_ways_result *result);
 
@@ -247,7 +247,8 @@ CAROM_API size_t carom_sequence_memory(const carom_plan_options *options);
  * is above 0, the call returns after about that many events of shots with *found 0, for
  * carom_sequence_continue(). Returns CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is
  * less memory than carom_sequence_memory(); CAROM_ERROR_OPTIONS for `within` out of range, a goal,
- * or options->safeties; or an error of carom_plan() for the first layout. */
+ * or options->safeties; or an error of carom_plan() for the first layout. With an error *found is
+ * 0. */
 CAROM_API carom_status carom_sequence(const carom_plan_job *job, int in_hand, double within,
                                       carom_sequence_stroke *strokes, int room, int *found);
 
@@ -384,9 +385,6 @@ typedef enum carom_practice {
                                        possible */
   CAROM_PRACTICE_OTHER = 7          /* safeties, and strokes that aim at no pocket */
 } carom_practice;
-
-/* The name of a group, such as "long thin cut"; "" for a value not listed. */
-CAROM_API const char *carom_practice_name(carom_practice group);
 
 /* The intention of a stroke of a match, and its result. */
 typedef struct carom_review {

@@ -164,9 +164,6 @@ typedef enum carom_refusal {
   CAROM_REFUSED_NOTE = 18      /* a value of the note is not allowed */
 } carom_refusal;
 
-/* The name of a refusal, such as "bounds"; "" for NOT and a value not listed. */
-CAROM_API const char *carom_refusal_name(int refusal);
-
 enum {
   CAROM_MATCH_TEXT = 135168, /* bytes with room for the lines of any act. */
   CAROM_MATCH_ERRORS = 17    /* number of errors of aim for which strokes are weighed. */

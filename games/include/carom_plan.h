@@ -173,10 +173,6 @@ typedef enum carom_foul {
  * is CAROM_FOUL_NO_BALL. */
 CAROM_API carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball);
 
-/* The description of a foul, such as "the cue ball met no ball"; "" for NONE and for a value not
- * listed. */
-CAROM_API const char *carom_foul_string(int foul);
-
 /* The consequences of a shot by the rules: who plays next, the foul, the points. */
 typedef struct carom_turn {
   carom_turn_outcome outcome; /* what happens to the turn. */
@@ -530,27 +526,6 @@ CAROM_API carom_status carom_referee(const carom_plan_rules *rules, const carom_
  * text without the 0, or 0 for an invalid ruling. */
 CAROM_API size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room);
 
-/* ---- Names of games' values ------------------------------------------------------------------ */
-
-/* Enumerations of games whose values have names ("words"). carom_words has the enumerations of the
- * physics, and carom_rules_kind. */
-typedef enum carom_game_words {
-  CAROM_GAME_WORDS_TURN = 0,    /* carom_turn_outcome */
-  CAROM_GAME_WORDS_LEAVE = 1,   /* carom_leave */
-  CAROM_GAME_WORDS_FOUL = 2,    /* carom_foul; the text of NONE is "" */
-  CAROM_GAME_WORDS_CHOICE = 3,  /* carom_choice */
-  CAROM_GAME_WORDS_GROUP = 4,   /* carom_group */
-  CAROM_GAME_WORDS_PHASE = 5,   /* carom_match_phase of carom_match.h */
-  CAROM_GAME_WORDS_ACT = 6,     /* carom_act of carom_match.h */
-  CAROM_GAME_WORDS_REFUSAL = 7, /* carom_refusal of carom_match.h; the text of NOT is "" */
-  CAROM_GAME_WORDS_GOAL = 8     /* carom_goal_kind */
-} carom_game_words;
-
-/* The word of a value ("double_hit"), which is the same in all languages, and a short description
- * of the value; NULL if there is none. */
-CAROM_API const char *carom_game_word(carom_game_words of, int value);
-CAROM_API const char *carom_game_word_text(carom_game_words of, int value);
-
 /* ---- Plans ----------------------------------------------------------------------------------- */
 
 /* All zero means the defaults. */
@@ -630,9 +605,6 @@ typedef enum carom_plan_kind {
   CAROM_PLAN_RAIL_FIRST = 13  /* the cue ball meets the cushion next to its first ball, then that
                                  ball */
 } carom_plan_kind;
-
-/* The name of a kind, such as "bank"; "" for a value not listed. */
-CAROM_API const char *carom_plan_kind_name(carom_plan_kind kind);
 
 /* The kind of a shot that pots a ball: a carom_plan_kind. It is derived from the facts, and from
  * the events or brief events that were kept. -1 if they do not show that the ball was hit and fell
@@ -748,7 +720,8 @@ typedef struct carom_plan_job {
 } carom_plan_job;
 
 /* The number of bytes that a plan with these options needs: about 320,000 for the defaults, and
- * 450,000 more if `unsure` is above 0. NULL: the defaults. 0 for bad options. */
+ * 450,000 more if `unsure` is above 0. NULL: the defaults. 0 for options that carom_plan() rejects:
+ * carom_plan_fault() says why. */
 CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
 
 /* Finds the best shots of a layout. Writes up to `room` of them to choices[], best first, one for
@@ -760,11 +733,17 @@ CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
  * CAROM_ERROR_OPTIONS for invalid options, an invalid player, a goal that is not possible in the
  * layout or with the rules, or rules without on(), judge() or left(); CAROM_ERROR_IN_MOTION for a
  * ball that is not at rest; CAROM_ERROR_GAME_OVER if on() names no ball in play; or an error of the
- * layout, as in carom_shot_check(). With an error nothing is written. The choice depends only on
- * the arguments, not on the number of threads. Unless shot->fast is set, it is the same on all
- * machines. */
+ * layout, as in carom_shot_check(). With an error only *found is written, which is then 0. The
+ * choice depends only on the arguments, not on the number of threads. Unless shot->fast is set, it
+ * is the same on all machines. */
 CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_plan_stroke *choices, int room,
                                   int *found);
+
+/* Writes to text[], at most `room` bytes with a closing 0, which member of a job carom_plan()
+ * rejects with CAROM_ERROR_OPTIONS, its value, and the allowed values: "options->shots is 60; it
+ * must be 0, or 100 to 1e6". Returns the length of the complete text without the 0; 0 if such a
+ * member does not exist, or if a required pointer of the job is NULL. job->memory is not needed. */
+CAROM_API size_t carom_plan_fault(const carom_plan_job *job, char *text, size_t room);
 
 /* The same with ball in hand: positions of the cue ball and strokes are compared together, by at
  * least 600 shots, and each choice has its own position. The position is within the bounds of
@@ -776,8 +755,8 @@ CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double l
                                        int *found);
 
 /* Continues a plan in slices, for an opponent who thinks between the frames of a game: plays
- * options->slice more events. *found is 0 until the plan has ended. The choices then have the bits
- * of a plan in one call. 500 events take at most about 1 ms; a slice may take one shot longer, or
+ * options->slice more events. *found is 0 until the plan has ended, and with an error. The choices
+ * then have the bits of a plan in one call. 500 events take at most about 1 ms; a slice may take one shot longer, or
  * longer if it sorts candidates. The job, its memory and everything that it points to must not have
  * changed since the previous call. A plan that has ended does not change, and a plan whose
  * options->stop was set ends. Returns CAROM_OK; CAROM_ERROR_NULL as in carom_plan(); or

@@ -18,13 +18,6 @@
 
 /* ---- Refusals */
 
-const char *carom_refusal_name(int refusal) {
-  const char *word = carom_game_word(CAROM_GAME_WORDS_REFUSAL, refusal);
-  if (word == NULL || refusal == CAROM_REFUSED_NOT)
-    return "";
-  return word;
-}
-
 carom_status carom_match_refuse(carom_match *match, carom_refusal why, const char *act,
                                 const char *right) {
   match->refusal = (int32_t)why;
@@ -52,7 +45,7 @@ static const char *list_choices(int32_t choices, char text[128]) {
   snprintf(text, 128, "none");
   for (int32_t choice = 1; choice <= CAROM_CHOICE_SPOT; choice *= 2)
     if ((choices & choice) != 0) {
-      const char *word = carom_game_word(CAROM_GAME_WORDS_CHOICE, choice);
+      const char *word = carom_word(CAROM_WORDS_CHOICE, choice);
       size += (size_t)snprintf(text + size, 128 - size, "%s%s", comma, word);
       comma = ", ";
     }
@@ -893,7 +886,7 @@ static carom_status take_time(carom_match *match, int player, carom_act act) {
   if (match == NULL)
     return CAROM_ERROR_NULL;
   const bool extends = act == CAROM_ACT_EXTEND;
-  const char *name = carom_game_word(CAROM_GAME_WORDS_ACT, (int)act);
+  const char *name = carom_word(CAROM_WORDS_ACT, (int)act);
   begin_act(match);
   const carom_status error = check_turn(match, player, name);
   if (error != CAROM_OK)

@@ -308,11 +308,10 @@ size_t carom_match_string(const carom_match *match, char *text, size_t room) {
       }
     size = snprintf(text, room, "%s %s won", names, count > 1 ? "have" : "has");
   } else if (match->phase == CAROM_MATCH_NONE || match->phase == CAROM_MATCH_OVER)
-    size = snprintf(text, room, "%s", carom_game_word_text(CAROM_GAME_WORDS_PHASE, match->phase));
+    size = snprintf(text, room, "%s", carom_word_text(CAROM_WORDS_PHASE, match->phase));
   else {
     put_name(match, match->seat, name, sizeof name);
-    size = snprintf(text, room, "%s: %s", name,
-                    carom_game_word_text(CAROM_GAME_WORDS_PHASE, match->phase));
+    size = snprintf(text, room, "%s: %s", name, carom_word_text(CAROM_WORDS_PHASE, match->phase));
   }
   return (size_t)carom_max(size, 0);
 }

@@ -2,9 +2,11 @@
 #include "player.h"
 #include "platform/elementary.h"
 #include "random_draws.h"
+#include "schema/rows.h"
 #include "shot/shot.h"
 #include "small_math.h"
 
+#include <float.h>
 #include <math.h>
 
 /* The errors of a stroke of 2 m/s: of its direction, degrees, of its tip, radii, and of its speed,
@@ -140,15 +142,33 @@ void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t num
   carom_player_errs(&bounded, z, cue);
 }
 
-bool carom_player_is_good(const carom_player *p) {
-  static const double most = 1000.0, eye_most = 0.01; /* of each number; and of the eye, m */
-  const double numbers[] = {p->speed,    p->speed_share, p->phi,         p->theta,
-                            p->a,        p->b,           p->speed_least, p->speed_most,
-                            p->tip_most, p->growth,      p->only_pots};
-  bool good = p->tip_most <= 1.0 && (p->speed_most == 0.0 || p->speed_most >= p->speed_least);
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    good &= numbers[k] >= 0.0 && numbers[k] <= most;
-  const bool has_shots =
-      p->shots >= (double)PLAYER_SHOTS_LEAST && p->shots <= (double)PLAYER_SHOTS_MOST;
-  return good && p->only_pots <= 1.0 && p->eye <= eye_most && (p->shots == 0.0 || has_shots);
+/* The members of a player, with their units and ranges. The bound of errors is a convention. */
+#define MEMBER(member, measure, low, high, extra)                                     \
+  CAROM_ROW(carom_player, member, "", low, high, extra, OPTIONS, "", .unit = measure, \
+            .cushion_offset = -1, .words = -1)
+static const carom_number player_members[] = {
+    MEMBER(speed, "m/s", 0, 1000, NAN) MEMBER(speed_share, "", 0, 1000, NAN)
+        MEMBER(phi, "degrees", 0, 1000, NAN) MEMBER(theta, "degrees", 0, 1000, NAN)
+            MEMBER(a, "radii", 0, 1000, NAN) MEMBER(b, "radii", 0, 1000, NAN)
+                MEMBER(speed_least, "m/s", 0, 1000, NAN) MEMBER(speed_most, "m/s", 0, 1000, NAN)
+                    MEMBER(tip_most, "radii", 0, 1, NAN) MEMBER(growth, "s/m", 0, 1000, NAN)
+                        MEMBER(only_pots, "", 0, 1, NAN)
+                            MEMBER(shots, "", PLAYER_SHOTS_LEAST, PLAYER_SHOTS_MOST, 0)
+                                MEMBER(eye, "m", -DBL_MAX, 0.01, NAN)};
+#undef MEMBER
+
+const carom_number *carom_player_wrong_number(const carom_player *player) {
+  for (size_t k = 0; k < sizeof player_members / sizeof player_members[0]; k++) {
+    const double value =
+        *(const double *)(const void *)((const char *)player + player_members[k].offset);
+    const bool is_within = value >= player_members[k].low && value <= player_members[k].high;
+    if (!is_within && value != player_members[k].other)
+      return &player_members[k];
+  }
+  return NULL;
+}
+
+bool carom_player_is_good(const carom_player *player) {
+  const bool has_range = player->speed_most == 0.0 || player->speed_most >= player->speed_least;
+  return has_range && carom_player_wrong_number(player) == NULL;
 }

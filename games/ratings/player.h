@@ -8,7 +8,9 @@
 
 /* The least and the greatest number of shots of a player's plans. */
 enum { PLAYER_SHOTS_LEAST = 100, PLAYER_SHOTS_MOST = 2000 };
-/* Whether the numbers of a player are within their ranges. */
+/* The first number of a player that is out of its range; NULL: all are within. */
+const carom_number *carom_player_wrong_number(const carom_player *player);
+/* Whether the numbers of a player are within their ranges, and fit together. */
 bool carom_player_is_good(const carom_player *p);
 /* The player with his bounds: 0 becomes the value it represents. */
 carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue);

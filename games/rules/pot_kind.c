@@ -70,12 +70,6 @@ const carom_term *carom_term_of(int k) {
   return &terms[k];
 }
 
-const char *carom_plan_kind_name(carom_plan_kind kind) {
-  if ((int)kind < 0 || (int)kind >= CAROM_PLAN_KINDS)
-    return "";
-  return terms[kind].name;
-}
-
 /* ---- What a shot shows in addition to its pots */
 
 bool carom_is_double_hit(const carom_facts *facts) {

@@ -143,7 +143,7 @@ static void write_choices(int32_t choices, carom_leave leave, char *text, size_t
   size_t size = 0;
   text[0] = '\0';
   for (int32_t choice = 1; choice <= CAROM_CHOICE_SPOT; choice *= 2) {
-    const char *words = carom_game_word_text(CAROM_GAME_WORDS_CHOICE, choice);
+    const char *words = carom_word_text(CAROM_WORDS_CHOICE, choice);
     if (choice == CAROM_CHOICE_SPOT && leave == CAROM_LEAVE_KITCHEN)
       words = "may have the ball nearest to the head string spotted";
     if (choice != CAROM_CHOICE_PLACE && (choices & choice) != 0)
@@ -156,15 +156,20 @@ size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) 
       (uint32_t)ruling->turn.leave > CAROM_LEAVE_BAULK)
     return 0;
   char foul[200] = "", leave[80] = "", choices[200] = "";
-  const char *turn = carom_game_word_text(CAROM_GAME_WORDS_TURN, (int)ruling->turn.outcome);
+  const char *turn = carom_word_text(CAROM_WORDS_TURN, (int)ruling->turn.outcome);
   if (ruling->turn.outcome == CAROM_TURN_PASS && ruling->state.innings == CAROM_LAST_INNING)
     turn = "the other has the equalizing inning";
-  if (ruling->turn.foul != CAROM_FOUL_NONE)
-    snprintf(foul, sizeof foul, "foul: %s; ", carom_foul_string(ruling->turn.foul));
+  if (ruling->turn.foul != CAROM_FOUL_NONE) {
+    /* rules of a caller may have fouls that are not listed */
+    const char *why = carom_word_text(CAROM_WORDS_FOUL, ruling->turn.foul);
+    if (why == NULL)
+      why = carom_word_text(CAROM_WORDS_FOUL, CAROM_FOUL_OTHER);
+    snprintf(foul, sizeof foul, "foul: %s; ", why);
+  }
   if (goes_on(&ruling->turn)) {
     if (ruling->turn.leave != CAROM_LEAVE_AFTER)
       snprintf(leave, sizeof leave, ", %s",
-               carom_game_word_text(CAROM_GAME_WORDS_LEAVE, (int)ruling->turn.leave));
+               carom_word_text(CAROM_WORDS_LEAVE, (int)ruling->turn.leave));
     write_choices(ruling->state.may, ruling->turn.leave, choices, sizeof choices);
   }
   if (text == NULL)

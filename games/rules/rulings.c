@@ -175,13 +175,6 @@ carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
   return CAROM_FOUL_NONE;
 }
 
-const char *carom_foul_string(int foul) {
-  const char *text = carom_game_word_text(CAROM_GAME_WORDS_FOUL, foul);
-  if (text == NULL)
-    return "";
-  return text;
-}
-
 /* ---- Balls that are put back */
 
 /* How far from a ball another one is put next to it, m: a ball of pool is frozen to an object ball

@@ -1,7 +1,7 @@
 /* The words of a game, a row each. The texts of the library, the command, recordings and other
  * languages are made of these rows; the headers have the numbers, and what each means to a caller.
  *
- * WORD(OF, VALUE, word, text): OF is the end of a carom_game_words, CAROM_VALUE the value. The word
+ * WORD(OF, VALUE, word, text): OF is the end of a carom_words, CAROM_VALUE the value. The word
  * is the end of the enumerator's name, so that all languages share it. games.h has those of
  * games. */
 #ifndef CAROM_PLAN_WORDS_H
@@ -86,6 +86,30 @@
   WORD(GOAL, GOAL_HIDDEN, "hidden", "no ball that is on can be hit in a straight line")            \
   WORD(GOAL, GOAL_SNOOKER, "snooker", "other balls are in the way to an edge of the ball")         \
   WORD(GOAL, GOAL_NEAR, "near", "the cue ball rests near the place")                               \
-  WORD(GOAL, GOAL_APART, "apart", "the balls are apart from all others")
+  WORD(GOAL, GOAL_APART, "apart", "the balls are apart from all others")                           \
+  /* kinds of strokes; the texts are the names that players use, as in pot_kind.c */               \
+  WORD(PLAN_KIND, PLAN_POT, "pot", "pot")                                                          \
+  WORD(PLAN_KIND, PLAN_SCAN, "scan", "scan")                                                       \
+  WORD(PLAN_KIND, PLAN_FOUL, "foul", "foul")                                                       \
+  WORD(PLAN_KIND, PLAN_GIVEN, "given", "given")                                                    \
+  WORD(PLAN_KIND, PLAN_PUSH, "push", "push-out")                                                   \
+  WORD(PLAN_KIND, PLAN_PASS, "pass", "pass")                                                       \
+  WORD(PLAN_KIND, PLAN_BREAK, "break", "break")                                                    \
+  WORD(PLAN_KIND, PLAN_BANK, "bank", "bank")                                                       \
+  WORD(PLAN_KIND, PLAN_KICK, "kick", "kick")                                                       \
+  WORD(PLAN_KIND, PLAN_COMBINATION, "combination", "combination")                                  \
+  WORD(PLAN_KIND, PLAN_CAROM, "carom", "carom")                                                    \
+  WORD(PLAN_KIND, PLAN_SAFETY, "safety", "safety")                                                 \
+  WORD(PLAN_KIND, PLAN_KISS, "kiss", "kiss")                                                       \
+  WORD(PLAN_KIND, PLAN_RAIL_FIRST, "rail_first", "rail first")                                     \
+  /* groups of strokes to practise; the texts are their names */                                   \
+  WORD(PRACTICE, PRACTICE_STRAIGHT, "straight", "short straight pot")                              \
+  WORD(PRACTICE, PRACTICE_CUT, "cut", "short cut")                                                 \
+  WORD(PRACTICE, PRACTICE_THIN, "thin", "short thin cut")                                          \
+  WORD(PRACTICE, PRACTICE_LONG_STRAIGHT, "long_straight", "long straight pot")                     \
+  WORD(PRACTICE, PRACTICE_LONG_CUT, "long_cut", "long cut")                                        \
+  WORD(PRACTICE, PRACTICE_LONG_THIN, "long_thin", "long thin cut")                                 \
+  WORD(PRACTICE, PRACTICE_INDIRECT, "indirect", "bank, kick, combination")                         \
+  WORD(PRACTICE, PRACTICE_OTHER, "other", "no pot")
 
 #endif

@@ -188,6 +188,8 @@ static carom_status play_slice(carom_search *search, carom_plan_stroke *choices,
 
 carom_status carom_plan(const carom_plan_job *job, carom_plan_stroke *choices, int room,
                         int *found) {
+  if (found != NULL)
+    *found = 0;
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
   carom_search *search;
@@ -203,6 +205,8 @@ carom_status carom_plan(const carom_plan_job *job, carom_plan_stroke *choices, i
 
 carom_status carom_plan_continue(const carom_plan_job *job, carom_plan_stroke *choices, int room,
                                  int *found) {
+  if (found != NULL)
+    *found = 0;
   if (choices == NULL || found == NULL || room < 1 || !carom_search_is_whole(job))
     return CAROM_ERROR_NULL;
   carom_search *search = place(job);
@@ -216,6 +220,8 @@ carom_status carom_plan_continue(const carom_plan_job *job, carom_plan_stroke *c
 
 carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], const double high[2],
                              carom_plan_stroke *choices, int room, int *found) {
+  if (found != NULL)
+    *found = 0;
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
   carom_search *search;

@@ -105,8 +105,7 @@ bool carom_search_is_whole(const carom_plan_job *job) {
          job->player != NULL && job->rules != NULL;
 }
 
-/* Whether rules have their functions, and numbers that this version knows. */
-static bool good_rules(const carom_plan_rules *rules) {
+bool carom_search_has_good_rules(const carom_plan_rules *rules) {
   if (rules->on == NULL || rules->judge == NULL || rules->left == NULL)
     return false;
   return (uint32_t)rules->breaks <= 2 && (uint32_t)rules->race <= CAROM_RACE_SEATS &&
@@ -122,9 +121,9 @@ static carom_status check_job(const carom_plan_job *job) {
   const carom_plan_options *options = carom_search_options(job->options);
   const bool good_players =
       carom_player_is_good(job->player) && carom_player_is_good(carom_opponent_of(job, options));
-  if (carom_search_check_options(options) != CAROM_OK || !good_players || !good_rules(job->rules) ||
-      (uint64_t)job->leave > CAROM_LEAVE_BAULK || !carom_goal_is_good(job) ||
-      !CAROM_RESERVED_IS_ZERO(job))
+  if (carom_search_check_options(options) != CAROM_OK || !good_players ||
+      !carom_search_has_good_rules(job->rules) || (uint64_t)job->leave > CAROM_LEAVE_BAULK ||
+      !carom_goal_is_good(job) || !CAROM_RESERVED_IS_ZERO(job))
     return CAROM_ERROR_OPTIONS;
   return CAROM_OK;
 }

@@ -17,6 +17,8 @@ size_t carom_search_memory(const carom_plan_options *options, bool searches_leav
 size_t carom_leaves_memory(bool searches);
 /* Whether a job has all that it must point to. */
 bool carom_search_is_whole(const carom_plan_job *job);
+/* Whether rules have their functions, and numbers that this version knows. */
+bool carom_search_has_good_rules(const carom_plan_rules *rules);
 /* Checks a layout, with the cue; and the cue with the stroke of another one. */
 carom_status carom_search_check(carom_search *search, const carom_shot_ball *balls, bool with_cue);
 carom_status carom_search_check_stroke(const carom_search *search, const carom_cue *stroke);

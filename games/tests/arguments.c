@@ -1,4 +1,5 @@
 /* Arguments of plans that are in error. */
+#include "carom_coach.h"
 #include "plan_support.h"
 
 static uint32_t none_is_on(const carom_rules_state *state, uint32_t in_play) {
@@ -13,7 +14,9 @@ static uint32_t none_is_on(const carom_rules_state *state, uint32_t in_play) {
     make_memory();                                                  \
     field = wrong;                                                  \
     memset(&best, 0x55, sizeof best);                               \
+    found = 7;                                                      \
     ck_assert_int_eq(carom_plan(&job, &best, 1, &found), expected); \
+    ck_assert_int_eq(found, 0);                                     \
     for (size_t byte = 0; byte < sizeof best; byte++)               \
       ck_assert_int_eq(((const unsigned char *)&best)[byte], 0x55); \
     edge_free(&memory);                                             \
@@ -89,4 +92,64 @@ TEST(arguments_of_plans) {
   ck_assert_int_eq(carom_plan(&job, NULL, 1, &found), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_plan(NULL, &best, 1, &found), CAROM_ERROR_NULL);
   ck_assert_uint_eq(carom_plan_memory(&(carom_plan_options){.shots = 1}), 0);
+}
+
+/* A rejected number of a job is named, with its value and its range. */
+#define NAMED(field, wrong, words)                                             \
+  do {                                                                         \
+    make_layout(5, 6);                                                         \
+    make_memory();                                                             \
+    field = wrong;                                                             \
+    char text[200], cut[8];                                                    \
+    const size_t size = carom_plan_fault(&job, text, sizeof text);             \
+    ck_assert_str_eq(text, words);                                             \
+    ck_assert_uint_eq(size, strlen(words));                                    \
+    ck_assert_uint_eq(carom_plan_fault(&job, cut, sizeof cut), size);          \
+    ck_assert_mem_eq(cut, text, sizeof cut - 1);                               \
+    ck_assert_uint_eq(carom_plan_fault(&job, NULL, 0), size);                  \
+    carom_plan_stroke best;                                                    \
+    int found;                                                                 \
+    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_ERROR_OPTIONS); \
+    edge_free(&memory);                                                        \
+  } while (0)
+
+TEST(faults_of_plans_are_named) {
+  NAMED(options.shots, 60, "options->shots is 60; it must be 0, or 100 to 1e6");
+  NAMED(options.scan, 0.95, "options->scan is 0.95; it must be at most 0.9");
+  NAMED(options.level, 2, "options->level is 2; it must be 0 to 1");
+  NAMED(options.slice, -1, "options->slice is -1; it must be 0 or more");
+  NAMED(options.reserved[0], 1, "options->reserved[0] must be 0");
+  NAMED(player.phi, -0.1, "player->phi is -0.1; it must be 0 to 1000, in degrees");
+  NAMED(player.eye, 0.5, "player->eye is 0.5; it must be at most 0.01, in m");
+  NAMED(player.shots, 60, "player->shots is 60; it must be 0, or 100 to 2000");
+  NAMED(player.speed_least = 2.0;
+        player.speed_most, 1.0,
+        "player->speed_most is 1; it must be 0, or at least speed_least, which is 2, in m/s");
+  NAMED(rules.race, 9, "rules->race must be one of carom_race");
+  NAMED(rules.judge, NULL, "rules->on, rules->judge and rules->left must be functions, not NULL");
+  NAMED(job.leave, -1, "job->leave must be one of carom_leave");
+  NAMED(job.reserved[0], 1, "job->reserved[0] must be 0");
+  char text[8] = "before";
+  make_layout(5, 6);
+  ck_assert_uint_eq(carom_plan_fault(&job, text, sizeof text), 0);
+  ck_assert_str_eq(text, "");
+  ck_assert_uint_eq(carom_plan_fault(NULL, text, sizeof text), 0);
+}
+
+/* Numbers of what was found are set by every call, also by one that is rejected. */
+TEST(counts_are_set_with_errors) {
+  carom_plan_stroke best;
+  carom_sequence_stroke strokes;
+  int found[5] = {7, 7, 7, 7, 7};
+  ck_assert_int_lt(carom_plan(NULL, &best, 1, &found[0]), 0);
+  ck_assert_int_lt(carom_plan_hand(NULL, NULL, NULL, &best, 1, &found[1]), 0);
+  ck_assert_int_lt(carom_plan_continue(NULL, &best, 1, &found[2]), 0);
+  ck_assert_int_lt(carom_sequence(NULL, 0, 0.1, &strokes, 1, &found[3]), 0);
+  ck_assert_int_lt(carom_sequence_continue(NULL, &found[4]), 0);
+  for (int k = 0; k < 5; k++)
+    ck_assert_int_eq(found[k], 0);
+  carom_shot_way way;
+  carom_ways_result result = {.ways = 7, .left_out = 7};
+  ck_assert_int_lt(carom_ways(NULL, &way, 1, &result), 0);
+  ck_assert(result.ways == 0 && result.left_out == 0);
 }

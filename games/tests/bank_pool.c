@@ -59,7 +59,7 @@ TEST(rulings_and_kinds_agree) {
     const int kind = carom_pot_kind(&played, 0, ball, call.pocket);
     const bool banked = kind == CAROM_PLAN_BANK && ruling.turn.foul == CAROM_FOUL_NONE;
     ck_assert_msg(kind == CAROM_PLAN_KISS || (ruling.turn.points == 1.0) == banked,
-                  "%.2f degrees: a %s", cue.phi, carom_plan_kind_name((carom_plan_kind)kind));
+                  "%.2f degrees: a %s", cue.phi, carom_word_text(CAROM_WORDS_PLAN_KIND, kind));
     banks += banked;
     rubs += kind == CAROM_PLAN_POT && facts.rails[ball] != 0;
   }

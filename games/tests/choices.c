@@ -285,7 +285,7 @@ TEST(leave_and_not_a_bound) {
       expect_ok(carom_plan_hand(&job, low, high, &best[k], 1, &found));
       ck_assert_msg(best[k].kind == best[0].kind && best[k].ball == best[0].ball,
                     "leave %d, bound %d: %s of ball %d", (int)job.leave, k,
-                    carom_plan_kind_name((carom_plan_kind)best[k].kind), best[k].ball);
+                    carom_word_text(CAROM_WORDS_PLAN_KIND, best[k].kind), best[k].ball);
       ck_assert_double_eq_tol(best[k].cue.phi, best[0].cue.phi, 0.1);
       ck_assert_double_eq_tol(best[k].value, best[0].value, 0.01);
     }

@@ -68,13 +68,13 @@ TEST(tables_are_checked) {
       take_out(&t, part);
       const carom_status status = carom_table_check(&t, R, &fault);
       ck_assert_msg(status == CAROM_OK || status == CAROM_ERROR_TABLE_OPEN,
-                    "%s without part %d: %s", carom_table_name((carom_table_kind)kind), part,
+                    "%s without part %d: %s", carom_word(CAROM_WORDS_TABLE, kind), part,
                     carom_status_name(status));
       int met;
       const int lost = lost_balls(&t, R, -1, kind == CAROM_TABLE_POOL_9FT ? 1000 : 100, &r, &met);
       ck_assert_msg(status == CAROM_ERROR_TABLE_OPEN || lost == 0,
                     "%s without part %d: %d balls are lost, and it is ok",
-                    carom_table_name((carom_table_kind)kind), part, lost);
+                    carom_word(CAROM_WORDS_TABLE, kind), part, lost);
       /* a long rail is a hole as wide as itself but for its jaws */
       if (part < sound.rails) {
         const carom_rail *rail = &sound.rail[part];
@@ -104,7 +104,7 @@ TEST(tables_are_checked) {
       }
       ck_assert_msg(status == CAROM_ERROR_RAIL_SIDE && fault.part.kind == CAROM_PART_RAIL &&
                         fault.part.index == k,
-                    "%s, rail %d turned: %s", carom_table_name((carom_table_kind)kind), k,
+                    "%s, rail %d turned: %s", carom_word(CAROM_WORDS_TABLE, kind), k,
                     carom_status_name(status));
       for (int c = 0; c < 2; c++)
         ck_assert_double_eq(fault.place[c], 0.5 * (t.rail[k].p[c] + t.rail[k].q[c]));
@@ -543,8 +543,8 @@ TEST(turns_agree_with_steps) {
       const double kink =
           at + fabs(side) / (2.5 * ball.kind.mu_spin * ball.kind.gravity / ball.kind.radius);
       double from[1][4], to[1][4], q[4];
-      carom_shot_orientation(&ball, 1, &shot, at, from);
-      carom_shot_orientation(&ball, 1, &shot, end, to);
+      carom_shot_frames(&ball, 1, &shot, &at, 1, NULL, NULL, from);
+      carom_shot_frames(&ball, 1, &shot, &end, 1, NULL, NULL, to);
       memcpy(q, from[0], sizeof q);
       const double cut = kink > at && kink < end ? kink : end;
       by_steps(&ball, 1, &shot, 0, at, cut, q);
@@ -578,7 +578,7 @@ static void expect_turns(const carom_ball_state *start, double end, double step,
     carom_ball_state now;
     double q[1][4];
     expect_ok(carom_shot_at(&ball, 1, &shot, time, &now));
-    expect_ok(carom_shot_orientation(&ball, 1, &shot, time, q));
+    expect_ok(carom_shot_frames(&ball, 1, &shot, &time, 1, NULL, NULL, q));
     const turn known = closed_form(time, &now);
     const double sine = sin(0.5 * known.angle);
     const double expected[4] = {cos(0.5 * known.angle), known.axis[0] * sine, known.axis[1] * sine,
@@ -634,7 +634,7 @@ static void same_frames(const carom_shot_ball *balls, const carom_shot *shot, co
   expect_ok(carom_shot_frames(balls, 16, shot, times, many, film, frames[0], turned[0]));
   for (size_t k = 0; k < many; k++) {
     expect_ok(carom_shot_at(balls, 16, shot, times[k], one));
-    expect_ok(carom_shot_orientation(balls, 16, shot, times[k], q));
+    expect_ok(carom_shot_frames(balls, 16, shot, &times[k], 1, NULL, NULL, q));
     ck_assert(memcmp(one, frames[k], sizeof one) == 0 && memcmp(q, turned[k], sizeof q) == 0);
   }
 }
@@ -733,12 +733,12 @@ TEST(sources) {
 /* ---- Names */
 
 TEST(names) {
-  ck_assert_str_eq(carom_event_name(CAROM_EVENT_POCKET), "ball_pocket");
-  ck_assert_str_eq(carom_event_name(CAROM_EVENT_RAIL_TOP), "rail_top");
-  ck_assert_str_eq(carom_label_name(CAROM_BALL_ROLLING), "rolling");
-  ck_assert_str_eq(carom_table_name(CAROM_TABLE_POOL_9FT), "9ft");
-  ck_assert_ptr_null(carom_table_name((carom_table_kind)TABLES));
-  ck_assert_str_eq(carom_rack_name(CAROM_RACK_EIGHTBALL), "eightball");
+  ck_assert_str_eq(carom_word(CAROM_WORDS_EVENT, CAROM_EVENT_POCKET), "ball_pocket");
+  ck_assert_str_eq(carom_word(CAROM_WORDS_EVENT, CAROM_EVENT_RAIL_TOP), "rail_top");
+  ck_assert_str_eq(carom_word(CAROM_WORDS_LABEL, CAROM_BALL_ROLLING), "rolling");
+  ck_assert_str_eq(carom_word(CAROM_WORDS_TABLE, CAROM_TABLE_POOL_9FT), "9ft");
+  ck_assert_ptr_null(carom_word(CAROM_WORDS_TABLE, TABLES));
+  ck_assert_str_eq(carom_word(CAROM_WORDS_RACK, CAROM_RACK_EIGHTBALL), "eightball");
 
   /* rails and pockets of rectangles only, whatever the numbers of parts */
   static const carom_corner bent[6] = {{0, 0, 0.13},  {2.4, 0, 0.13},   {2.4, 1.3, 0.13},

@@ -64,9 +64,10 @@ static inline void forget_refusal(carom_match *target) {
 static inline void check_refusal(const char *title, carom_status status, const char *name,
                                  const char *words) {
   ck_assert_int_eq(status, CAROM_ERROR_ACT);
-  ck_assert_msg(strcmp(carom_refusal_name(match.refusal), name) == 0 &&
+  ck_assert_msg(strcmp(carom_word(CAROM_WORDS_REFUSAL, (int)match.refusal), name) == 0 &&
                     strstr(match.fault, words) != NULL,
-                "%s: %s: %s", title, carom_refusal_name(match.refusal), match.fault);
+                "%s: %s: %s", title, carom_word(CAROM_WORDS_REFUSAL, (int)match.refusal),
+                match.fault);
   ck_assert_int_eq(match.size, 0);
   reader = match;
   forget_refusal(&before);

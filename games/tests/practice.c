@@ -113,6 +113,7 @@ TEST(strokes_without_a_pot_have_no_aim) {
   rules = carom_plan_rules_of(CAROM_RULES_POTTING);
   ck_assert_int_eq(carom_review_of(&job, &away, (carom_call){-1, -1}, &review),
                    CAROM_ERROR_OPTIONS);
-  ck_assert_str_eq(carom_practice_name(CAROM_PRACTICE_LONG_THIN), "long thin cut");
-  ck_assert_str_eq(carom_practice_name((carom_practice)99), "");
+  ck_assert_str_eq(carom_word_text(CAROM_WORDS_PRACTICE, CAROM_PRACTICE_LONG_THIN),
+                   "long thin cut");
+  ck_assert_ptr_null(carom_word_text(CAROM_WORDS_PRACTICE, 99));
 }

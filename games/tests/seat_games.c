@@ -33,7 +33,7 @@ static void tell(int number, const carom_plan_stroke *stroke) {
   carom_ruling_string(&match.ruling, words, sizeof words);
   carom_match_string(&match, who, sizeof who);
   printf("%d. %s ball %d value %.2f; met %d,%d down %x: %s; points %g; %s:", number,
-         carom_plan_kind_name((carom_plan_kind)stroke->kind), stroke->ball, stroke->value,
+         carom_word_text(CAROM_WORDS_PLAN_KIND, stroke->kind), stroke->ball, stroke->value,
          match.ruling.facts.first[0], match.ruling.facts.first[1], match.ruling.facts.down, words,
          match.ruling.turn.points, who);
   carom_standing standing;

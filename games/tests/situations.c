@@ -23,15 +23,15 @@ typedef struct situation {
 /* Words of the library instead of numbers; those of choices are positions of their bits. */
 enum words {
   NO_WORDS,
-  TURNS = CAROM_GAME_WORDS_TURN + 1,
-  LEAVES = CAROM_GAME_WORDS_LEAVE + 1,
-  FOULS = CAROM_GAME_WORDS_FOUL + 1,
-  CHOICES = CAROM_GAME_WORDS_CHOICE + 1,
-  PHASES = CAROM_GAME_WORDS_PHASE + 1
+  TURNS = CAROM_WORDS_TURN + 1,
+  LEAVES = CAROM_WORDS_LEAVE + 1,
+  FOULS = CAROM_WORDS_FOUL + 1,
+  CHOICES = CAROM_WORDS_CHOICE + 1,
+  PHASES = CAROM_WORDS_PHASE + 1
 };
 
 static const char *word_of(enum words words, int k) {
-  return carom_game_word((carom_game_words)(words - 1), words == CHOICES ? 1 << k : k);
+  return carom_word((carom_words)(words - 1), words == CHOICES ? 1 << k : k);
 }
 
 typedef enum form { NUMBER, PAIR, SET, WORDS_FORM, SEATS, SETS } form;

@@ -153,7 +153,7 @@ static void compare(int number, int ball, int least, int *windows, int *listed) 
     *listed += outcome;
     if (!outcome)
       printf("ball %d to pocket %d by %s, %.1f m/s, %.2f to %.2f degrees: not listed\n", ball,
-             pocket[k], carom_plan_kind_name((carom_plan_kind)kind[k]), stroke[number].speed, low,
+             pocket[k], carom_word_text(CAROM_WORDS_PLAN_KIND, kind[k]), stroke[number].speed, low,
              high);
   }
 }
@@ -189,9 +189,9 @@ TEST(a_pot_has_one_name) {
       const int read = kind_of(&shot, w->ball, w->pocket);
       ck_assert_msg(w->kind == planned && w->kind == read,
                     "layout %d, ball %d at %.3f degrees: ways %s, planner %s, here %s", layout,
-                    w->ball, w->cue.phi, carom_plan_kind_name((carom_plan_kind)w->kind),
-                    carom_plan_kind_name((carom_plan_kind)planned),
-                    carom_plan_kind_name((carom_plan_kind)read));
+                    w->ball, w->cue.phi, carom_word_text(CAROM_WORDS_PLAN_KIND, w->kind),
+                    carom_word_text(CAROM_WORDS_PLAN_KIND, planned),
+                    carom_word_text(CAROM_WORDS_PLAN_KIND, read));
       of_kind[w->kind]++;
       all++;
     }
@@ -199,7 +199,7 @@ TEST(a_pot_has_one_name) {
   printf("%d ways", all);
   for (int kind = 0; kind < CAROM_PLAN_KINDS; kind++)
     if (of_kind[kind] > 0)
-      printf(", %s %d", carom_plan_kind_name((carom_plan_kind)kind), of_kind[kind]);
+      printf(", %s %d", carom_word_text(CAROM_WORDS_PLAN_KIND, kind), of_kind[kind]);
   puts("");
   ck_assert(of_kind[CAROM_PLAN_POT] > 0 && of_kind[CAROM_PLAN_BANK] > 0 &&
             of_kind[CAROM_PLAN_KICK] > 0 && of_kind[CAROM_PLAN_COMBINATION] > 0 &&

@@ -79,13 +79,15 @@ def places(shape, balls, times):
     states, within = np.empty((len(times), len(balls)), STATE), np.ascontiguousarray(times)
     failed = LIBRARY.carom_shoot(
         reference(shape), balls, len(balls), None, reference(options), reference(shot)
-    ) or LIBRARY.carom_shot_at_times(
+    ) or LIBRARY.carom_shot_frames(
         balls,
         len(balls),
         reference(shot),
         np.clip(within, 0, shot.time).ctypes.data_as(ctypes.c_void_p),
         ctypes.c_size_t(len(times)),
+        None,
         states.ctypes.data_as(ctypes.c_void_p),
+        None,
     )
     return None if failed else states["r"][:, :, :2]
 

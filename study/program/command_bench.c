@@ -121,7 +121,7 @@ static const char *isa_of(const workload *w) {
     return "scalar";
   if (w->kernel->is_rung)
     return ladder_isa_name(ladder_rung_find(w->kernel->name)->isa);
-  return carom_isa_name(w->isa);
+  return carom_word(CAROM_WORDS_ISA, (int)w->isa);
 }
 
 static const char *precision_of(const workload *w) {
@@ -239,7 +239,8 @@ static bool verify(workload *w, const char *folder, bool *good) {
   if (*good && kernel_takes_steps(w->kernel) && steps != claim->steps)
     *good = verify_other_steps(w);
   char name[64];
-  snprintf(name, sizeof name, "reference-exact-%s.csv", carom_slip_name(w->options.slip));
+  snprintf(name, sizeof name, "reference-exact-%s.csv",
+           carom_word(CAROM_WORDS_SLIP, (int)w->options.slip));
   return compare_file(w, folder, name, &w->exact);
 }
 
@@ -380,7 +381,7 @@ static bool wants_claim(const bench_job *job, const kernel *candidate, const ker
       return false;
   if (job->slips.count == 0)
     return claim == candidate->claims;
-  return names(&job->slips, carom_slip_name(claim->slip));
+  return names(&job->slips, carom_word(CAROM_WORDS_SLIP, (int)claim->slip));
 }
 
 static bool add_config(const bench_job *job, const kernel *candidate, const char *config) {
@@ -422,7 +423,7 @@ static bool wants_form(const bench_job *job, const kernel *candidate) {
   if (!is_rung_of_lanes(candidate))
     return !job->batch && (job->isas.count == 0 || names(&job->isas, "scalar"));
   const char *isa = ladder_isa_name(ladder_rung_find(candidate->name)->isa);
-  const char *best = carom_isa_name(carom_isa_in_force());
+  const char *best = carom_word(CAROM_WORDS_ISA, (int)carom_isa_in_force());
   return job->isas.count == 0 || names(&job->isas, isa) ||
          (names(&job->isas, "best") && same_text(best, isa));
 }
@@ -463,8 +464,9 @@ static bool isa_is_here(carom_isa isa) {
 }
 
 static bool wants_isa(const bench_job *job, carom_isa isa) {
-  return isa_is_here(isa) && (job->isas.count == 0 || names(&job->isas, carom_isa_name(isa)) ||
-                              (isa == carom_isa_in_force() && names(&job->isas, "best")));
+  return isa_is_here(isa) &&
+         (job->isas.count == 0 || names(&job->isas, carom_word(CAROM_WORDS_ISA, (int)isa)) ||
+          (isa == carom_isa_in_force() && names(&job->isas, "best")));
 }
 
 /* Solvers with steps cost a batch as much as thousands of the others, so they must be requested. */
@@ -510,7 +512,7 @@ static void add_all_batches(bench_job *job) {
   to_single(timing.tiled, timing.tiled_f32, rows * sizeof *timing.tiled / sizeof(double));
   const kernel *candidate;
   for (size_t k = 0; (candidate = kernel_at(k)) != NULL; k++)
-    for (int isa = 0; carom_isa_name((carom_isa)isa) != NULL && wants_batches(job, candidate);
+    for (int isa = 0; carom_word(CAROM_WORDS_ISA, isa) != NULL && wants_batches(job, candidate);
          isa++)
       for (const kernel_claim *claim = candidate->claims;
            claim->reference != NULL && wants_isa(job, (carom_isa)isa); claim++)
@@ -528,7 +530,7 @@ static bool is_reference(const workload *w) {
 }
 
 static bool add_references(void) {
-  const char *name = carom_solver_name(CAROM_SOLVER_EULER);
+  const char *name = carom_word(CAROM_WORDS_SOLVER, CAROM_SOLVER_EULER);
   if (ladder_module_name(0) != NULL)
     name = ladder_rung_at(0)->name;
   timing.reference = kernel_find(name);
@@ -708,7 +710,7 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
     if (w == NULL)
       fputs(columns[k].name, out);
     else if (columns[k].format == NULL)
-      fputs(carom_slip_name(w->options.slip), out);
+      fputs(carom_word(CAROM_WORDS_SLIP, (int)w->options.slip), out);
     else if (isnan(columns[k].x))
       fputs("NA", out);
     else
@@ -851,10 +853,10 @@ static bool is_kernel(const option_row *row, char *word) {
 static bool is_isa(const option_row *row, char *word) {
   char known[128] = "scalar, best";
   bool good = same_text(word, "scalar") || same_text(word, "best");
-  for (int isa = 0; carom_isa_name((carom_isa)isa) != NULL; isa++)
+  for (int isa = 0; carom_word(CAROM_WORDS_ISA, isa) != NULL; isa++)
     if (isa_is_here((carom_isa)isa)) {
-      good |= same_text(word, carom_isa_name((carom_isa)isa));
-      strcat(strcat(known, ", "), carom_isa_name((carom_isa)isa));
+      good |= same_text(word, carom_word(CAROM_WORDS_ISA, isa));
+      strcat(strcat(known, ", "), carom_word(CAROM_WORDS_ISA, isa));
     }
   if (!is_name(row, word) || good)
     return good;
@@ -873,10 +875,10 @@ static OPTION_SET(set_isas) {
 }
 static bool is_slip(const option_row *row, char *word) {
   char known[64] = "";
-  for (int slip = 0; carom_slip_name((carom_slip)slip) != NULL; slip++) {
-    if (same_text(word, carom_slip_name((carom_slip)slip)))
+  for (int slip = 0; carom_word(CAROM_WORDS_SLIP, slip) != NULL; slip++) {
+    if (same_text(word, carom_word(CAROM_WORDS_SLIP, slip)))
       return true;
-    strcat(strcat(known, slip > 0 ? ", " : ""), carom_slip_name((carom_slip)slip));
+    strcat(strcat(known, slip > 0 ? ", " : ""), carom_word(CAROM_WORDS_SLIP, slip));
   }
   if (is_name(row, word))
     complain("no slip '%s'; there are %s", word, known);

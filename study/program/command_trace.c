@@ -53,8 +53,8 @@ static void write_notes(FILE *out, const trace_job *job, const carom_impact *in,
           "# collision: %s\n# slip: %s\n# steps: %d\n# friction between the balls: %.3g\n"
           "# friction of the cloth: %.3g and %.3g\n# restitution: %.3g\n"
           "# compression ends: %.6g\n# the balls stick: %.6g\n",
-          job->id, carom_slip_name(job->shared.options.slip), job->shared.options.steps,
-          in->mu_ball, in->a.mu_slide, in->b.mu_slide, in->restitution,
+          job->id, carom_word(CAROM_WORDS_SLIP, (int)job->shared.options.slip),
+          job->shared.options.steps, in->mu_ball, in->a.mu_slide, in->b.mu_slide, in->restitution,
           end_of_compression(exact, job->points), detail.stick_normal);
 }
 
@@ -70,7 +70,7 @@ static int write_traces(const trace_job *job, const carom_impact *in) {
     const carom_status status = carom_trace(in, &options, n, &point[(size_t)k * n]);
     if (status == CAROM_OK)
       continue;
-    complain("id '%s', %s: %s (%s)", job->id, carom_solver_name(options.solver),
+    complain("id '%s', %s: %s (%s)", job->id, carom_word(CAROM_WORDS_SOLVER, (int)options.solver),
              carom_status_string(status), carom_status_name(status));
     code = EXIT_USAGE;
   }
@@ -84,7 +84,7 @@ static int write_traces(const trace_job *job, const carom_impact *in) {
           "b_y_m_s,v1_x_m_s,v1_y_m_s,v2_x_m_s,v2_y_m_s," RESULT_COLUMNS "\n",
           out);
     for (size_t k = 0; k < 2 * n; k++)
-      write_point(out, in, carom_solver_name(solvers[k / n]), &point[k]);
+      write_point(out, in, carom_word(CAROM_WORDS_SOLVER, (int)solvers[k / n]), &point[k]);
   }
   free(point);
   if (out == NULL || !output_commit())

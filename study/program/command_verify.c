@@ -73,11 +73,11 @@ static void print_claim(const verification *v, const kernel *candidate, const la
                         const comparison *c, const accuracy_summary *s) {
   char lanes[32] = "";
   if (module == NULL && v->way != SINGLE_CALLS)
-    snprintf(lanes, sizeof lanes, "-%s", carom_isa_name((carom_isa)v->way));
+    snprintf(lanes, sizeof lanes, "-%s", carom_word(CAROM_WORDS_ISA, v->way));
   fprintf(v->rows, "%s,%s%s,%s,%d,%s,%zu,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g,%zu,%zu,%zu",
-          candidate->name, config_name(module), lanes, carom_slip_name(c->slip), c->steps,
-          c->reference, s->cases, c->refused, s->identical, s->mean, s->median, s->p99, s->max,
-          c->bound, s->component_1e3, s->component_1e2, s->strict_1e3);
+          candidate->name, config_name(module), lanes, carom_word(CAROM_WORDS_SLIP, (int)c->slip),
+          c->steps, c->reference, s->cases, c->refused, s->identical, s->mean, s->median, s->p99,
+          s->max, c->bound, s->component_1e3, s->component_1e2, s->strict_1e3);
   print_count(v->rows, candidate, c->steps, count_1e3);
   fprintf(v->rows, ",%zu", s->strict_1e2);
   print_count(v->rows, candidate, c->steps, count_1e2);
@@ -124,7 +124,7 @@ static void tell_solver(verification *v, const kernel *candidate, const comparis
   if (c->bound > 0.0)
     snprintf(v->parity + used, sizeof v->parity - used,
              "%s, %s slip: pair error against %s at most %.2g\n", candidate->name,
-             carom_slip_name(c->slip), c->reference, s->max);
+             carom_word(CAROM_WORDS_SLIP, (int)c->slip), c->reference, s->max);
   else
     snprintf(v->parity + used, sizeof v->parity - used,
              "%s: %zu of %zu cases bit-identical to %s\n", candidate->name, s->identical, s->cases,

@@ -372,6 +372,17 @@ namespace Carom {
           status);
     }
 
+    /// <summary>Checks the status of a plan; an exception names the rejected member of its job.</summary>
+    internal static Status Check(Status status, PlanJob *job) {
+      if (status != Status.ErrorOptions)
+        return Check(status);
+      byte *text = stackalloc byte[200];
+      Native.carom_plan_fault(job, text, (UIntPtr)200);
+      if (text[0] == 0)
+        return Check(status);
+      throw new CaromException(Text(text), status);
+    }
+
     internal static ShotBall[] Copy(ShotBall *from, long count) {
       var to = new ShotBall[count];
       for (long k = 0; k < count; k++)

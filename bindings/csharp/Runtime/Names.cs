@@ -6,15 +6,15 @@ using System.Text;
 namespace Carom {
   /// <summary>Names of the values of an enumeration: "9-ball" is RulesKind.Nineball.</summary>
   public static unsafe partial class Names {
-    /// More values than any enumeration has. Some have gaps, or begin at 1.
-    const int ValuesMost = 64;
+    /// More values than any enumeration has, with gaps; then come the flags of Choice.
+    const int ValuesMost = 64, FlagMost = 1 << 16;
 
     /// <summary>The names of an enumeration, in the order of its values.</summary>
     public static List<string> Of<T>()
         where T : struct {
       var kind = KindOf<T>();
       var names = new List<string>();
-      for (int value = 0; value < ValuesMost; value++) {
+      for (int value = 0; value <= FlagMost; value = value < ValuesMost ? value + 1 : 2 * value) {
         var name = Calls.Word(kind, value);
         if (name != null)
           names.Add(name);

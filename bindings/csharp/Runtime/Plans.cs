@@ -191,10 +191,10 @@ namespace Carom {
         get { lock (all) return rules != null && rules.failures != before ? rules.failure : null; }
       }
 
-      internal Status Check(Status status) {
+      internal Status Check(Status status, PlanJob *job = null) {
         if (Failure != null)
           ExceptionDispatchInfo.Capture(Failure).Throw();
-        return Billiards.Check(status);
+        return Billiards.Check(status, job);
       }
     }
   }
@@ -249,7 +249,7 @@ namespace Carom {
     public PlanStroke[] Chances(Cue[] cues) {
       var told = new PlanStroke[cues.Length];
       using (var held = new Held(this, 0)) fixed(Cue * of = cues) fixed(PlanStroke * to = told)
-          held.Rules.Check(Native.carom_plan_try(held.Job, of, cues.Length, to));
+          held.Rules.Check(Native.carom_plan_try(held.Job, of, cues.Length, to), held.Job);
       return told;
     }
 
@@ -257,7 +257,7 @@ namespace Carom {
     public double Value(bool inHand = false) {
       double value;
       using (var held = new Held(this, 0))
-          held.Rules.Check(Native.carom_plan_value(held.Job, inHand ? 1 : 0, &value));
+          held.Rules.Check(Native.carom_plan_value(held.Job, inHand ? 1 : 0, &value), held.Job);
       return value;
     }
   }
@@ -287,8 +287,10 @@ namespace Carom {
       options.opponent = null;
       options.slice = slice;
       var memory = Native.carom_plan_memory(&options);
-      if (memory == UIntPtr.Zero)
-        Billiards.Check(Status.ErrorOptions);
+      if (memory == UIntPtr.Zero) {
+        var rejected = new PlanJob { options = &options };
+        Billiards.Check(Status.ErrorOptions, &rejected);
+      }
       long balls = (sizeof(Parts) + 15) / 16 * 16,
            room = balls + ((long)sizeof(ShotBall) * of.Balls.Length + 15) / 16 * 16;
       parts = (Parts *)Marshal.AllocHGlobal((IntPtr)(room + (long)memory));
@@ -367,7 +369,7 @@ namespace Carom {
       }
       begun = true;
       Ended = status < 0 || found > 0 || held.Rules.Failure != null;
-      held.Rules.Check(status);
+      held.Rules.Check(status, held.Job);
       Choices = new PlanStroke[found];
       Array.Copy(room, Choices, found);
       return Ended;

@@ -91,7 +91,3 @@ const char *carom_cushion_field_name(int field) {
     return NULL;
   return names[field];
 }
-
-const char *carom_cushion_model_name(carom_cushion_model model) {
-  return carom_word(CAROM_WORDS_CUSHION_MODEL, (int)model);
-}

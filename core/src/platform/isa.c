@@ -128,17 +128,6 @@ int carom_isa_available(carom_isa isa) {
   return (int)isa >= 0 && isa < CAROM_ISA_COUNT && built[isa] && processor_has(isa);
 }
 
-const char *carom_isa_name(carom_isa isa) {
-  static const char *const names[] = {[CAROM_ISA_PLAIN] = "plain",
-                                      [CAROM_ISA_SSE2] = "sse2",
-                                      [CAROM_ISA_NEON] = "neon",
-                                      [CAROM_ISA_AVX2] = "avx2",
-                                      [CAROM_ISA_AVX512] = "avx512"};
-  if ((int)isa < 0 || isa >= CAROM_ISA_COUNT)
-    return NULL;
-  return names[isa];
-}
-
 /* The best set that is available and not above `limit`: sets of one processor family are listed
  * from low to high. */
 static carom_isa best_up_to(carom_isa limit) {
@@ -155,7 +144,7 @@ static carom_isa from_environment(void) {
   const char *name = getenv("CAROM_ISA");
 #endif
   for (int isa = 0; name != NULL && isa < CAROM_ISA_COUNT; isa++)
-    if (strcmp(name, carom_isa_name((carom_isa)isa)) == 0)
+    if (strcmp(name, carom_word(CAROM_WORDS_ISA, isa)) == 0)
       return best_up_to((carom_isa)isa);
   return best_up_to((carom_isa)(CAROM_ISA_COUNT - 1));
 }

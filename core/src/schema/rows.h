@@ -6,6 +6,7 @@
 #include "carom_shot.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -55,5 +56,10 @@ typedef struct carom_upper_rows {
 } carom_upper_rows;
 
 extern const carom_upper_rows carom_upper_schema;
+
+/* The start of a fit of recorded shots for a model of the cushion: writes the restitution_cushion,
+ * mu_cushion and nose_height that the model needs for single impacts on the table of
+ * CAROM_GAME_BILLIARD; false, with nothing written, if the model has no such start. */
+bool carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind);
 
 #endif

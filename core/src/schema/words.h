@@ -86,6 +86,11 @@
   WORD(SOLVER, SOLVER_EULER, "euler", "N steps of equal impulse")                                  \
   WORD(SOLVER, SOLVER_FAST, "fast", "exact in less time, but not smooth")                          \
   WORD(SLIP, SLIP_PAPER, "paper", "that of the 2014 paper")                                        \
-  WORD(SLIP, SLIP_POOLTOOL, "pooltool", "that of pooltool")
+  WORD(SLIP, SLIP_POOLTOOL, "pooltool", "that of pooltool")                                        \
+  WORD(ISA, ISA_PLAIN, "plain", "plain C, on every processor")                                     \
+  WORD(ISA, ISA_SSE2, "sse2", "x86-64: 2 doubles at a time")                                       \
+  WORD(ISA, ISA_NEON, "neon", "arm64: 2 doubles at a time")                                        \
+  WORD(ISA, ISA_AVX2, "avx2", "x86-64: 4 doubles at a time")                                       \
+  WORD(ISA, ISA_AVX512, "avx512", "x86-64: 8 doubles at a time")
 
 #endif

@@ -203,12 +203,15 @@ static bool find_states(replay *state, double *left, carom_ball_state *states,
     replayed *ball = &state->ball[i];
     if (!go_along(state, ball, state->time, left))
       return false;
-    carom_path_at(&ball->path, &ball->rates, state->time, &states[i]);
+    carom_ball_state now;
+    carom_path_at(&ball->path, &ball->rates, state->time, &now);
     double size = 0.0;
     for (int axis = 0; axis < 3; axis++)
-      size += fabs(states[i].r[axis]) + fabs(states[i].v[axis]) + fabs(states[i].w[axis]);
+      size += fabs(now.r[axis]) + fabs(now.v[axis]) + fabs(now.w[axis]);
     if (!(size < INFINITY))
       return false;
+    if (states != NULL)
+      states[i] = now;
     if (turned != NULL)
       carom_turning_at(&ball->turning, state->time, turned[i]);
   }
@@ -257,14 +260,16 @@ static bool has_moving_ball(const replay *state) {
   return false;
 }
 
-/* One frame, whose states and turns go to the positions given; turned may be NULL. */
+/* One frame, whose states and turns go to the positions given; one of both may be NULL. A film
+ * always follows the turns, which its next frame may need. */
 static carom_status show_frame(replay *state, const shown_shot *shown, double time, double *left,
                                carom_ball_state *states, double (*turned)[4]) {
   const double end = shown->shot->time;
   const carom_status status = check_time(shown, time);
   if (status != CAROM_OK)
     return status;
-  const bool found = show(state, shown, turned != NULL, carom_lesser(time, end), left);
+  const bool found =
+      show(state, shown, turned != NULL || shown->keep != NULL, carom_lesser(time, end), left);
   if (time > end && has_moving_ball(state))
     return CAROM_ERROR_TIME;
   if (found && find_states(state, left, states, turned))
@@ -273,13 +278,14 @@ static carom_status show_frame(replay *state, const shown_shot *shown, double ti
   return CAROM_ERROR_UNRESOLVED;
 }
 
-/* The frames of a shot, onward from those before where `state` is of the same shot; `keep` and
- * turned may be NULL. */
+/* The frames of a shot, onward from those before where `state` is of the same shot; `keep`
+ * and one of states and turned may be NULL. */
 static carom_status replay_times(const carom_shot_ball *balls, int count, const carom_shot *shot,
                                  const double *times, size_t n, replay *state,
                                  const keyframes *keep, carom_ball_state *states,
                                  double (*turned)[4]) {
-  if (balls == NULL || shot == NULL || (n > 0 && (times == NULL || states == NULL)))
+  if (balls == NULL || shot == NULL ||
+      (n > 0 && (times == NULL || (states == NULL && turned == NULL))))
     return CAROM_ERROR_NULL;
   carom_status status = carom_check_room(shot);
   if (status == CAROM_OK && (count < 1 || count > CAROM_BALLS_MOST))
@@ -291,29 +297,20 @@ static carom_status replay_times(const carom_shot_ball *balls, int count, const 
   double left = most_steps;
   for (size_t k = 0; k < n && status == CAROM_OK; k++) {
     const size_t first = k * (size_t)count;
-    status = show_frame(state, &shown, times[k], &left, &states[first],
+    status = show_frame(state, &shown, times[k], &left, states != NULL ? &states[first] : NULL,
                         turned != NULL ? &turned[first] : NULL);
   }
   return status;
 }
 
-carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const carom_shot *shot,
-                                 const double *times, size_t n, carom_ball_state *states) {
-  replay state;
-  state.count = 0;
-  return replay_times(balls, count, shot, times, n, &state, NULL, states, NULL);
-}
-
 carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot,
                            double time, carom_ball_state *states) {
-  return carom_shot_at_times(balls, count, shot, &time, 1, states);
+  return carom_shot_frames(balls, count, shot, &time, 1, NULL, states, NULL);
 }
 
 carom_status carom_shot_frames(const carom_shot_ball *balls, int count, const carom_shot *shot,
                                const double *times, size_t n, carom_frames *onward,
                                carom_ball_state *states, double (*turned)[4]) {
-  if (n > 0 && turned == NULL)
-    return CAROM_ERROR_NULL;
   replay state;
   state.count = 0;
   const bool sound = onward != NULL && balls != NULL && count > 0 && count <= CAROM_BALLS_MOST &&
@@ -342,10 +339,4 @@ carom_status carom_shot_frames(const carom_shot_ball *balls, int count, const ca
     memcpy(&store->current, &state, size_of(state.count));
   }
   return status;
-}
-
-carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, const carom_shot *shot,
-                                    double time, double (*turned)[4]) {
-  carom_ball_state states[CAROM_BALLS_MOST];
-  return carom_shot_frames(balls, count, shot, &time, 1, NULL, states, turned);
 }

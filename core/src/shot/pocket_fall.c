@@ -254,7 +254,7 @@ carom_status carom_shot_falls(const carom_table *table, const carom_shot_ball *b
                               carom_ball_state *states) {
   if (table == NULL || (n > 0 && (times == NULL || states == NULL)))
     return CAROM_ERROR_NULL;
-  const carom_status status = carom_shot_at_times(balls, count, shot, NULL, 0, NULL);
+  const carom_status status = carom_shot_frames(balls, count, shot, NULL, 0, NULL, NULL, NULL);
   if (status < 0)
     return status;
   for (size_t instant = 0; instant < n; instant++)
@@ -298,7 +298,7 @@ carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *b
                               carom_ball_state *states) {
   if (table == NULL)
     return CAROM_ERROR_NULL;
-  const carom_status status = carom_shot_at_times(balls, count, shot, times, n, states);
+  const carom_status status = carom_shot_frames(balls, count, shot, times, n, NULL, states, NULL);
   if (status < 0)
     return status;
   return carom_shot_falls(table, balls, count, shot, times, n, states);

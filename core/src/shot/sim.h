@@ -205,6 +205,13 @@ void carom_answer_of_slate(const carom_ball_kind *kind, const carom_touch *touch
 
 /* The speed at which the surface of a slips on the surface of b, m/s. Positions are not read. */
 double carom_spheres_slip(const carom_impact *in, const double normal[3]);
+/* The collision of two spheres in space along any line of centres, with its arguments checked: one
+ * impulse in closed form, for any radii and masses, with restitution e and Coulomb's friction
+ * mu_ball, which either stops the slip or slips to the end. The cloth is not involved, so mu_slide
+ * is not read. Only the direction of b.r - a.r matters. CAROM_SEPARATING: the motion before, as the
+ * balls do not close. CAROM_ERROR_OVERFLOW: speeds are above 1e300 m/s, or impulses are not within
+ * 1e-290 to 1e300 kg m/s. With an error *out is all NaN. */
+carom_status carom_impact3(const carom_impact *in, carom_result *out);
 /* The motion after the impact of balls that close along n. */
 void carom_spheres_collide(const carom_impact *in, const double normal[3], carom_result *out);
 

@@ -2,6 +2,7 @@
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 #include "schema/numbers.h"
+#include "schema/rows.h"
 
 #include <stdbool.h>
 #include <stddef.h>

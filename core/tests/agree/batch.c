@@ -133,9 +133,10 @@ static void expect_batch(int precision, const void *in, size_t n, const carom_op
       ck_assert_msg(memcmp((const char *)to.memory + k * out_size[precision],
                            (const char *)out + k * out_size[precision], out_size[precision]) == 0,
                     "%s, %s, slip %s, %s, %d threads: row %zu of %zu has other bits than alone",
-                    carom_isa_name(carom_isa_in_force()), carom_solver_name(options->solver),
-                    carom_slip_name(options->slip), precision == CAROM_F64 ? "double" : "single",
-                    options->threads, k, n);
+                    carom_word(CAROM_WORDS_ISA, (int)carom_isa_in_force()),
+                    carom_word(CAROM_WORDS_SOLVER, (int)options->solver),
+                    carom_word(CAROM_WORDS_SLIP, (int)options->slip),
+                    precision == CAROM_F64 ? "double" : "single", options->threads, k, n);
   }
   ck_assert(n == 0 || memcmp(said.memory, status, n) == 0);
   ck_assert(n == 0 || memcmp(from.memory, in, n * in_size[precision]) == 0);
@@ -311,8 +312,8 @@ TEST(lower_sets_can_be_asked_for) {
   ck_assert_int_eq(carom_isa_in_force(), CAROM_ISA_PLAIN);
   ck_assert_int_eq(carom_isa_limit((carom_isa)-1), best);
   ck_assert_int_eq(carom_isa_available((carom_isa)99), 0);
-  ck_assert_ptr_null(carom_isa_name((carom_isa)99));
+  ck_assert_ptr_null(carom_word(CAROM_WORDS_ISA, 99));
   printf("instruction sets tested:");
-  FOR_EACH_ISA(isa) printf(" %s", carom_isa_name((carom_isa)isa));
+  FOR_EACH_ISA(isa) printf(" %s", carom_word(CAROM_WORDS_ISA, isa));
   printf("\n");
 }

@@ -212,7 +212,7 @@ static bool expect_solved(const carom_impact *in, carom_slip slip, double bound,
     if (solved && known) {
       const double error = result_distance(&out, &exact, in->a.radius);
       ck_assert_msg(error <= bound, "%s: %g off with %s", what, error,
-                    carom_isa_name((carom_isa)isa));
+                    carom_word(CAROM_WORDS_ISA, isa));
     }
   }
   if (solved && known && collide_precisely(in, slip, PRECISELY, &out) == CAROM_OK) {
@@ -245,7 +245,7 @@ static void expect_in_single(const carom_impact *in, carom_slip slip, bool beyon
     const carom_result seen = widened_result(&out);
     const double error = result_distance(&seen, &exact, wide.a.radius);
     ck_assert_msg(error <= in_single, "%s in single precision: %g off with %s", what, error,
-                  carom_isa_name((carom_isa)isa));
+                  carom_word(CAROM_WORDS_ISA, isa));
   }
 }
 

@@ -392,7 +392,7 @@ static void same_frame(const random_shot *s, const broken *whole, const broken *
   expect_ok(
       carom_shot_frames(s->ball, s->count, &parts->shot, &time, 1, film, states[0], turned[0]));
   expect_ok(carom_shot_at(s->ball, s->count, &whole->shot, time, states[1]));
-  expect_ok(carom_shot_orientation(s->ball, s->count, &whole->shot, time, turned[1]));
+  expect_ok(carom_shot_frames(s->ball, s->count, &whole->shot, &time, 1, NULL, NULL, turned[1]));
   ck_assert_mem_eq(states[0], states[1], (size_t)s->count * sizeof *states[0]);
   ck_assert_mem_eq(turned[0], turned[1], (size_t)s->count * sizeof *turned[0]);
 }

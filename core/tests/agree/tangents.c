@@ -497,7 +497,8 @@ START_TEST(cushions_agree_with_differences) {
       errors[n++] = error_of(cushion, (const double *)&in, 15, 6, asked.index[i], asked.step[i],
                              &tangent[0][asked.index[i]], 15);
   }
-  printf("%s%s, ", carom_cushion_model_name(cushion_options.model), way[_i % WAYS]);
+  printf("%s%s, ", carom_word(CAROM_WORDS_CUSHION_MODEL, (int)cushion_options.model),
+         way[_i % WAYS]);
   ck_assert_int_gt(n, FEWER(3000));
   ck_assert_double_lt(tell(errors, n, 0.99, "a cushion"),
                       cushion_options.model == CAROM_CUSHION_MATHAVAN ? 1e-6 : 1e-7);

@@ -8,6 +8,7 @@
 #include "cushion/list.h"
 #include "draws.h"
 #include "schema/numbers.h"
+#include "shot/sim.h"
 
 static carom_ball make_ball(void) {
   carom_ball b = {.radius = 0.028575};

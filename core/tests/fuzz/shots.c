@@ -220,7 +220,7 @@ static bool is_closed(void) {
 }
 
 /* Follows a shot of the first layout through its events, and between them, by
- * carom_shot_at_times(). */
+ * carom_shot_frames(). */
 static void check_play(const carom_shot *shot) {
   enum { LOOKS = 2 * EVENTS + 2 };
   static carom_ball_state states[LOOKS * MOST];
@@ -234,8 +234,8 @@ static void check_play(const carom_shot *shot) {
     times[looks++] = now = then;
   }
   times[looks++] = shot->time;
-  if (carom_shot_at_times(balls, count, shot, times, (size_t)looks, states) != CAROM_OK)
-    fail("carom_shot_at_times does not know a shot all of whose events were kept");
+  if (carom_shot_frames(balls, count, shot, times, (size_t)looks, NULL, states, NULL) != CAROM_OK)
+    fail("carom_shot_frames does not know a shot all of whose events were kept");
 
   /* What is on the cloth at any time is a layout that may be played: nothing is in a cushion,
    * in a pocket or outside. Balls that leave a cluster may overlap for a moment: two of a rack
@@ -259,7 +259,7 @@ static void check_play(const carom_shot *shot) {
   static carom_ball_state one[MOST];
   if (carom_shot_at(balls, count, shot, times[look], one) != CAROM_OK ||
       memcmp(one, &states[look * count], (size_t)count * sizeof *one) != 0)
-    fail("carom_shot_at_times differs from carom_shot_at");
+    fail("carom_shot_frames differs from carom_shot_at");
 
   /* Drawn, pocketed balls are in their pockets, and the others where they are. */
   static carom_ball_state drawn[MOST];
@@ -528,7 +528,7 @@ static void shots(void) {
       fail("carom_shot_at is not a number");
   double turned[MOST][4];
   if (at == CAROM_OK && one.time < 100 &&
-      carom_shot_orientation(balls, count, &one, one.time, turned) == CAROM_OK)
+      carom_shot_frames(balls, count, &one, &one.time, 1, NULL, NULL, turned) == CAROM_OK)
     for (int k = 0; k < count; k++)
       if (!(fabs(turned[k][0]) <= 1.001))
         fail("an orientation is no rotation");

@@ -3,6 +3,7 @@
 #include "flight.h"
 #include "invariants.h"
 #include "random_shots.h"
+#include "shot/sim.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -595,4 +596,42 @@ TEST(spheres) {
       NEAR(out.b.w[k] / units[n], expected.b.w[k], 1e-12);
     }
   }
+}
+
+/* Each argument of carom_impact3() that has no meaning has its own status, and the result is NaN. */
+#define REJECTED(member, wrong, expected)                               \
+  do {                                                                  \
+    carom_impact in = good;                                             \
+    in.member = wrong;                                                  \
+    ck_assert_int_eq(carom_impact3(&in, &out), CAROM_ERROR_##expected); \
+    for (int axis = 0; axis < 3; axis++)                                \
+      ck_assert(isnan(out.a.v[axis]) && isnan(out.b.w[axis]));          \
+  } while (0)
+
+TEST(spheres_are_checked) {
+  const carom_impact good = {.a = {.v = {0.0, 1.0, 0.0}, .radius = 0.03, .mass = 0.17},
+                             .b = {.r = {0.0, 0.06, 0.0}, .radius = 0.03, .mass = 0.17},
+                             .mu_ball = 0.1,
+                             .restitution = 0.9};
+  carom_result out;
+  ck_assert_int_eq(carom_impact3(NULL, &out), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_impact3(&good, NULL), CAROM_ERROR_NULL);
+  expect_ok(carom_impact3(&good, &out));
+  REJECTED(a.r[2], NAN, POSITION);
+  REJECTED(b.v[1], INFINITY, VELOCITY);
+  REJECTED(b.w[1], NAN, SPIN);
+  REJECTED(a.radius, 0.0, RADIUS);
+  REJECTED(b.mass, -1.0, MASS);
+  REJECTED(mu_ball, 1.1, MU_BALL);
+  REJECTED(mu_ball, -0.1, MU_BALL);
+  REJECTED(restitution, NAN, RESTITUTION);
+  REJECTED(restitution, 1.01, RESTITUTION);
+  REJECTED(restitution, -0.01, RESTITUTION);
+  REJECTED(b.r[1], 0.0, COINCIDENT);
+  REJECTED(b.v[1] = -1e308; in.a.v[1], 1.7e308, OVERFLOW);
+  REJECTED(a.mass, 1e-310, OVERFLOW);
+  carom_impact parting = good;
+  parting.a.v[1] = -1.0;
+  ck_assert_int_eq(carom_impact3(&parting, &out), CAROM_SEPARATING);
+  ck_assert_double_eq(out.a.v[1], -1.0);
 }

@@ -40,7 +40,7 @@ TEST(nose_below_the_centre) {
   carom_shot_ball ball = flying(20.0, 40.0 - shift() - R * cosine, h + R * sine, 0.0, speed, 0.0);
   ball.kind.mu_cushion = 0.0;
   const double change = (1.0 + ball.kind.restitution_cushion) * speed * cosine;
-  for (int model = 0; carom_cushion_model_name((carom_cushion_model)model) != NULL; model++) {
+  for (int model = 0; carom_word(CAROM_WORDS_CUSHION_MODEL, model) != NULL; model++) {
     if (model == CAROM_CUSHION_MIRROR)
       continue;
     const carom_shot_options options = {.cushion_model = (carom_shot_cushion)(1 + model)};
@@ -56,7 +56,7 @@ TEST(nose_below_the_centre) {
 TEST(restitution_by_closing_speed) {
   const carom_table table = empty_table(40.0);
   const double sine = h / R - 1.0, cosine = sqrt(1.0 - sine * sine);
-  for (int model = 0; carom_cushion_model_name((carom_cushion_model)model) != NULL; model++)
+  for (int model = 0; carom_word(CAROM_WORDS_CUSHION_MODEL, model) != NULL; model++)
     for (int k = 0; k < 3; k++) {
       const double up = (const double[]){0.2, -0.1, -0.5}[k]; /* the nose over the centre, R */
       carom_shot_ball ball =

@@ -1,6 +1,8 @@
 /* Contacts that last: carom_cluster() against closed forms, against its own integration by
  * the method of Runge and Kutta, against one collision, and by its symmetries. The law is
  * that of docs/understanding/clusters.md. */
+#include "shot/sim.h"
+
 #include "cluster/cluster.h"
 #include "layout.h"
 

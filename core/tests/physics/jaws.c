@@ -156,7 +156,7 @@ TEST(built_in_tables) {
     else if (kind == CAROM_TABLE_PYRAMID)
       game = CAROM_GAME_PYRAMID;
     if (t.pockets > 0)
-      compare_table(&t, game, carom_table_name((carom_table_kind)kind), &random);
+      compare_table(&t, game, carom_word(CAROM_WORDS_TABLE, kind), &random);
   }
 }
 

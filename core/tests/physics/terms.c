@@ -78,7 +78,7 @@ static carom_event rail_event(const carom_table *table, const carom_shot_ball *b
  * than there is, and nothing where the ball does not roll forward along the cushion. */
 TEST(loss_of_roll) {
   const carom_table table = empty_table(2.0);
-  for (int model = 0; carom_cushion_model_name((carom_cushion_model)model) != NULL; model++)
+  for (int model = 0; carom_word(CAROM_WORDS_CUSHION_MODEL, model) != NULL; model++)
     for (int spin = -1; spin <= 1; spin++)
       for (int side = -1; side <= 1; side += 2) {
         carom_shot_ball ball =

@@ -73,7 +73,7 @@ static double worst_end(carom_solver solver, carom_slip slip) {
 TEST(ends_at_the_result) {
   for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
     const double exact = worst_end(CAROM_SOLVER_EXACT, (carom_slip)slip);
-    printf("exact, %s: the ends differ by %.2g at most\n", carom_slip_name((carom_slip)slip),
+    printf("exact, %s: the ends differ by %.2g at most\n", carom_word(CAROM_WORDS_SLIP, slip),
            exact);
     ck_assert_double_le(exact, 1e-6);
     ck_assert_double_eq(worst_end(CAROM_SOLVER_EULER, (carom_slip)slip), 0.0);

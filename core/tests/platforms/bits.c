@@ -168,7 +168,8 @@ static void collisions(const char *drawn, size_t n) {
                                    .steps = 100,
                                    /* where there are threads; no bit depends on them */
                                    .threads = 3};
-    const char *solver = carom_solver_name(options.solver), *slip = carom_slip_name(options.slip);
+    const char *solver = carom_word(CAROM_WORDS_SOLVER, (int)options.solver),
+               *slip = carom_word(CAROM_WORDS_SLIP, (int)options.slip);
     carom_collide_batch(in, n, &options, out, status);
     uint64_t hash = add_numbers(START, (const double *)out, n * 12);
     for (size_t k = 0; k < n; k++)
@@ -215,7 +216,8 @@ static void looks(void) {
       }
     }
     char what[100];
-    const char *solver = carom_solver_name(options.solver), *slip = carom_slip_name(options.slip);
+    const char *solver = carom_word(CAROM_WORDS_SOLVER, (int)options.solver),
+               *slip = carom_word(CAROM_WORDS_SLIP, (int)options.slip);
     snprintf(what, sizeof what, "details: %s, slip %s", solver, slip);
     show(what, details);
     snprintf(what, sizeof what, "traces: %s, slip %s", solver, slip);
@@ -273,8 +275,8 @@ static void cushions(void) {
         hash = add(hash, (uint64_t)(uint8_t)status[k]);
       char what[100];
       snprintf(what, sizeof what, "cushions: %s, convention %s, law %s",
-               carom_cushion_model_name(options.model), way % 2 == 0 ? "paper" : "pooltool",
-               way < 2 ? "constant" : "han");
+               carom_word(CAROM_WORDS_CUSHION_MODEL, (int)options.model),
+               way % 2 == 0 ? "paper" : "pooltool", way < 2 ? "constant" : "han");
       show(what, hash);
     }
 }

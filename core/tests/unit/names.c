@@ -28,11 +28,11 @@ TEST(statuses_are_distinct) {
 
 TEST(enumerations_have_names) {
   for (int k = 0; k < CAROM_SOLVER_COUNT; k++)
-    ck_assert_ptr_nonnull(carom_solver_name((carom_solver)k));
-  ck_assert_str_eq(carom_slip_name(CAROM_SLIP_PAPER), "paper");
-  ck_assert_str_eq(carom_slip_name(CAROM_SLIP_POOLTOOL), "pooltool");
-  ck_assert_ptr_null(carom_solver_name((carom_solver)CAROM_SOLVER_COUNT));
-  ck_assert_ptr_null(carom_slip_name((carom_slip)-1));
+    ck_assert_ptr_nonnull(carom_word(CAROM_WORDS_SOLVER, k));
+  ck_assert_str_eq(carom_word(CAROM_WORDS_SLIP, CAROM_SLIP_PAPER), "paper");
+  ck_assert_str_eq(carom_word(CAROM_WORDS_SLIP, CAROM_SLIP_POOLTOOL), "pooltool");
+  ck_assert_ptr_null(carom_word(CAROM_WORDS_SOLVER, CAROM_SOLVER_COUNT));
+  ck_assert_ptr_null(carom_word(CAROM_WORDS_SLIP, -1));
 }
 
 TEST(fields_have_names) {
@@ -46,8 +46,8 @@ TEST(fields_have_names) {
   ck_assert_str_eq(carom_cushion_field_name(8), "height");
   ck_assert_ptr_null(carom_cushion_field_name(15));
   ck_assert_ptr_null(carom_cushion_field_name(-1));
-  ck_assert_str_eq(carom_cushion_model_name(CAROM_CUSHION_STRONGE), "stronge");
-  ck_assert_ptr_null(carom_cushion_model_name((carom_cushion_model)9));
+  ck_assert_str_eq(carom_word(CAROM_WORDS_CUSHION_MODEL, CAROM_CUSHION_STRONGE), "stronge");
+  ck_assert_ptr_null(carom_word(CAROM_WORDS_CUSHION_MODEL, 9));
 }
 
 TEST(version_is_that_of_the_header) {
@@ -86,7 +86,7 @@ TEST(the_environment_limits_the_instruction_set) {
   carom_isa below = CAROM_ISA_PLAIN; /* the best of those up to this one */
   for (int isa = 0; isa < CAROM_ISA_COUNT; isa++) {
     below = carom_isa_available((carom_isa)isa) ? (carom_isa)isa : below;
-    setenv("CAROM_ISA", carom_isa_name((carom_isa)isa), 1);
+    setenv("CAROM_ISA", carom_word(CAROM_WORDS_ISA, isa), 1);
     ck_assert_int_eq(carom_isa_limit(CAROM_ISA_ANY), below);
     ck_assert_int_eq(carom_isa_in_force(), below);
   }

@@ -113,7 +113,7 @@ TEST(calls) {
 }
 
 static carom_status states_at(const double *looks, size_t many, carom_ball_state *at) {
-  return carom_shot_at_times(balls, count, &shot, looks, many, at);
+  return carom_shot_frames(balls, count, &shot, looks, many, NULL, at, NULL);
 }
 
 static carom_status state_at(double time, carom_ball_state *at) {
@@ -190,7 +190,7 @@ TEST(damaged_events) {
       memcpy(events, good, sizeof good);
       memcpy((char *)events + word * sizeof(double), &value, sizeof(double));
       unresolved += carom_shot_at(two, 2, &shot, time, states) == CAROM_ERROR_UNRESOLVED;
-      refused += carom_shot_orientation(two, 2, &shot, time, turned) < 0;
+      refused += carom_shot_frames(two, 2, &shot, &time, 1, NULL, NULL, turned) < 0;
       carom_shot_drawn(&table, two, 2, &shot, &time, 1, states);
       carom_shot_tangent(&table, two, 2, &stroke, NULL, &shot, &by_speed, tangents);
     }
@@ -209,7 +209,7 @@ TEST(damaged_events) {
       carom_shot_ball other[2] = {two[0], two[1]};
       memcpy((char *)&other[0].kind + word * sizeof(double), &value, sizeof(double));
       carom_shot_at(other, 2, &shot, 2.0, states);
-      carom_shot_orientation(other, 2, &shot, 2.0, turned);
+      carom_shot_frames(other, 2, &shot, &(double){2.0}, 1, NULL, NULL, turned);
     }
 }
 

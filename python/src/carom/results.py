@@ -52,6 +52,10 @@ def _moments(times: ArrayLike) -> Doubles:
     return moments
 
 
+def _states_at(balls: Any, count: int, shot: Any, times: Any, n: int, states: Any) -> int:
+    return int(lib.carom_shot_frames(balls, count, shot, times, n, ffi.NULL, states, ffi.NULL))
+
+
 def _picker(index: Any, shape: tuple[int, ...]) -> Callable[[Array], Array]:
     """A function that selects the shots of an index from any array of a batch.
 
@@ -150,7 +154,7 @@ class Shot(ShotVerbs):
         look = (
             functools.partial(lib.carom_shot_drawn, pointer("carom_table[]", self.table.record))
             if drawn
-            else lib.carom_shot_at_times
+            else _states_at
         )
         self._at(moments, states, 1, "carom_ball_state[]", look)
         return states

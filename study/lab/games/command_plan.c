@@ -190,7 +190,7 @@ static void report(const tally *t, const strength_job *job) {
   tell_bins(t->bins, BINS, NULL, "kept");
   const char *kinds[CAROM_PLAN_KINDS];
   for (int k = 0; k < CAROM_PLAN_KINDS; k++)
-    kinds[k] = carom_plan_kind_name((carom_plan_kind)k);
+    kinds[k] = carom_word_text(CAROM_WORDS_PLAN_KIND, k);
   tell_bins(t->kinds, CAROM_PLAN_KINDS, kinds, "kept");
   if (job->games) {
     printf("planned to foul: %ld of %ld strokes\n", t->fouls, t->strokes);

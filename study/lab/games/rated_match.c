@@ -231,7 +231,7 @@ static void print_told(const lab_ratings *request, int kind, const lab_compariso
   static const char *const chances[CHANCES] = {"keep", "foul", "lose", "win"};
   const char *name = "all";
   if (kind < CAROM_PLAN_KINDS)
-    name = carom_plan_kind_name((carom_plan_kind)kind);
+    name = carom_word_text(CAROM_WORDS_PLAN_KIND, kind);
   const bool is_alone = carom_plan_rules_of(request->rules).race == CAROM_RACE_ALONE;
   const int chances_told = is_alone ? WIN : CHANCES; /* a single player plays for points */
   for (int k = 0; k < chances_told && rows[k].strokes > 0; k++) {

@@ -308,7 +308,7 @@ static void print_table(const stress *s, FILE *out) {
                                       "extreme collisions", "impacts on a cushion", "coincidences"};
   fprintf(out, "%s, %llu drawn of each kind with seed %llu, instruction set %s\n\n", kinds[s->kind],
           (unsigned long long)s->draws, (unsigned long long)s->seed,
-          carom_isa_name(carom_isa_in_force()));
+          carom_word(CAROM_WORDS_ISA, (int)carom_isa_in_force()));
   fprintf(out,
           "%-9s %-20s %9s   median      99 %%    99.9 %%   99.99 %%  largest  of play   > 1e-6   > "
           "1e-5   > 2e-5  fallback  unresolved  refused  left out\n",
@@ -329,7 +329,7 @@ static void print_table(const stress *s, FILE *out) {
     const tally *const t = &s->tally[group][0];
     if (t->count[ROWS] > 0) {
       const drawn c = draw(s->kind, group, s->seed, t->worst);
-      const char *slip = carom_slip_name(c.slip);
+      const char *slip = carom_word(CAROM_WORDS_SLIP, (int)c.slip);
       if (c.cushion)
         slip = "cushion";
       fprintf(out, "%s, %s %llu, %.2g of its bound: ", slip, draw_name(s->kind, group),

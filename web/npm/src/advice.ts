@@ -177,7 +177,7 @@ export class Advice {
     const { exports } = memory;
     const railNames = (): (string | undefined)[] => this.#plans.names("rail", table.rails.length);
     const job = this.#plans.writeJob(table, balls, { ...options, cue: choice.cue });
-    const memorySize = this.#plans.memorySize(options);
+    const memorySize = this.#plans.memorySize();
     return this.#using([memorySize, CHOICE.size, WHY.size, 512], (search, stroke, found, text) => {
       setStruct(memory, job, "carom_plan_job", { memory: search, memorySize }, false);
       const kind = value("carom_plan_kind", choice.kind, "choice.kind");

@@ -58,6 +58,8 @@ const STEP = layout.carom_sequence_stroke;
 const COUNTS = layout.carom_sequence_counts;
 const RULING = layout.carom_ruling.offset;
 const POT = layout.carom_pot;
+/** Room for the text of carom_plan_fault(). */
+const FAULT_SIZE = 200;
 const PART = layout.carom_part;
 
 const MAY = names.carom_choice;
@@ -137,10 +139,6 @@ function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: str
     );
 }
 
-function refuseShots({ shots }: PlanOptions): never {
-  throw new RangeError(`shots: it must be a whole number from 100 to 1000000, not ${shots}`);
-}
-
 /** A call as carom_call has it. */
 function numbersOf(call: Call | undefined): { ball: number; pocket: number } {
   if (call === undefined) return { ball: -1, pocket: -1 };
@@ -209,6 +207,18 @@ export class Plans {
 
   get #memory(): Memory {
     return this.#host.memory;
+  }
+
+  /** Throws what a plan rejects in the job that was written last: the member, its value and its range. */
+  #refuseJob(): never {
+    const memory = this.#memory;
+    const text = memory.allocate(FAULT_SIZE);
+    try {
+      memory.exports.carom_plan_fault(this.#addresses.job, text, FAULT_SIZE);
+      throw new RangeError(`plan: ${memory.text(text)}`);
+    } finally {
+      memory.free(text);
+    }
   }
 
   refuse(code: number, field?: string): void {
@@ -320,7 +330,7 @@ export class Plans {
       const found = readStruct<C.Review>(memory, room, "carom_review");
       return {
         ...found,
-        group: memory.text(memory.exports.carom_practice_name(found.group))!,
+        group: memory.text(memory.exports.carom_word_text(values.CAROM_WORDS_PRACTICE, found.group))!,
         kept: found.kept !== 0,
         ...(isDirect && { drill: readStruct<Drill>(memory, room + size, "carom_drill") }),
       };
@@ -398,9 +408,9 @@ export class Plans {
   }
 
   /** Bytes that a plan needs with the options that were written last. */
-  memorySize(options: PlanOptions): number {
+  memorySize(): number {
     const size = this.#memory.exports.carom_plan_memory(this.#addresses.options);
-    if (size === 0) refuseShots(options);
+    if (size === 0) this.#refuseJob();
     return size;
   }
 
@@ -433,7 +443,7 @@ export class Plans {
     if (!Number.isInteger(most) || most < 1 || most > 1000)
       throw new RangeError(`${cues ? "cues: there" : "best: it"} must be 1 to 1000, not ${most}`);
     this.writeJob(table, balls, options);
-    const size = this.memorySize(options);
+    const size = this.memorySize();
     const room = memory.allocate(size);
     const choices = memory.allocate(most * CHOICE.size);
     const strokes = memory.allocate(most * layout.carom_cue.size);
@@ -492,7 +502,7 @@ export class Plans {
     const { exports } = memory;
     this.writeJob(table, balls, options);
     const memorySize = exports.carom_sequence_memory(this.#addresses.options);
-    if (memorySize === 0) refuseShots(options);
+    if (memorySize === 0) this.#refuseJob();
     const most = values.CAROM_SEQUENCE_MOST;
     const room = memory.allocate(memorySize);
     const steps = memory.allocate(most * STEP.size);
@@ -814,7 +824,7 @@ export class Plans {
       turn: names.carom_turn_outcome[turn.outcome]!,
       foul: reason !== "none",
       reason,
-      why: memory.text(memory.exports.carom_foul_string(turn.foul))!,
+      why: memory.text(memory.exports.carom_word_text(values.CAROM_WORDS_FOUL, turn.foul)) ?? "",
       hand: HANDS[turn.leave]!,
       points: turn.points,
       words: memory.text(text)!,

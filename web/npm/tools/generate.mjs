@@ -59,12 +59,9 @@ const values = Object.fromEntries(
 /** The words of an enumeration, or else the ends of its names: ["stationary", "spinning", ...]. */
 const worded = new Map(
   api.enums
-    .filter(({ name }) => name === "carom_words" || name === "carom_game_words")
+    .filter(({ name }) => name === "carom_words")
     .flatMap(({ values }) => values)
-    .map(({ name, comment }) => [
-      name.replace(/CAROM_(GAME_)?WORDS_/, ""),
-      comment.match(/carom_\w+/)[0],
-    ]),
+    .map(({ name, comment }) => [name.replace("CAROM_WORDS_", ""), comment.match(/carom_\w+/)[0]]),
 );
 const words = new Map(
   Object.entries(rows.words).map(([group, list]) => [

@@ -11,13 +11,12 @@ pub trait Named: TryFrom<i32> {
 
 /// The names of an enumeration, in the order of its values.
 pub fn names<T: Named>() -> Vec<String> {
-    (0..VALUES_MOST)
+    // More numbers than any enumeration has, with gaps; then the flags of `Choice`.
+    (0..64)
+        .chain((6..=16).map(|bit| 1 << bit))
         .filter_map(|value| calls::word(T::WORDS, value))
         .collect()
 }
-
-/// More than any enumeration has. Some have gaps, or begin at 1.
-const VALUES_MOST: i32 = 64;
 
 /// The value that a name stands for. Capitals, hyphens and underscores do not matter, and synonyms
 /// count. The error quotes an unknown name, and suggests the name that was probably meant.
@@ -76,7 +75,7 @@ fn distance(a: &[char], b: &[char]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Condition, EventType, RackKind, RulesKind, ShotCushion, TableKind};
+    use crate::{Choice, Condition, EventType, RackKind, RulesKind, ShotCushion, TableKind};
 
     /// A name with its last two letters exchanged, or with one letter more.
     fn misspelt(name: &str) -> String {
@@ -121,6 +120,7 @@ mod tests {
         every_name::<ShotCushion>();
         every_name::<Condition>();
         every_name::<EventType>();
+        every_name::<Choice>();
         let fault = named::<TableKind>("billiards room")
             .unwrap_err()
             .to_string();

@@ -1,11 +1,11 @@
 //! Plans: which stroke to play, by built-in or custom rules.
 use crate::{
-    calls, check, count_of, sys, BallState, Bounds, Call, Cue, Error, Facts, Leave, Options,
+    calls, check, count_of, sys, text, BallState, Bounds, Call, Cue, Error, Facts, Leave, Options,
     PlanOptions, PlanStroke, Player, RackKind, Rules, RulesKind, RulesState, ShotBall, Status,
     Table, Turn,
 };
 use std::any::{type_name, TypeId};
-use std::os::raw::c_int;
+use std::os::raw::{c_char, c_int};
 use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -182,6 +182,28 @@ impl Watch {
         }
         check(status)
     }
+
+    /// The same for the status of a plan, whose error names the rejected member of its job.
+    fn check_plan(
+        &self,
+        status: sys::carom_status,
+        job: &sys::carom_plan_job,
+    ) -> Result<Status, Error> {
+        self.check(sys::CAROM_OK)?;
+        check_plan(status, job)
+    }
+}
+
+/// Checks the status of a plan. An error names the rejected member of its job.
+fn check_plan(status: sys::carom_status, job: &sys::carom_plan_job) -> Result<Status, Error> {
+    let mut fault = [0 as c_char; 200];
+    if status == sys::CAROM_ERROR_OPTIONS {
+        unsafe { sys::carom_plan_fault(job, fault.as_mut_ptr(), fault.len()) };
+    }
+    check(status).map_err(|error| Error {
+        fault: text(fault.as_ptr()),
+        ..error
+    })
 }
 
 /// Spots a ball by the rules of a rack's game.
@@ -266,7 +288,7 @@ impl Position {
             sys::carom_plan_memory(job.options)
         });
         if bytes == 0 {
-            check(sys::CAROM_ERROR_OPTIONS)?;
+            of.with_job(&mut [], |job| check_plan(sys::CAROM_ERROR_OPTIONS, job))?;
         }
         Ok(Thinking {
             watch: Watch::new(&of.rules),
@@ -290,18 +312,20 @@ impl Position {
         let mut memory = vec![0.0; bytes / 8 + 1];
         let count = cues.len().min(c_int::MAX as usize) as c_int;
         let watch = Watch::new(&self.rules);
-        watch.check(self.with_job(&mut memory, |job| unsafe {
-            sys::carom_plan_try(job, cues.as_ptr(), count, told.as_mut_ptr())
-        }))?;
+        self.with_job(&mut memory, |job| {
+            let to = told.as_mut_ptr();
+            watch.check_plan(unsafe { sys::carom_plan_try(job, cues.as_ptr(), count, to) }, job)
+        })?;
         Ok(told)
     }
 
     /// The chance that the player at the table wins, without playing a shot.
     pub fn value(&self, in_hand: bool) -> Result<f64, Error> {
         let (mut value, watch) = (0.0, Watch::new(&self.rules));
-        watch.check(self.with_job(&mut [], |job| unsafe {
-            sys::carom_plan_value(job, in_hand.into(), &mut value)
-        }))?;
+        self.with_job(&mut [], |job| {
+            let status = unsafe { sys::carom_plan_value(job, in_hand.into(), &mut value) };
+            watch.check_plan(status, job)
+        })?;
         Ok(value)
     }
 
@@ -392,7 +416,7 @@ impl Thinking {
             }
         };
         self.begun = true;
-        let checked = self.watch.check(status);
+        let checked = self.watch.check_plan(status, &job);
         self.ended = checked.is_err() || found > 0;
         checked?;
         choices.truncate(found as usize);
@@ -449,6 +473,23 @@ mod tests {
             assert!(place(&table, &mut balls, k, x, y).unwrap().is_ok());
         }
         (table, balls, cue(Game::Pool))
+    }
+
+    #[test]
+    fn a_rejected_member_is_named() {
+        let (table, balls, cue) = layout();
+        let rules = built_in_rules(RulesKind::Potting);
+        let mut of = Position::new(&table, &balls, &cue, &rules, 600.0);
+        of.options.shots = 60;
+        let error = of.plan(1, false).unwrap_err();
+        assert_eq!(error.status, Status::ErrorOptions);
+        let expected = "options->shots is 60; it must be 0, or 100 to 1e6";
+        assert_eq!(error.fault, expected);
+        of.options.shots = 100;
+        of.player.phi = -1.0;
+        let error = of.plan(1, false).unwrap_err();
+        let expected = "player->phi is -1; it must be 0 to 1000, in degrees";
+        assert_eq!(error.fault, expected);
     }
 
     #[test]

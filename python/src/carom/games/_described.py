@@ -41,7 +41,7 @@ class Foul(enum.IntEnum):
     @property
     def text(self) -> str:
         """The description of a foul, such as "the cue ball met no ball"."""
-        return text_of(lib.carom_foul_string(self))
+        return text_of(lib.carom_word_text(lib.CAROM_WORDS_FOUL, self))
 
 
 class Kind(enum.IntEnum):
@@ -68,7 +68,7 @@ class Kind(enum.IntEnum):
     @property
     def text(self) -> str:
         """The name of a kind, such as "bank"."""
-        return text_of(lib.carom_plan_kind_name(self))
+        return text_of(lib.carom_word_text(lib.CAROM_WORDS_PLAN_KIND, self))
 
 
 _PHASES: tuple[Phase, ...] = get_args(Phase)

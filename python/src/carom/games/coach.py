@@ -209,7 +209,7 @@ def review(
     if not is_direct:
         values |= {"ball": None, "pocket": None}
     return Review(
-        group=ffi.string(lib.carom_practice_name(found.group)).decode(),
+        group=ffi.string(lib.carom_word_text(lib.CAROM_WORDS_PRACTICE, found.group)).decode(),
         aim=cue_of(ffi.addressof(found, "aim")),
         drill=Drill((*drill.place,), drill.radius, drill.rating) if is_direct else None,
         **values,
