@@ -476,7 +476,7 @@ static int nearness(const char *text, const char *word) {
 
 int carom_word_value(carom_words kind, const char *text) {
   enum {
-    VALUES_MOST = 64, /* more than any enumeration has; events begin at 1 */
+    VALUES_MOST = 64,    /* more than any enumeration has; events begin at 1 */
     FLAG_MOST = 1 << 16, /* above it, CHOICE has no power of 2 */
   };
   int found = -1, best = 0;

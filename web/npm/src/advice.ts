@@ -145,12 +145,7 @@ export class Advice {
         readStruct<C.ShotWay>(memory, found! + k * WAY.size, "carom_shot_way"),
       );
       return {
-        ways: read.map(
-          ({ part: _part, parts: _parts, kind, ...way }): Way => ({
-            ...way,
-            ...(kind >= 0 && { kind: names.carom_plan_kind[kind]! }),
-          }),
-        ),
+        ways: read.map(wayOf),
         parts: read.map(({ part, parts }) =>
           part
             .slice(0, parts)
@@ -220,37 +215,44 @@ export class Advice {
     this.#host.writeLayout(table, balls);
     this.#plans.writeCue({ speed: 9, ...options.cue });
     const memorySize = exports.carom_break_memory();
-    return this.#using([memorySize, BREAK_JOB.size, COUNTS.size, 16], (room, job, counts, place) => {
-      const shot = this.#host.writeShotOptions(options.shot ?? {});
-      setStruct(memory, job!, "carom_break_job", {
-        table: addresses.table,
-        balls: addresses.balls,
-        count: balls.length,
-        cue: addresses.cue,
-        player: this.#plans.writePlayer(this.#player, player ?? this.#plans.player({}), "player"),
-        opponent:
-          opponent === undefined
-            ? 0
-            : this.#plans.writePlayer(this.#opponent, opponent, "opponent"),
-        shot,
-        rack: kind,
-        aim: value("carom_break_aim", aim, "aim"),
-        gap,
-        seed: whole(seed, "seed", Number.MAX_SAFE_INTEGER),
-        memory: room,
-        memorySize,
-      });
-      const code = exports.carom_break_play(job!, 0n, BigInt(many), counts!);
-      this.#host.refuseShot(code, balls.length, shot, "rack");
-      const spread = exports.carom_break_spread(counts!, place!);
-      const hasRules = exports.carom_break_has_rules(kind) !== 0;
-      return {
-        ...sharesOf(readStruct<C.BreakCounts>(memory, counts!, "carom_break_counts"), many, hasRules),
-        fell: this.#fell(counts! + COUNTS.offset.fell, balls.length, table.pockets.length, many),
-        place: [memory.f64[place! / 8]!, memory.f64[place! / 8 + 1]!],
-        spread,
-      };
-    });
+    return this.#using(
+      [memorySize, BREAK_JOB.size, COUNTS.size, 16],
+      (room, job, counts, place) => {
+        const shot = this.#host.writeShotOptions(options.shot ?? {});
+        setStruct(memory, job!, "carom_break_job", {
+          table: addresses.table,
+          balls: addresses.balls,
+          count: balls.length,
+          cue: addresses.cue,
+          player: this.#plans.writePlayer(this.#player, player ?? this.#plans.player({}), "player"),
+          opponent:
+            opponent === undefined
+              ? 0
+              : this.#plans.writePlayer(this.#opponent, opponent, "opponent"),
+          shot,
+          rack: kind,
+          aim: value("carom_break_aim", aim, "aim"),
+          gap,
+          seed: whole(seed, "seed", Number.MAX_SAFE_INTEGER),
+          memory: room,
+          memorySize,
+        });
+        const code = exports.carom_break_play(job!, 0n, BigInt(many), counts!);
+        this.#host.refuseShot(code, balls.length, shot, "rack");
+        const spread = exports.carom_break_spread(counts!, place!);
+        const hasRules = exports.carom_break_has_rules(kind) !== 0;
+        return {
+          ...sharesOf(
+            readStruct<C.BreakCounts>(memory, counts!, "carom_break_counts"),
+            many,
+            hasRules,
+          ),
+          fell: this.#fell(counts! + COUNTS.offset.fell, balls.length, table.pockets.length, many),
+          place: [memory.f64[place! / 8]!, memory.f64[place! / 8 + 1]!],
+          spread,
+        };
+      },
+    );
   }
 
   /** How often each ball fell into each pocket. */
@@ -373,7 +375,8 @@ function sharesOf(
 }
 
 const costOf = ({ review }: Reviewed): number => review.missCost + review.placeCost;
-const sum = (numbers: readonly number[]): number => numbers.reduce((total, number) => total + number, 0);
+const sum = (numbers: readonly number[]): number =>
+  numbers.reduce((total, number) => total + number, 0);
 
 /** The sums of a group. */
 function practiceOf(group: string, strokes: readonly Reviewed[]): Practice {

@@ -1180,7 +1180,9 @@ export class Carom {
     const { balls, shot: pointer, table } = this.#addresses;
     const rest = [balls, shot.balls.length, pointer, times, n, states];
     this.#refuse(
-      drawn ? this.#call.carom_shot_drawn(table, ...rest) : this.#call.carom_shot_frames(balls, shot.balls.length, pointer, times, n, 0, states, 0),
+      drawn
+        ? this.#call.carom_shot_drawn(table, ...rest)
+        : this.#call.carom_shot_frames(balls, shot.balls.length, pointer, times, n, 0, states, 0),
       field,
     );
   }

@@ -151,9 +151,7 @@ function numbersOf(call: Call | undefined): { ball: number; pocket: number } {
 function whyNoAim(pot: C.Pot, cueBall: number): string {
   const { a, b, type } = pot.met;
   const isBall = names.carom_event_type[type] === "ball_ball";
-  const obstacle = isBall
-    ? `ball ${a === cueBall ? b : a}`
-    : "a cushion, a jaw or a pocket";
+  const obstacle = isBall ? `ball ${a === cueBall ? b : a}` : "a cushion, a jaw or a pocket";
   const reasons: Partial<Record<Aim["outcome"], string>> = {
     no_way: "no direction of the cue makes the cue ball meet it first at this cut",
     barred: `${obstacle} is in the way`,
@@ -330,7 +328,9 @@ export class Plans {
       const found = readStruct<C.Review>(memory, room, "carom_review");
       return {
         ...found,
-        group: memory.text(memory.exports.carom_word_text(values.CAROM_WORDS_PRACTICE, found.group))!,
+        group: memory.text(
+          memory.exports.carom_word_text(values.CAROM_WORDS_PRACTICE, found.group),
+        )!,
         kept: found.kept !== 0,
         ...(isDirect && { drill: readStruct<Drill>(memory, room + size, "carom_drill") }),
       };
