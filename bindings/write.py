@@ -46,6 +46,17 @@ def enumerators(enum):
         yield ("_" if name[0].isdigit() else "") + name, value
 
 
+def worded(api):
+    """The enumerations whose values have words, each with its enumerator of carom_words."""
+    words = next(entry for entry in api["enums"] if entry["name"] == "carom_words")
+    known = {entry["name"] for entry in api["enums"]}
+    for name, value in enumerators(words):
+        enum = re.match(r"values of (\w+)", value["comment"])[1]
+        if enum not in known:
+            raise SystemExit(f"bindings/write.py: {value['name']}: no enumeration {enum}")
+        yield enum, name
+
+
 # Names of a number of elements, which stands right behind the pointer to the first of them.
 COUNTS = {"count", "n", "size", "room"}
 # Results that say where an error is: a layer that makes an exception of the status needs them.
@@ -173,7 +184,9 @@ class Layer:
 
     def calls(self):
         """The functions as a file."""
-        parts = ("\n".join(lines) for lines in (self.lines(of_match=False), self.match_lines()))
+        names = [self.KIND.format(self.type_name(of), name) for of, name in worded(self.api)]
+        made = (self.lines(of_match=False), self.match_lines(), names)
+        parts = ("\n".join(lines) for lines in made)
         return NOTE.format(version=self.api["version"]) + self.CALLS.format(*parts)
 
     def called(self):
@@ -463,7 +476,9 @@ namespace Carom {"""
             "    }",
         ]
 
+    KIND = "      {{ typeof({0}), Words.{1} }},"
     CALLS = """using System;
+using System.Collections.Generic;
 
 namespace Carom {{
   /// <summary>Functions of C without pointers, by their names in C.</summary>
@@ -473,6 +488,12 @@ namespace Carom {{
 
   public sealed unsafe partial class LiveMatch {{
 {}
+  }}
+
+  public static unsafe partial class Names {{
+    static readonly Dictionary<Type, Words> Kinds = new Dictionary<Type, Words> {{
+{}
+    }};
   }}
 }}
 """
@@ -695,15 +716,22 @@ impl Default for {0} {{
             "    }",
         ]
 
+    @staticmethod
+    def type_name(name):
+        return type_name(name)
+
+    KIND = "impl Named for {0} {{\n    const WORDS: Words = Words::{1};\n}}"
     CALLS = """//! Functions of C without pointers, by their names in C.
 use crate::sys::words::*;
-use crate::{{check, optional_text, sys, written, Error, Match}};
+use crate::{{check, optional_text, sys, written, Error, Match, Named}};
 
 {}
 
 impl Match {{
 {}
 }}
+
+{}
 """
 
     WORDS = """

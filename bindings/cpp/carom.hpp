@@ -694,7 +694,7 @@ public:
   }
   /* With seats, limits or a set: as carom_match_begin_with(). */
   carom_status begin(const carom_match_setup &setup) {
-    lines_.clear();
+    forget_lines();
     return told(carom_match_begin_with(match_.get(), &setup));
   }
   /* The next match of the set. */
@@ -776,6 +776,7 @@ public:
     job.options = &wanted;
     thinking all(*match_, job, 0, most);
     all.go_on();
+    restore_text();
     return {all.choices().begin(), all.choices().end()};
   }
   /* Performs the acts that a choice of a plan requires before its stroke. */
@@ -801,13 +802,8 @@ public:
   /* Reads the next line of a file. Nothing is read behind a line that is not by the rules. */
   carom_status read(std::string_view line) {
     const std::int64_t shots = match_->record.shots;
-    const carom_status code =
-        carom_match_read(match_.get(), scratch_.get(), line.data(), line.size());
-    if (code < 0)
-      return checked(code, match_->fault);
-    lines_ += line;
-    if (!line.empty() && line.back() != '\n')
-      lines_ += '\n';
+    const carom_status code = read_line(line);
+    undone_.clear();
     return match_->record.shots != shots ? replay() : code;
   }
   /* Reads a line that a peer of this seat has sent, as carom_match_receive() does; -1: of whoever
@@ -825,9 +821,9 @@ public:
       return code;
     undone_.clear();
     if (match_->size > 0)
-      lines_.append(match_->text, static_cast<std::size_t>(match_->size));
+      keep_lines();
     else /* of the beginning, which makes no lines */
-      lines_.append(line.substr(0, line.find_last_not_of(" \r\n") + 1)) += '\n';
+      lines_ += with_end(line);
     return match_->record.shots != shots ? replay() : code;
   }
   /* Undoes the last act, by the lines before it; does it again. False: there is none. */
@@ -852,6 +848,7 @@ public:
     match made;
     *made.match_ = *match_;
     made.lines_ = lines_;
+    made.text_ = text_;
     made.replay();
     return made;
   }
@@ -860,17 +857,37 @@ private:
   carom_status read_all(std::string_view text, carom_plan_rules rules) {
     *match_ = {};
     match_->rules = rules;
-    lines_ = text;
-    if (!text.empty() && text.back() != '\n')
-      lines_ += '\n';
+    forget_lines();
     for (std::size_t size; !text.empty(); text.remove_prefix(size)) {
       size = std::min(text.find('\n'), text.size() - 1) + 1;
-      const carom_status code = carom_match_read(match_.get(), scratch_.get(), text.data(), size);
+      const carom_status code = read_line(text.substr(0, size));
       if (code < 0)
-        return checked(code, match_->fault);
+        return code;
     }
-    lines_.append(match_->text, static_cast<std::size_t>(match_->size));
     return replay();
+  }
+  /* Reads a line of a file. lines_ has the lines that are still due already, at its end, and a note
+   * comes before them. */
+  carom_status read_line(std::string_view line) {
+    const carom_record &record = match_->record;
+    const std::int64_t line_count = record.line;
+    const std::uint64_t hash = record.hash;
+    const auto due = static_cast<std::size_t>(match_->due);
+    const carom_status code =
+        carom_match_read(match_.get(), scratch_.get(), line.data(), line.size());
+    if (code < 0)
+      return refused(code);
+    const bool is_new = record.line != line_count || record.hash != hash;
+    if (is_new) /* no blank line, no event, and none that was due */
+      lines_.insert(lines_.size() - due, with_end(line));
+    if (is_new && due == 0)
+      keep_lines();
+    else
+      text_ = text_of(*match_);
+    return code;
+  }
+  static std::string with_end(std::string_view line) {
+    return std::string(line.substr(0, line.find_last_not_of(" \r\n") + 1)) + "\n";
   }
   /* The last shot of a match that was read, with all its events. */
   carom_status replay() {
@@ -883,9 +900,37 @@ private:
   }
   /* Keeps the lines of an act; throws an error for a rejected act. */
   carom_status told(carom_status code) {
+    if (code < 0 && match_->size == 0)
+      return refused(code);
+    keep_lines(); /* also those of prepare() before an act that is refused */
+    undone_.clear();
+    return checked(code, match_->fault);
+  }
+  void forget_lines() {
+    lines_.clear();
+    text_ = {};
+  }
+  /* Adds the lines that the match has made. */
+  void keep_lines() {
     lines_.append(match_->text, static_cast<std::size_t>(match_->size));
-    if (match_->size > 0)
-      undone_.clear();
+    text_ = text_of(*match_);
+  }
+  /* How many bytes of match->text are what. A refused act and a plan change these members, and not
+   * the bytes. */
+  struct text_size {
+    std::int64_t size, known, due;
+  };
+  static text_size text_of(const carom_match &of) {
+    return {of.size, of.known, of.due};
+  }
+  void restore_text() {
+    match_->size = text_.size;
+    match_->known = text_.known;
+    match_->due = text_.due;
+  }
+  /* Throws the error of a line or an act that was refused; the lines that are due stay due. */
+  carom_status refused(carom_status code) {
+    restore_text();
     return checked(code, match_->fault);
   }
   /* Plays, with room for all events. */
@@ -910,6 +955,7 @@ private:
 
   std::vector<std::string> undone_;
   std::string lines_;
+  text_size text_{};
   std::unique_ptr<carom_match> match_;
   std::unique_ptr<carom_record> scratch_;
   std::unique_ptr<carom_match> room_; /* of receive(), once it was called */

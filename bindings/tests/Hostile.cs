@@ -57,12 +57,51 @@ static class Hostile {
          "the act behind a note has other lines");
     Console.Write(said);
 
-    // The whole match, to its end.
     string lines = File.ReadAllText(arguments[1]);
+    var read = game.Copy();
+    read.Read(act[0]);
+    foreach (var partial in new[] { read, LiveMatch.Load(game.Lines + act[0]) })
+      ReadInPart(partial, game, act, said, lines);
+
+    // The whole match, to its end.
     foreach (var line in lines.Substring(game.Lines.Length).Split('\n'))
       game.Receive(line, null);
     Must(game.Lines == lines, "the whole match is another one");
     Console.WriteLine($"{sent} rows");
+  }
+
+  /// A ruling of a file that is read only in part: no line is lost, whatever comes next.
+  static void ReadInPart(LiveMatch partial, LiveMatch game, List<string> act, string said,
+                         string lines) {
+    string whole = game.Lines + string.Join("\n", act) + "\n";
+    string ruling = whole.Substring((game.Lines + act[0] + "\n").Length);
+    Must(ruling != "" && lines.StartsWith(whole, StringComparison.Ordinal), "no ruling");
+    string following = lines.Substring(whole.Length).Split('\n')[0];
+    Must(partial.Lines == whole, "the lines of the ruling are missing");
+    var noted = partial.Copy();
+    noted.Read(said);
+    Must(noted.Lines == $"{game.Lines}{act[0]}\n{said}{ruling}", "a note before the ruling");
+    string why = "";
+    try {
+      partial.Place(9, 9);
+    } catch (CaromException refused) {
+      why = refused.Message;
+    }
+    Must(why != "" && partial.Lines == whole, "a place off the table");
+    foreach (var judged in new[] { partial.Copy(), noted }) {
+      string before = judged.Lines;
+      Must(!judged.Receive(act[1], 0), "a line of the ruling is new");
+      Must(judged.Receive(following, null), "the act behind is known");
+      Must(judged.Lines.StartsWith($"{before}{following}\n", StringComparison.Ordinal),
+           "an act behind a part of a ruling loses lines");
+    }
+    var spoken = partial.Copy();
+    spoken.Note(1, new Dictionary<string, string> { { "comment", "between" } });
+    Must(spoken.Lines.StartsWith(whole + "{\"note\"", StringComparison.Ordinal),
+         "a note behind a part of a ruling loses lines");
+    foreach (var line in act.GetRange(1, act.Count - 1))
+      partial.Read(line);
+    Must(partial.Lines == whole, "the rest of the ruling");
   }
 
   static void Judge(LiveMatch game, List<string> act, string[] row) {

@@ -21,6 +21,46 @@ static void must(bool good, const std::string &what) {
   std::exit(1);
 }
 
+/* A ruling of a file that is read only in part: no line is lost, whatever comes next. */
+static void read_in_part(carom::match &&partial, const carom::match &game,
+                         const std::vector<std::string> &act, const std::string &said,
+                         const std::string &lines) {
+  std::string ruling;
+  for (std::size_t k = 1; k < act.size(); k++)
+    ruling += act[k] + "\n";
+  const std::string whole = game.lines() + act[0] + "\n" + ruling;
+  must(!ruling.empty() && lines.rfind(whole, 0) == 0, "no ruling");
+  const std::string following =
+      lines.substr(whole.size(), lines.find('\n', whole.size()) + 1 - whole.size());
+  must(partial.lines() == whole, "the lines of the ruling are missing");
+  carom::match noted = partial.copy();
+  noted.read(said);
+  must(noted.lines() == game.lines() + act[0] + "\n" + said + ruling, "a note before the ruling");
+  std::string why;
+  try {
+    partial.place(9, 9);
+  } catch (const carom::error &refused) {
+    why = refused.what();
+  }
+  must(!why.empty() && partial.lines() == whole, "a place off the table");
+  carom::match twin = partial.copy();
+  for (carom::match *judged : {&twin, &noted}) {
+    const std::string before = judged->lines();
+    judged->receive(act[1], 0);
+    must(judged->lines() == before, "a line of the ruling is new");
+    judged->receive(following, -1);
+    must(judged->lines().rfind(before + following, 0) == 0,
+         "an act behind a part of a ruling loses lines");
+  }
+  carom::match spoken = partial.copy();
+  spoken.note(1, {{"comment", "between"}});
+  must(spoken.lines().rfind(whole + "{\"note\"", 0) == 0,
+       "a note behind a part of a ruling loses lines");
+  for (std::size_t k = 1; k < act.size(); k++)
+    partial.read(act[k]);
+  must(partial.lines() == whole, "the rest of the ruling");
+}
+
 int main(int, char **arguments) {
   std::ifstream rows(arguments[1]);
   carom::match game;
@@ -86,9 +126,15 @@ int main(int, char **arguments) {
   must(talk.lines() == game.lines() + said + honest, "the act behind a note has other lines");
   std::printf("%s", said.c_str());
 
-  /* the whole match, to its end */
   std::ifstream file(arguments[2]);
   const std::string lines(std::istreambuf_iterator<char>(file), {});
+  carom::match read = game.copy(), loaded;
+  read.read(act[0]);
+  loaded.load(game.lines() + act[0]);
+  read_in_part(std::move(read), game, act, said, lines);
+  read_in_part(std::move(loaded), game, act, said, lines);
+
+  /* the whole match, to its end */
   while (game.lines().size() < lines.size()) {
     const std::size_t begin = game.lines().size();
     game.receive(lines.substr(begin, lines.find('\n', begin) + 1 - begin), -1);

@@ -61,8 +61,33 @@ assert.deepEqual(loaded.notes, [note]);
 assert.deepEqual(loaded.lines, talk.lines);
 process.stdout.write(said);
 
-// The whole match, to its end.
+// A ruling of a file that is read only in part: no line is lost, whatever comes next.
 const lines = readFileSync(process.argv[3], "utf8").match(/.*\n/g);
+const whole = [...game.lines, ...act];
+const following = lines[whole.length];
+assert(act.length > 1);
+assert.deepEqual(lines.slice(0, whole.length), whole);
+const partial = game.copy();
+partial.read(act[0]);
+assert.deepEqual(partial.lines, whole);
+const noted = partial.copy();
+noted.read(said);
+assert.deepEqual(noted.lines, [...game.lines, act[0], said, ...act.slice(1)]);
+assert.throws(() => partial.place(9, 9), CaromError);
+assert.deepEqual(partial.lines, whole);
+for (const judged of [partial.copy(), noted]) {
+  const before = judged.lines;
+  assert(!judged.receive(act[1], 0));
+  assert(judged.receive(following, null));
+  assert.deepEqual(judged.lines.slice(0, before.length + 1), [...before, following]);
+}
+const spoken = partial.copy();
+spoken.note({ seat: 1, comment: "between" });
+assert.deepEqual(spoken.lines.slice(0, -1), whole);
+for (const line of act.slice(1)) partial.read(line);
+assert.deepEqual(partial.lines, whole);
+
+// The whole match, to its end.
 for (const line of lines.slice(game.lines.length)) game.receive(line, null);
 assert.deepEqual(game.lines, lines);
 console.log(`${sent} rows`);

@@ -67,8 +67,39 @@ assert talk.lines == [*game.lines, said, *act]
 assert carom.Match.load(talk.lines).notes == talk.notes
 print(said, end="")
 
-# The whole match, to its end.
+# A ruling of a file that is read only in part: no line is lost, whatever comes next.
 lines = Path(sys.argv[2]).read_text().splitlines(keepends=True)
+whole = [*game.lines, *act]
+following = lines[len(whole)]
+assert len(act) > 1
+assert lines[: len(whole)] == whole
+for partial in (game.copy(), carom.Match.load([*game.lines, act[0]])):
+    if partial.lines == game.lines:
+        partial.read(act[0])
+    assert partial.lines == whole
+    noted = partial.copy()
+    noted.read(said)
+    assert noted.lines == [*game.lines, act[0], said, *act[1:]]
+    try:
+        partial.place(9.0, 9.0)
+    except carom.CaromError as refused:
+        assert str(refused)
+    else:
+        raise AssertionError("a place off the table is not refused")
+    assert partial.lines == whole
+    for judged in (partial.copy(), noted):
+        before = judged.lines
+        assert not judged.receive(act[1], 0)
+        assert judged.receive(following, None)
+        assert judged.lines[: len(before) + 1] == [*before, following]
+    spoken = partial.copy()
+    spoken.note(seat=1, comment="between")
+    assert spoken.lines[:-1] == whole
+    for line in act[1:]:
+        partial.read(line)
+    assert partial.lines == whole
+
+# The whole match, to its end.
 for line in lines[len(game.lines) :]:
     game.receive(line, None)
 assert game.lines == lines

@@ -35,6 +35,44 @@ fn judge(game: &mut Match, act: &[String], row: &str) -> Result<(), Error> {
     Ok(())
 }
 
+/// A ruling of a file that is read only in part: no line is lost, whatever comes next.
+fn read_in_part(
+    mut partial: Match,
+    game: &Match,
+    act: &[String],
+    said: &str,
+    following: &str,
+) -> Result<(), Error> {
+    let whole = format!("{}{}\n", game.lines(), act.join("\n"));
+    assert_eq!(partial.lines(), whole);
+    let mut noted = partial.copy()?;
+    noted.read(said)?;
+    let (first, ruling) = (&act[0], act[1..].join("\n"));
+    assert_eq!(
+        noted.lines(),
+        format!("{}{first}\n{said}{ruling}\n", game.lines())
+    );
+    let refused = partial.place(9.0, 9.0).unwrap_err();
+    assert!(!refused.fault.is_empty());
+    assert_eq!(partial.lines(), whole);
+    for mut judged in [partial.copy()?, noted] {
+        let before = judged.lines().to_string();
+        assert!(!judged.receive(&act[1], Some(0))?);
+        assert!(judged.receive(following, None)?);
+        assert!(judged
+            .lines()
+            .starts_with(&format!("{before}{following}\n")));
+    }
+    let mut spoken = partial.copy()?;
+    spoken.note(Some(1), &[("comment", "between")], 0.0)?;
+    assert!(spoken.lines().starts_with(&format!("{whole}{{\"note\"")));
+    for line in &act[1..] {
+        partial.read(line)?;
+    }
+    assert_eq!(partial.lines(), whole);
+    Ok(())
+}
+
 fn main() -> Result<(), Error> {
     let path = std::env::args().nth(1).expect("the rows of hostile.c");
     let file = std::fs::read_to_string(path).expect("the rows of hostile.c");
@@ -83,10 +121,20 @@ fn main() -> Result<(), Error> {
     assert_eq!(talk.lines(), with_note + &act.join("\n") + "\n");
     print!("{said}");
 
-    // The whole match, to its end.
     let path = std::env::args().nth(2).expect("the match of hostile.c");
     let lines = std::fs::read_to_string(path).expect("the match of hostile.c");
     let mut game = game.expect("a line place");
+    let whole = format!("{}{}\n", game.lines(), act.join("\n"));
+    assert!(act.len() > 1 && lines.starts_with(&whole));
+    let following = lines[whole.len()..].lines().next().expect("a line behind");
+    let mut read = game.copy()?;
+    read.read(&act[0])?;
+    let loaded = Match::load(&format!("{}{}", game.lines(), act[0]))?;
+    for partial in [read, loaded] {
+        read_in_part(partial, &game, &act, &said, following)?;
+    }
+
+    // The whole match, to its end.
     for line in lines[game.lines().len()..].lines() {
         game.receive(line, None)?;
     }

@@ -464,20 +464,31 @@ int carom_word_means(const char *text, const char *word) {
   return 0;
 }
 
+/* How near a text is to a word: 3 is the word itself, 2 its letters, 1 a synonym, 0 another word.
+ * "billiards" is a synonym of one word and the letters of another, which it means. */
+static int nearness(const char *text, const char *word) {
+  if (strcmp(text, word) == 0)
+    return 3;
+  if (has_same_letters(text, word))
+    return 2;
+  return carom_word_means(text, word);
+}
+
 int carom_word_value(carom_words kind, const char *text) {
   enum {
-    VALUES_MOST = 64, /* more than any enumeration has; events begin at 1 */
+    VALUES_MOST = 64,    /* more than any enumeration has; events begin at 1 */
     FLAG_MOST = 1 << 16, /* above it, CHOICE has no power of 2 */
   };
-  int found = -1;
+  int found = -1, best = 0;
   if (text == NULL)
     return -1;
   for (int value = 0; value <= FLAG_MOST; value = value < VALUES_MOST ? value + 1 : 2 * value) {
     const char *word = carom_word(kind, value);
-    if (word != NULL && strcmp(text, word) == 0)
-      return value;
-    if (found < 0 && carom_word_means(text, word))
+    const int rank = word == NULL ? 0 : nearness(text, word);
+    if (rank > best) {
+      best = rank;
       found = value;
+    }
   }
   return found;
 }

@@ -17,7 +17,7 @@ import carom.games.pool
 import carom.games.potting
 import carom.games.rules
 import carom.tracks
-from carom._rows import worded
+from carom._rows import named, worded
 from carom._shot_options import ShotOptions
 
 TABLE = carom.tables.pool_9ft()
@@ -253,6 +253,7 @@ def test_synonyms_mean_the_same_as_in_the_command():
     assert aimed[0].phi == aimed[1].phi
     assert carom.tables.measures("9-foot") == carom.tables.measures("pool_9ft")
     assert carom.player(rating=600) == carom.player(fargo=600)
+    assert named(worded("RACK"), "BILLIARDS", "rack") == "billiards"  # a synonym of another one
     with pytest.raises(ValueError, match="^fargo, rating: "):
         carom.player(fargo=600, rating=600)
 

@@ -35,12 +35,35 @@ namespace Carom {
     }
     /// Keeps the lines of an act; throws an exception for a rejected act.
     Status Told(Status status) {
-      if (match->size > 0)
-        undone.Clear();
-      lines.Append(Text());
-      return Refused(status);
+      if (status < 0 && match->size == 0)
+        return Refused(status);
+      KeepLines(); // also those of Prepare() before an act that is refused
+      undone.Clear();
+      return Judged(status);
     }
+    /// Adds the lines that the match has made.
+    void KeepLines() {
+      lines.Append(Text());
+      KeepSizes();
+    }
+    /// How many bytes of match->text are what: a refused act changes these members, and not the
+    /// bytes.
+    long size, known, due;
+    void KeepSizes() {
+      size = match->size;
+      known = match->known;
+      due = match->due;
+    }
+    /// The result of a line or of an act that was perhaps refused; the lines that are due stay due.
     Status Refused(Status status) {
+      if (status < 0) {
+        match->size = size;
+        match->known = known;
+        match->due = due;
+      }
+      return Judged(status);
+    }
+    Status Judged(Status status) {
       if (status < 0 && match->fault[0] != 0)
         throw new CaromException(status, Marshal.PtrToStringAnsi((IntPtr)match->fault));
       return Billiards.Check(status);
@@ -101,16 +124,29 @@ namespace Carom {
     void ReadAll(string text) {
       *match = default(Match);
       lines.Clear();
+      KeepSizes();
       foreach (var line in text.Split(new[] { '\n' }, StringSplitOptions.RemoveEmptyEntries))
         ReadLine(line);
-      lines.Append(Text());
       Replay();
     }
+    /// Reads a line of a file. `lines` has the lines that are still due already, at its end, and a
+    /// note comes before them.
     void ReadLine(string line) {
-      var bytes = Encoding.UTF8.GetBytes(line);
+      var lineCount = Open->record.line;
+      var hash = match->record.hash;
+      int awaited = match->due > 0 ? Text().Length : 0;
+      var bytes = Encoding.UTF8.GetBytes(line + "\n");
       fixed(byte *at = bytes)
           Refused(Native.carom_match_read(match, scratch, at, (UIntPtr)bytes.Length));
-      lines.Append(line.TrimEnd('\n')).Append('\n');
+
+      // no blank line, no event, and none that was due
+      bool isNew = match->record.line != lineCount || match->record.hash != hash;
+      if (isNew)
+        lines.Insert(lines.Length - awaited, line.TrimEnd() + "\n");
+      if (isNew && awaited == 0)
+        KeepLines();
+      else
+        KeepSizes();
     }
 
     /// <summary>Reads the next line of a file. Nothing is read behind a line that is not by the
@@ -118,6 +154,7 @@ namespace Carom {
     public void Read(string line) {
       var shots = Shots;
       ReadLine(line);
+      undone.Clear();
       if (Shots != shots)
         Replay();
     }
@@ -135,7 +172,9 @@ namespace Carom {
       if (match->record.line == lineCount)
         return false;
       undone.Clear();
-      lines.Append(match->size > 0 ? Text() : line.Trim() + "\n");
+      if (match->size == 0) // a line of the beginning, which is read and not made
+        lines.Append(line.TrimEnd() + "\n");
+      KeepLines();
       if (Shots != shots)
         Replay();
       return true;
@@ -164,6 +203,7 @@ namespace Carom {
       var made = new LiveMatch();
       *made.match = *Open;
       made.lines.Append(Lines);
+      made.KeepSizes();
       made.Replay();
       return made;
     }

@@ -164,6 +164,7 @@ TEST(words_as_players_write_them) {
                {CAROM_WORDS_TABLE, "9", NULL},
                {CAROM_WORDS_CONDITION, "fast", "fast_cloth"},
                {CAROM_WORDS_EVENT, "Ball Ball", "ball_ball"},
+               {CAROM_WORDS_RACK, "BILLIARDS", "billiards"},
                {CAROM_WORDS_WORLD, "", NULL},
                {CAROM_WORDS_WORLD, NULL, NULL},
                {CAROM_WORDS_WORLD, "a text that is longer than any word of the library", NULL}};

@@ -424,6 +424,11 @@ def worded(kind: str) -> dict[str, int]:
     return found
 
 
+def _letters(name: str) -> str:
+    """A name without capitals, hyphens, underscores and blanks."""
+    return name.lower().translate(str.maketrans("", "", "-_ "))
+
+
 _Name = TypeVar("_Name")
 
 
@@ -436,6 +441,11 @@ def named(names: Collection[str], value: object, option: str) -> str:
         if value in names:
             return value
         text = value.encode(errors="replace")
+        # The letters of a name come before synonyms of another one.
+        letters = _letters(value)
+        for name in names:
+            if letters and _letters(name) == letters:
+                return name
         for name in names:
             if lib.carom_word_means(text, name.encode()):
                 return name

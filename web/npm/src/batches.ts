@@ -2,9 +2,20 @@
 // without a copy.
 import { layout } from "./generated/layout.js";
 import type { Memory, Pointer } from "./memory.js";
-import { type Shot } from "./shot.js";
+import { chosenOf, firstOf, pottedOf, type Shot } from "./shot.js";
 import { readMotion, readState, writeBalls, writeStruct, writeTable } from "./structs.js";
-import type { BallState, Collided, Cue, Impact, ShotBall, Table } from "./types.js";
+import type {
+  BallState,
+  Collided,
+  Cue,
+  EventType,
+  FirstEvent,
+  FirstOptions,
+  Impact,
+  ShotBall,
+  ShotOptions,
+  Table,
+} from "./types.js";
 
 const IMPACT = layout.carom_impact;
 const RESULT = layout.carom_result;
@@ -16,7 +27,9 @@ export interface Library {
   readonly memory: Memory;
   statusName(code: number): string;
   writeImpact(pointer: Pointer, impact: Impact): void;
+  /** Shot k with the events that were kept. */
   shotOf(shots: Shots, k: number): Shot;
+  save(shots: Shots): string;
 }
 
 /** Memory of the module that is freed by free(), or when nothing refers to it any more. */
@@ -138,6 +151,8 @@ export const cueSize = CUE.size / 8;
 export class Shots extends Owner {
   /** Balls of a shot. */
   readonly count: number;
+  /** @internal The options with which the shots were played. */
+  options: ShotOptions = {};
 
   /** @internal */
   constructor(
@@ -235,5 +250,36 @@ export class Shots extends Owner {
         `room: shot ${k} has ${this.events(k)} events, and there is room for ${this.room} of them`,
       );
     return this.library.shotOf(this, k);
+  }
+  /** The balls of shot k at its start. */
+  balls(k: number): readonly ShotBall[] {
+    return this.layouts[this.layouts.length === 1 ? 0 : indexed(k, this.n)]!;
+  }
+  /**
+   * The first event of a kind in each shot, as `Shot.first`. Throws if a shot had more events than
+   * room, and those that were kept have none of this kind.
+   */
+  first(kind: EventType, options: FirstOptions = {}): (FirstEvent | undefined)[] {
+    return Array.from({ length: this.n }, (_, k) => {
+      const found = firstOf(this.library.shotOf(this, k).events, kind, options, this.count);
+      if (found === undefined && this.events(k) > this.room)
+        throw new RangeError(
+          `room: shot ${k} has ${this.events(k)} events, and there is room for ${this.room} of them; first() needs all`,
+        );
+      return found;
+    });
+  }
+  /** For each shot, whether a ball was potted, as `Shot.potted`. */
+  potted(ball: number): boolean[];
+  potted(ball?: readonly number[]): boolean[][];
+  potted(ball?: number | readonly number[]): (boolean | boolean[])[] {
+    return Array.from({ length: this.n }, (_, k) => {
+      const final = Array.from({ length: this.count }, (_, index) => this.state(k, index));
+      return chosenOf(pottedOf(this.balls(k), final), ball);
+    });
+  }
+  /** The shots as a recording, as `Shot.save`. */
+  save(): string {
+    return this.library.save(this);
   }
 }

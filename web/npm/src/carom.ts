@@ -1,20 +1,24 @@
 // The library: every call of C that the package offers.
+import { Advice, type Host as AdviceHost } from "./advice.js";
 import { Collisions, type Library, Shots, indexed } from "./batches.js";
 import { CaromError } from "./error.js";
 import { layout, names, values } from "./generated/layout.js";
 import type * as C from "./generated/structs.js";
-import { KEYS, refuseUnknown } from "./keys.js";
+import { KEYS, refuseUnknown, stopsOf } from "./keys.js";
 import { type Host as MatchHost, Match } from "./match.js";
 import type { Build, Memory, Pointer } from "./memory.js";
 import { Plans, resultOf } from "./plans.js";
 import { type Replayed, replayed } from "./recording.js";
+import { type Host as SavedHost, isMatch, recordingOf, shotsOf } from "./saved.js";
 import { type Kept, type Reader, Shot } from "./shot.js";
 import {
   readBalls,
   readEvent,
   readMotion,
+  readOptions,
   readState,
   readStruct,
+  readSynonymsOf,
   readTable,
   refuseUnknownOf,
   setStruct,
@@ -35,6 +39,8 @@ import type {
   Bank,
   BreakChoice,
   BreakOptions,
+  Breaks,
+  BreaksOptions,
   Calibration,
   Call,
   PlanStroke,
@@ -45,9 +51,11 @@ import type {
   Cue,
   CushionImpact,
   CushionOptions,
+  CutOf,
   Detail,
   Frame,
   Game,
+  Hit,
 } from "./types.js";
 import type {
   GameState,
@@ -60,7 +68,10 @@ import type {
   Sequence,
   SequenceOptions,
   Player,
+  Practice,
+  PracticeOptions,
   RackName,
+  RackOptions,
   Odds,
   Rating,
   Review,
@@ -74,6 +85,10 @@ import type {
   Table,
   TableName,
   TracePoint,
+  Vec2,
+  Ways,
+  WaysOptions,
+  Why,
 } from "./types.js";
 
 /** The number of events of a slice. */
@@ -140,6 +155,7 @@ export class Carom {
   readonly #library: Library;
   readonly #reader: Reader;
   readonly #plans: Plans;
+  readonly #advice: Advice;
   readonly #recordings: MatchHost;
   readonly #addresses: Record<
     | "impact"
@@ -176,6 +192,7 @@ export class Carom {
   constructor(memory: Memory, build: Build) {
     this.build = build;
     this.#memory = memory;
+    readSynonymsOf(memory);
     const part = arena(memory);
     this.#addresses = {
       impact: part(Math.max(IMPACT.size, CUSHION.size)),
@@ -204,9 +221,10 @@ export class Carom {
       statusName: (code) => this.statusName(code),
       writeImpact: (pointer, impact) => this.#writeImpact(pointer, impact),
       shotOf: (shots, k) => this.#shotOf(shots, k),
+      save: (shots) => this.#saved(shots),
     };
     this.#reader = this.#readerOf();
-    this.#plans = new Plans({
+    const host: AdviceHost = {
       memory,
       addresses: this.#addresses,
       cue: (fields) => this.#cue(fields),
@@ -214,7 +232,11 @@ export class Carom {
       writeShotOptions: (options) => this.#writeShotOptions(options),
       writeShot: () => this.#writeShot(0),
       refuse: (code, field) => this.#refuse(code, field),
-    });
+      refuseShot: (code, balls, options, field) => this.#refuseShot(code, balls, options, field),
+      match: () => this.match(),
+    };
+    this.#plans = new Plans(host);
+    this.#advice = new Advice(host, this.#plans);
     this.#recordings = {
       memory,
       statusName: (code) => this.statusName(code),
@@ -314,6 +336,7 @@ export class Carom {
           };
         return this.#frame;
       },
+      save: (shot) => recordingOf(this.#savedBy, [shot], ["shot"]),
     };
   }
 
@@ -647,15 +670,48 @@ export class Carom {
 
   /**
    * The balls of a rack; the cue ball is the first. Neighbours are `gap` apart, m (default 1e-4; 0
-   * is a frozen rack). `seed` draws their displacements within the gap.
+   * is a frozen rack). `seed` draws their displacements within the gap, and `cueBall` is where the
+   * cue ball lies. Lists of gaps, seeds or positions result in a list of racks.
    */
   rack(
     name: RackName,
     table: Table,
-    options: { gap?: number; seed?: number | bigint } = {},
-  ): ShotBall[] {
+    options?: { gap?: number; seed?: number | bigint; cueBall?: Vec2 },
+  ): ShotBall[];
+  rack(name: RackName, table: Table, options: RackOptions): ShotBall[] | ShotBall[][];
+  rack(name: RackName, table: Table, options: RackOptions = {}): ShotBall[] | ShotBall[][] {
     refuseUnknown(options, KEYS.rack);
-    const { gap = 1e-4, seed = 1 } = options;
+    const { gap = 1e-4, seed = 1, cueBall } = options;
+    const isList = (option: unknown): option is readonly unknown[] => Array.isArray(option);
+    const arePlaces = isList(cueBall) && isList(cueBall[0] ?? []);
+    const lists = Object.entries({ gap, seed, cueBall: arePlaces ? cueBall : undefined }).flatMap(
+      ([key, option]) => (isList(option) ? [{ key, length: option.length }] : []),
+    );
+    const [first, ...others] = lists;
+    const unlike = others.find(({ length }) => length !== first!.length);
+    if (unlike)
+      throw new RangeError(
+        `${unlike.key}: its list has ${unlike.length} elements, and that of ${first!.key} ${first!.length}; they must have equally many`,
+      );
+    const racks = Array.from({ length: first?.length ?? 1 }, (_, k) =>
+      this.#rack(
+        name,
+        table,
+        isList(gap) ? (gap[k] as number) : gap,
+        isList(seed) ? (seed[k] as number | bigint) : seed,
+        (arePlaces ? cueBall[k] : cueBall) as Vec2 | undefined,
+      ),
+    );
+    return first === undefined ? racks[0]! : racks;
+  }
+
+  #rack(
+    name: RackName,
+    table: Table,
+    gap: number,
+    seed: number | bigint,
+    cueBall: Vec2 | undefined,
+  ): ShotBall[] {
     const kind = value("carom_rack_kind", name, "rack");
     this.#resident = undefined;
     writeTable(this.#memory, this.#addresses.table, table);
@@ -666,7 +722,11 @@ export class Carom {
       this.#call.carom_rack(kind, tablePointer, gap, BigInt(seed), balls, BALLS_MOST),
       `rack "${name}", gap ${gap}`,
     );
-    return readBalls(this.#memory, balls, this.#call.carom_rack_size(kind));
+    const rack = readBalls(this.#memory, balls, this.#call.carom_rack_size(kind));
+    if (cueBall === undefined) return rack;
+    if (cueBall.length !== 2)
+      throw new TypeError(`cueBall: it must be [x, y] in m, not ${JSON.stringify(cueBall)}`);
+    return this.placeBall(table, rack, 0, ...cueBall);
   }
 
   /**
@@ -990,17 +1050,12 @@ export class Carom {
         state: copy("state", layout.carom_shot_state.size),
       };
     }
-    const shot = this.#played(
-      table,
-      balls,
-      code,
-      pointer,
-      final,
-      this.#events,
-      this.#addresses.facts,
+    const shot = this.#played(table, balls, code, pointer, final, this.#events, {
+      facts: this.#addresses.facts,
       retained,
       cue,
-    );
+      options: readOptions(this.#memory, this.#addresses.options, "carom_shot_options"),
+    });
     this.#resident = shot;
     if (code < 0) throw this.#error(code, undefined, shot);
     return shot;
@@ -1046,6 +1101,15 @@ export class Carom {
     );
   }
 
+  /** Throws the error of a call with the table, balls and cue in the module's memory. */
+  #refuseShot(code: number, balls: number, options: Pointer, field: string): void {
+    if (code >= 0) return;
+    const { table, balls: ballsAt, cue, fault, text } = this.#addresses;
+    const args = [table, ballsAt, balls, cue, options] as const;
+    const isFault = this.#call.carom_shot_fault(...args, fault, text, 128) < 0;
+    throw isFault ? this.#shotError(...args) : this.#error(code, field);
+  }
+
   #played(
     table: Table,
     balls: readonly ShotBall[],
@@ -1053,11 +1117,17 @@ export class Carom {
     shot: Pointer,
     final: Pointer,
     events: Pointer,
-    facts?: Pointer,
-    retained?: Kept,
-    cue?: Cue,
+    more: {
+      facts?: Pointer;
+      retained?: Kept | undefined;
+      cue?: Cue | undefined;
+      options?: ShotOptions;
+      /** How many events were kept, where not all of them were. */
+      most?: number;
+    } = {},
   ): Shot {
-    const count = Number(this.#memory.i64[(shot + SHOT.offset.count) / 8]);
+    const { facts, most = Infinity } = more;
+    const count = Math.min(Number(this.#memory.i64[(shot + SHOT.offset.count) / 8]), most);
     const bytes = this.#memory.u8.slice(events, events + count * EVENT.size);
     const states = balls.map((_, k): BallState => readState(this.#memory, final + k * STATE.size));
     return new Shot(
@@ -1070,8 +1140,9 @@ export class Carom {
       count,
       bytes,
       facts ? this.#memory.u8.slice(facts, facts + layout.carom_facts.size) : undefined,
-      retained,
-      cue,
+      more.retained,
+      more.cue,
+      more.options,
     );
   }
 
@@ -1109,7 +1180,9 @@ export class Carom {
     const { balls, shot: pointer, table } = this.#addresses;
     const rest = [balls, shot.balls.length, pointer, times, n, states];
     this.#refuse(
-      drawn ? this.#call.carom_shot_drawn(table, ...rest) : this.#call.carom_shot_frames(balls, shot.balls.length, pointer, times, n, 0, states, 0),
+      drawn
+        ? this.#call.carom_shot_drawn(table, ...rest)
+        : this.#call.carom_shot_frames(balls, shot.balls.length, pointer, times, n, 0, states, 0),
       field,
     );
   }
@@ -1179,6 +1252,7 @@ export class Carom {
    */
   simulateBatch(shots: Shots, options: ShotOptions = {}): string {
     const opt = this.#writeShotOptions(options);
+    shots.options = { ...options };
     const { u32, i64, u8 } = this.#memory;
     for (let k = 0; k < shots.n; k++) {
       const shot = shots.pointer(3) + k * SHOT.size;
@@ -1203,18 +1277,67 @@ export class Carom {
     return this.statusName(this.#call.carom_shoot_batch(job));
   }
 
+  /** Shot k of a batch, with the events that were kept. */
   #shotOf(shots: Shots, k: number): Shot {
-    const balls = shots.layouts[shots.layouts.length === 1 ? 0 : k]!;
     const shot = shots.pointer(3) + k * SHOT.size;
     const final = shots.pointer(4) + k * shots.count * STATE.size;
     return this.#played(
       shots.table,
-      balls,
+      shots.balls(k),
       shots.status[k]!,
       shot,
       final,
       shots.pointer(6) + k * shots.room * EVENT.size,
+      { most: shots.room, options: shots.options },
     );
+  }
+
+  #saved(shots: Shots): string {
+    const played = Array.from({ length: shots.n }, (_, k) => {
+      const { status, final, table, balls } = this.#shotOf(shots, k);
+      const cueAt = shots.pointer(2) + k * layout.carom_cue.size;
+      const cue = readStruct<Cue>(this.#memory, cueAt, "carom_cue");
+      return { status, final, table, balls, cue, options: shots.options, count: shots.events(k) };
+    });
+    return recordingOf(
+      this.#savedBy,
+      played,
+      played.map((_, k) => `shots[${k}]`),
+    );
+  }
+
+  get #savedBy(): SavedHost {
+    return {
+      memory: this.#memory,
+      statusName: (code) => this.statusName(code),
+      replay: (recording) => this.replay(recording),
+      replayed: ({ table, balls, cue, options }, previous) => {
+        try {
+          if (previous) return this.continue(previous, stopsOf(options));
+          return this.simulate(table, balls, cue.speed > 0 ? cue : undefined, options);
+        } catch (error) {
+          if (error instanceof CaromError && error.shot) return error.shot;
+          throw error;
+        }
+      },
+    };
+  }
+
+  /**
+   * Reads what `save()` of a shot, of a batch or of a match returned, or another recording: its
+   * text, or its lines. Every shot is played again, and its bits are compared with the recorded
+   * hash. A recording of several shots is a list of them. A match by custom rules needs them as
+   * `rules`.
+   */
+  load(recording: string | Iterable<string>, rules?: OwnGame): Shot | Shot[] | Match {
+    const lines = typeof recording === "string" ? recording.split("\n") : [...recording];
+    if (!isMatch(lines)) {
+      const shots = shotsOf(this.#savedBy, lines);
+      return shots.length === 1 ? shots[0]! : shots;
+    }
+    const match = this.match(rules);
+    for (const line of lines) match.read(line);
+    return match;
   }
 
   /**
@@ -1297,6 +1420,61 @@ export class Carom {
   }
 
   /**
+   * Plays many breaks of one stroke, each with another rack and errors of the player, as `carom
+   * break` does. `balls` are a rack, with the cue ball as ball 0.
+   */
+  breaks(
+    rack: RackName,
+    table: Table,
+    balls: readonly ShotBall[],
+    options: BreaksOptions = {},
+  ): Breaks {
+    this.#resident = undefined;
+    return this.#advice.breaks(rack, table, balls, options);
+  }
+
+  /**
+   * Every way to pot, to score in three-cushion, or to bring the cue ball to a place, as `carom
+   * ways` finds them. `cues` are strokes of one ball, each of which is tried in all directions.
+   */
+  ways(
+    table: Table,
+    balls: readonly ShotBall[],
+    cues: Partial<Cue> | readonly Partial<Cue>[] = {},
+    options: WaysOptions = {},
+  ): Ways {
+    const strokes = Array.isArray(cues) ? (cues as readonly Partial<Cue>[]) : [cues];
+    return this.#advice.ways(table, balls, strokes as readonly Partial<Cue>[], options);
+  }
+
+  /**
+   * Explains a choice of a plan: what it meets, what it leaves, and what errors cost. The options
+   * are those of the plan; a cue ball in hand is put where the choice says.
+   */
+  why(
+    table: Table,
+    balls: readonly ShotBall[],
+    choice: PlanStroke,
+    options: PlanOptions = {},
+  ): Why {
+    return this.#advice.why(table, balls, choice, options);
+  }
+
+  /**
+   * What the strokes of recorded matches cost, by kinds of strokes, the most costly kind first.
+   * `recording` has matches of two sides with pockets, and `seat` is whose strokes are reviewed: a
+   * seat, or the name in it. Default: those of all seats.
+   */
+  practice(
+    recording: string | Iterable<string>,
+    seat?: number | string,
+    options: PracticeOptions = {},
+  ): Practice[] {
+    this.#resident = undefined;
+    return this.#advice.practice(recording, seat, options);
+  }
+
+  /**
    * The stroke of a player who intends `cue`, with errors drawn from a seed and the number of the
    * stroke.
    */
@@ -1315,10 +1493,44 @@ export class Carom {
     balls: readonly ShotBall[],
     cue: Partial<Cue>,
     pot: AimOf,
+    options?: ShotOptions,
+  ): Aim;
+  /**
+   * Aims at a ball by its cut, without a pocket and also on a table that has none. A list of cuts
+   * results in a list of strokes. Throws, with the reason, where there is no such aim.
+   */
+  aim(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    aim: CutOf & { cut: readonly number[] },
+    options?: ShotOptions,
+  ): Hit[];
+  aim(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    aim: CutOf & { cut?: number },
+    options?: ShotOptions,
+  ): Hit;
+  aim(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    aim: AimOf | CutOf,
     options: ShotOptions = {},
-  ): Aim {
-    refuseUnknown(pot, KEYS.aim, "aim");
-    return this.#plans.aim(table, balls, cue, pot, options);
+  ): Aim | Hit | Hit[] {
+    refuseUnknown(aim, KEYS.aim, "aim");
+    const { ball, pocket, via = [], cut }: Partial<AimOf & CutOf> = aim;
+    if (pocket !== undefined) {
+      if (cut !== undefined)
+        throw new TypeError("pocket, cut: a pocket determines the cut; give only one of both");
+      return this.#plans.aim(table, balls, cue, aim as AimOf, options);
+    }
+    if (via.length > 0) throw new TypeError("via: it needs a pocket; give one, or leave via out");
+    const cuts = typeof cut === "object" ? cut : [cut ?? 0];
+    const hits = this.#plans.aimByCut(table, balls, cue, ball!, cuts, options);
+    return typeof cut === "object" ? hits : hits[0]!;
   }
 
   /**

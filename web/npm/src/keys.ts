@@ -4,6 +4,9 @@ import { numbers, options } from "./generated/layout.js";
 import type { PlanOptions as PlanRows } from "./generated/structs.js";
 import type {
   AimOf,
+  BreaksOptions,
+  CutOf,
+  FirstOptions,
   GameState,
   Goal,
   Impact,
@@ -12,7 +15,10 @@ import type {
   Motion,
   OwnTurn,
   PlanOptions,
+  PracticeOptions,
+  RackOptions,
   ShotBall,
+  WaysOptions,
 } from "./types.js";
 
 /** The keys of an interface; the compiler rejects a list that lacks one or has another. */
@@ -76,19 +82,52 @@ export const KEYS = {
     hand: 1,
     shot: 1,
   }),
-  aim: keysOf<AimOf>({ ball: 1, pocket: 1, via: 1 }),
+  aim: keysOf<AimOf & CutOf>({ ball: 1, pocket: 1, via: 1, cut: 1 }),
+  first: keysOf<FirstOptions>({ ball: 1, after: 1 }),
+  ways: keysOf<WaysOptions>({
+    goal: 1,
+    ball: 1,
+    pocket: 1,
+    rails: 1,
+    place: 1,
+    radius: 1,
+    each: 1,
+    player: 1,
+    scan: 1,
+    most: 1,
+    shot: 1,
+  }),
+  manyBreaks: keysOf<BreaksOptions>({
+    aim: 1,
+    racks: 1,
+    gap: 1,
+    seed: 1,
+    cue: 1,
+    player: 1,
+    opponent: 1,
+    shot: 1,
+  }),
+  practice: keysOf<PracticeOptions>({ player: 1, opponent: 1, seed: 1 }),
   goal: keysOf<Goal>({ kind: 1, ball: 1, balls: 1, place: 1, distance: 1 }),
   plan: [...PLAN, "goal", "best"],
   sequence: PLAN.filter((key) => key !== "safeties"),
   breaks: ["breaks", "best", "gap", "seed", "cue", "player", "opponent", "shot"],
   series: ["ratings", "games", "sets", "order", "side", "breakPoints"],
   player: ["errors", "fargo", "rules"],
-  rack: ["gap", "seed"],
+  rack: keysOf<RackOptions>({ gap: 1, seed: 1, cueBall: 1 }),
   polygon: ["noseHeight", "jawRadius", "ballRadius"],
   corner: ["x", "y", "mouth"],
   room: ["room"],
   build: ["build"],
 } as const;
+
+/** The options of a shot that stop it, or those that do not. */
+export function stopsOf<T extends object>(options: T, areStops = true): Partial<T> {
+  const stops: readonly string[] = KEYS.stop;
+  return Object.fromEntries(
+    Object.entries(options).filter(([key]) => stops.includes(key) === areStops),
+  ) as Partial<T>;
+}
 
 /**
  * The number of letters that must be inserted, deleted, replaced or exchanged with the next one to

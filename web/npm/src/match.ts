@@ -10,6 +10,7 @@ import type { Shot } from "./shot.js";
 import {
   indexOf,
   readBalls,
+  readOptions,
   readStruct,
   readTable,
   setStruct,
@@ -336,6 +337,25 @@ export class Match extends MatchActs<Host> {
         // More digits than a decimal of a recording has.
         return typeof seconds === "string" ? { ...note, seconds: fromHex(seconds) } : note;
       });
+  }
+  /**
+   * The recording so far, text that `carom.load` reads. `carom verify` also demands the last line,
+   * which `end()` adds to a match that is over.
+   */
+  save(): string {
+    return this.lines.join("");
+  }
+  /** The models of all shots, and the stop of the last one. */
+  get options(): ShotOptions {
+    return readOptions(this.#host.memory, this.#record("options"), "carom_shot_options");
+  }
+  /** @internal The last stroke. */
+  get struck(): Cue {
+    return readStruct(this.#host.memory, this.#pointer + MATCH.stroke, "carom_cue");
+  }
+  /** @internal The call of the next stroke. */
+  get called(): C.Call {
+    return readStruct(this.#host.memory, this.#pointer + MATCH.call, "carom_call");
   }
   get table(): Table {
     return readTable(this.#host.memory, this.#record("table"));

@@ -11,7 +11,6 @@ import {
   readBalls,
   readFacts,
   readStruct,
-  refuseName,
   setStruct,
   value,
   whole,
@@ -29,6 +28,7 @@ import type {
   Drill,
   EventType,
   GameState,
+  Hit,
   Odds,
   PlanOptions,
   Player,
@@ -147,6 +147,21 @@ function numbersOf(call: Call | undefined): { ball: number; pocket: number } {
   return { ball: call.ball ?? -1, pocket: call.pocket };
 }
 
+/** Why there is no such aim. */
+function whyNoAim(pot: C.Pot, cueBall: number): string {
+  const { a, b, type } = pot.met;
+  const isBall = names.carom_event_type[type] === "ball_ball";
+  const obstacle = isBall ? `ball ${a === cueBall ? b : a}` : "a cushion, a jaw or a pocket";
+  const reasons: Partial<Record<Aim["outcome"], string>> = {
+    no_way: "no direction of the cue makes the cue ball meet it first at this cut",
+    barred: `${obstacle} is in the way`,
+    short: "the cue ball comes to rest before it; raise the cue's speed",
+    stick: `the stick would have to be raised by ${pot.elevation.toFixed(1)} degrees to clear what is behind the cue ball; nobody plays above 60`,
+  };
+  const word = names.carom_pot_outcome[pot.outcome]!;
+  return reasons[word] ?? word;
+}
+
 export class Plans {
   readonly #host: Host;
   readonly customRules: OwnRules;
@@ -192,24 +207,24 @@ export class Plans {
     return this.#host.memory;
   }
 
-  /** Throws what a plan rejects in a job: the member, its value and its range. */
-  #refuseJob(job: Pointer): never {
+  /** Throws what a plan rejects in the job that was written last: the member, its value and its range. */
+  #refuseJob(): never {
     const memory = this.#memory;
     const text = memory.allocate(FAULT_SIZE);
     try {
-      memory.exports.carom_plan_fault(job, text, FAULT_SIZE);
+      memory.exports.carom_plan_fault(this.#addresses.job, text, FAULT_SIZE);
       throw new RangeError(`plan: ${memory.text(text)}`);
     } finally {
       memory.free(text);
     }
   }
 
-  #refuse(code: number, field?: string): void {
+  refuse(code: number, field?: string): void {
     this.customRules.check();
     this.#host.refuse(code, field);
   }
 
-  #writeCue(cue: Partial<Cue>): Cue {
+  writeCue(cue: Partial<Cue>): Cue {
     const struck = this.#host.cue(cue);
     writeStruct(this.#memory, this.#host.addresses.cue, "carom_cue", struck, "cue");
     return struck;
@@ -246,7 +261,7 @@ export class Plans {
         ratingPointer,
         "carom_rating",
       );
-      this.#refuse(code, `scores[${row}]`);
+      this.refuse(code, `scores[${row}]`);
       return rating;
     } finally {
       memory.free(rows);
@@ -301,19 +316,21 @@ export class Plans {
     const memory = this.#memory;
     const { call: callAt, job } = this.#addresses;
     const { size } = layout.carom_review;
-    this.#writeJob(table, balls, { ...options, cue });
+    this.writeJob(table, balls, { ...options, cue });
     const room = memory.allocate(size + layout.carom_drill.size);
     try {
       const { ball, pocket } = numbersOf(call);
       memory.i32[callAt / 4] = ball;
       memory.i32[callAt / 4 + 1] = pocket;
       const { cue: played } = this.#host.addresses;
-      this.#refuse(memory.exports.carom_review_of(job, played, callAt, room), "review");
+      this.refuse(memory.exports.carom_review_of(job, played, callAt, room), "review");
       const isDirect = memory.exports.carom_drill_of(job, room, room + size) === 0;
       const found = readStruct<C.Review>(memory, room, "carom_review");
       return {
         ...found,
-        group: memory.text(memory.exports.carom_word_text(values.CAROM_WORDS_PRACTICE, found.group))!,
+        group: memory.text(
+          memory.exports.carom_word_text(values.CAROM_WORDS_PRACTICE, found.group),
+        )!,
         kept: found.kept !== 0,
         ...(isDirect && { drill: readStruct<Drill>(memory, room + size, "carom_drill") }),
       };
@@ -336,7 +353,7 @@ export class Plans {
     const { addresses } = this.#host;
     const { player: playerAt, opponent: opponentAt } = this.#addresses;
     this.#host.writeLayout(table, balls);
-    this.#writeCue({ speed: 9, ...cue });
+    this.writeCue({ speed: 9, ...cue });
     const memorySize = memory.exports.carom_break_memory();
     const room = memory.allocate(memorySize + BREAK_JOB.size + most * BREAK.size);
     const job = room + memorySize;
@@ -347,8 +364,8 @@ export class Plans {
         balls: addresses.balls,
         count: balls.length,
         cue: addresses.cue,
-        player: this.#writePlayer(playerAt, player ?? this.player({}), "player"),
-        opponent: opponent ? this.#writePlayer(opponentAt, opponent, "opponent") : 0,
+        player: this.writePlayer(playerAt, player ?? this.player({}), "player"),
+        opponent: opponent ? this.writePlayer(opponentAt, opponent, "opponent") : 0,
         shot: this.#host.writeShotOptions(shot ?? {}),
         rack: value("carom_rack_kind", rack, "rack"),
         gap,
@@ -363,7 +380,7 @@ export class Plans {
         throw new RangeError(
           `breaks, best: at least 16 and 1 to ${most} are needed, and the rack of a game with a break, not ${breaks}, ${best} and ${rack}`,
         );
-      this.#refuse(code, "rack");
+      this.refuse(code, "rack");
       return Array.from({ length: count }, (_, k) => {
         const choice = readStruct<C.BreakChoice>(
           memory,
@@ -379,8 +396,8 @@ export class Plans {
 
   withErrors(cue: Partial<Cue>, player: Player, seed: number, number: number): Cue {
     const { cue: pointer } = this.#host.addresses;
-    this.#writePlayer(this.#addresses.player, player, "player");
-    this.#writeCue(cue);
+    this.writePlayer(this.#addresses.player, player, "player");
+    this.writeCue(cue);
     this.#memory.exports.carom_player_strike(
       this.#addresses.player,
       BigInt(whole(seed, "seed", Number.MAX_SAFE_INTEGER)),
@@ -388,6 +405,13 @@ export class Plans {
       pointer,
     );
     return readStruct<Cue>(this.#memory, pointer, "carom_cue");
+  }
+
+  /** Bytes that a plan needs with the options that were written last. */
+  memorySize(): number {
+    const size = this.#memory.exports.carom_plan_memory(this.#addresses.options);
+    if (size === 0) this.#refuseJob();
+    return size;
   }
 
   plan(
@@ -418,9 +442,8 @@ export class Plans {
     const most = cues?.length ?? best;
     if (!Number.isInteger(most) || most < 1 || most > 1000)
       throw new RangeError(`${cues ? "cues: there" : "best: it"} must be 1 to 1000, not ${most}`);
-    this.#writeJob(table, balls, options);
-    const size = memory.exports.carom_plan_memory(this.#addresses.options);
-    if (size === 0) this.#refuseJob(this.#writeJob(table, balls, options));
+    this.writeJob(table, balls, options);
+    const size = this.memorySize();
     const room = memory.allocate(size);
     const choices = memory.allocate(most * CHOICE.size);
     const strokes = memory.allocate(most * layout.carom_cue.size);
@@ -452,12 +475,10 @@ export class Plans {
           const [low, high] = inHand === "anywhere" ? [0, 0] : [corners, corners + 16];
           code = memory.exports.carom_plan_hand(job, low, high, choices, best, found);
         }
-        this.#refuse(code, "plan");
+        this.refuse(code, "plan");
         const many = memory.i32[found / 4]!;
         if (many > 0)
-          return Array.from({ length: many }, (_, k) =>
-            this.#readChoice(choices + k * CHOICE.size),
-          );
+          return Array.from({ length: many }, (_, k) => this.readChoice(choices + k * CHOICE.size));
         yield undefined;
       }
     } finally {
@@ -479,9 +500,9 @@ export class Plans {
     const { inHand = "no" } = options;
     const memory = this.#memory;
     const { exports } = memory;
-    this.#writeJob(table, balls, options);
+    this.writeJob(table, balls, options);
     const memorySize = exports.carom_sequence_memory(this.#addresses.options);
-    if (memorySize === 0) this.#refuseJob(this.#writeJob(table, balls, options));
+    if (memorySize === 0) this.#refuseJob();
     const most = values.CAROM_SEQUENCE_MOST;
     const room = memory.allocate(memorySize);
     const steps = memory.allocate(most * STEP.size);
@@ -492,7 +513,7 @@ export class Plans {
       const write = (): Pointer => this.#writeSlice(table, balls, options, slice, more);
       let code = exports.carom_sequence(write(), hand, within, steps, most, found);
       for (;;) {
-        this.#refuse(code, "sequence");
+        this.refuse(code, "sequence");
         if (memory.i32[found / 4]! > 0) break;
         yield undefined;
         code = exports.carom_sequence_continue(write(), found);
@@ -506,7 +527,7 @@ export class Plans {
         if (slice > 0) yield undefined;
         setStruct(memory, counts, "carom_sequence_counts", {});
         const code = exports.carom_sequence_play(write(), hand, BigInt(k), 1n, counts);
-        this.#refuse(code, "sequence");
+        this.refuse(code, "sequence");
         all += readStruct<C.SequenceCounts>(memory, counts, "carom_sequence_counts").runs;
       }
       return { strokes, chance: all / plays, plays };
@@ -520,7 +541,7 @@ export class Plans {
     const corners = (pointer + STEP.offset.zone) / 8;
     return {
       ...readStruct<C.SequenceStroke>(memory, pointer, "carom_sequence_stroke"),
-      choice: this.#readChoice(pointer + STEP.offset.choice),
+      choice: this.readChoice(pointer + STEP.offset.choice),
       ruling: this.readRuling(pointer + STEP.offset.ruling, game, balls),
       zone: Array.from(
         { length: values.CAROM_ZONE_CORNERS },
@@ -542,7 +563,7 @@ export class Plans {
   ): PlanOptions {
     if (cues !== undefined) return options;
     const memory = this.#memory;
-    const job = this.#writeJob(table, balls, options);
+    const job = this.writeJob(table, balls, options);
     const isAny = memory.i32[(this.#addresses.rules + RULES.offset.anyCueBall) / 4] !== 0;
     if (!isAny || options.opening || options.cue?.ball !== undefined) return options;
     const { found } = this.#addresses;
@@ -550,7 +571,7 @@ export class Plans {
     let cue: Partial<Cue> = { ...options.cue };
     for (const ball of members(inPlay(balls), balls.length)) {
       const struck = { ...options.cue, ball };
-      this.#writeCue(struck);
+      this.writeCue(struck);
       const code = memory.exports.carom_plan_value(job, 0, found);
       const value = memory.f64[found / 8]!;
       if (code < 0 || value <= most) continue;
@@ -570,7 +591,7 @@ export class Plans {
       throw new TypeError(
         `inHand: it must be the hand of a ruling, ${[...new Set(HANDS)].map((word) => `"${word}"`).join(", ")}, or two corners [[x, y], [x, y]], not ${String(inHand)}`,
       );
-    this.#refuse(memory.exports.carom_hand_bounds(leave, table, radius, pointer), "inHand");
+    this.refuse(memory.exports.carom_hand_bounds(leave, table, radius, pointer), "inHand");
   }
 
   /** The names of the rails or pockets of the table in the module's memory. */
@@ -588,33 +609,19 @@ export class Plans {
     table: Table,
     balls: readonly ShotBall[],
     cue: Partial<Cue>,
-    { ball, pocket, via = [] }: AimOf,
+    { ball, pocket = -1, via = [] }: AimOf,
     options: ShotOptions,
   ): Aim {
     const { addresses } = this.#host;
     const memory = this.#memory;
     const { pot } = this.#addresses;
     this.#host.writeLayout(table, balls);
-    this.#writeCue(cue);
+    this.writeCue(cue);
     const shot = this.#host.writeShotOptions(options);
 
     // The ball, the pocket and the way, by their names or indices.
     const rails = this.names("rail", table.rails.length);
     const pockets = this.names("pocket", table.pockets.length);
-    const index = (
-      name: string,
-      option: string,
-      names: readonly (string | undefined)[],
-    ): number => {
-      const found = names.indexOf(name);
-      return found >= 0
-        ? found
-        : refuseName(
-            option,
-            name,
-            [...new Set(names)].filter((known) => known !== undefined),
-          );
-    };
     if (via.length > values.CAROM_VIA_MOST)
       throw new RangeError(`via: at most ${values.CAROM_VIA_MOST}, not ${via.length}`);
     memory.u8.fill(0, pot, pot + POT.size);
@@ -623,7 +630,7 @@ export class Plans {
     write(POT.offset.ball, ball);
     write(
       POT.offset.pocket,
-      typeof pocket === "string" ? index(pocket, "pocket", pockets) : pocket,
+      typeof pocket === "string" ? indexOf(pockets, pocket, "pocket") : pocket,
     );
     write(POT.offset.vias, via.length);
     for (const [k, stop] of via.entries()) {
@@ -632,9 +639,12 @@ export class Plans {
         part + PART.offset.kind,
         typeof stop === "string" ? values.CAROM_PART_RAIL : values.CAROM_PART_BALL,
       );
-      write(part + PART.offset.index, typeof stop === "string" ? index(stop, "via", rails) : stop);
+      write(
+        part + PART.offset.index,
+        typeof stop === "string" ? indexOf(rails, stop, "via") : stop,
+      );
     }
-    this.#refuse(
+    this.refuse(
       memory.exports.carom_aim(
         addresses.table,
         addresses.balls,
@@ -671,6 +681,54 @@ export class Plans {
     };
   }
 
+  /** Aims at a ball without a pocket, at each of the cuts. */
+  aimByCut(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    ball: number,
+    cuts: readonly number[],
+    options: ShotOptions,
+  ): Hit[] {
+    const { addresses } = this.#host;
+    const memory = this.#memory;
+    const { pot } = this.#addresses;
+    this.#host.writeLayout(table, balls);
+    const struck = this.writeCue(cue);
+    const shot = this.#host.writeShotOptions(options);
+    whole(ball, "ball", balls.length - 1);
+    if (struck.ball === ball)
+      throw new RangeError(`ball: ${ball} is the cue ball; it must be another one`);
+    if (balls[ball]!.state.label === "pocketed")
+      throw new RangeError(`ball: ${ball} is pocketed; it must be on the table`);
+    const wrong = cuts.find((cut) => !(Math.abs(cut) < 90));
+    if (wrong !== undefined)
+      throw new RangeError(`cut: it must be above -90 and below 90 degrees, not ${wrong}`);
+    return cuts.map((cut, k) => {
+      this.writeCue(struck);
+      setStruct(memory, pot, "carom_pot", { ball, pocket: values.CAROM_POT_NO_POCKET, cut });
+      const code = memory.exports.carom_aim(
+        addresses.table,
+        addresses.balls,
+        balls.length,
+        shot,
+        pot,
+        addresses.cue,
+      );
+      this.refuse(code, "aim");
+      const found = readStruct<C.Pot>(memory, pot, "carom_pot");
+      if (found.outcome !== values.CAROM_POT_FALLS)
+        throw new RangeError(
+          `cut${cuts.length > 1 ? `[${k}]` : ""}: no aim at ball ${ball} with a cut of ${cut} degrees: ${whyNoAim(found, struck.ball)}`,
+        );
+      return {
+        cue: readStruct<Cue>(memory, addresses.cue, "carom_cue"),
+        cut,
+        elevation: found.elevation,
+      };
+    });
+  }
+
   targets(game: Partial<GameState>, balls: readonly ShotBall[]): number[] {
     this.#writeRules(game, balls);
     // A function of the rules, by the module's table of functions.
@@ -694,7 +752,7 @@ export class Plans {
     const memory = this.#memory;
     // The shot once more, with its facts.
     this.#host.writeLayout(table, balls);
-    const struck = this.#writeCue(cue);
+    const struck = this.writeCue(cue);
     const optionsAt = this.#host.writeShotOptions(options);
     this.#host.writeShot();
     const code =
@@ -729,7 +787,7 @@ export class Plans {
     const { ball, pocket } = numbersOf(call);
     memory.i32[callAt / 4] = ball;
     memory.i32[callAt / 4 + 1] = pocket;
-    this.#refuse(
+    this.refuse(
       memory.exports.carom_referee(
         rules,
         addresses.table,
@@ -822,7 +880,7 @@ export class Plans {
     return this.#memory.u32[(this.#addresses.rules + RULES.offset.settle) / 4] !== 0;
   }
 
-  #writePlayer(pointer: Pointer, player: Player, name: string): Pointer {
+  writePlayer(pointer: Pointer, player: Player, name: string): Pointer {
     writeStruct(this.#memory, pointer, "carom_player", player, name, BOUNDS);
     return pointer;
   }
@@ -886,13 +944,13 @@ export class Plans {
     return pointer;
   }
 
-  #writeJob(table: Table, balls: readonly ShotBall[], options: PlanOptions): Pointer {
+  writeJob(table: Table, balls: readonly ShotBall[], options: PlanOptions): Pointer {
     const memory = this.#memory;
     const { addresses } = this.#host;
     const { player, opponent, rules, options: optionsAt, job } = this.#addresses;
     this.#host.writeLayout(table, balls);
-    this.#writeCue(options.cue ?? {});
-    this.#writePlayer(player, options.player ?? this.player({}), "player");
+    this.writeCue(options.cue ?? {});
+    this.writePlayer(player, options.player ?? this.player({}), "player");
     const shot = this.#host.writeShotOptions(options.shot ?? {});
     this.#writeRules(options, balls);
     if (options.own?.race === "seats" && !options.own.value)
@@ -906,7 +964,7 @@ export class Plans {
         memory,
         optionsAt,
         "carom_plan_options",
-        { opponent: this.#writePlayer(opponent, options.opponent, "opponent") },
+        { opponent: this.writePlayer(opponent, options.opponent, "opponent") },
         false,
       );
     return setStruct(memory, job, "carom_plan_job", {
@@ -930,12 +988,12 @@ export class Plans {
     slice: number,
     more: { memory: Pointer; memorySize: number; leave: number },
   ): Pointer {
-    const job = this.#writeJob(table, balls, options);
+    const job = this.writeJob(table, balls, options);
     setStruct(this.#memory, this.#addresses.options, "carom_plan_options", { slice }, false);
     return setStruct(this.#memory, job, "carom_plan_job", more, false);
   }
 
-  #readChoice(pointer: Pointer): PlanStroke {
+  readChoice(pointer: Pointer): PlanStroke {
     const { kind, ...choice } = readStruct<C.PlanStroke>(
       this.#memory,
       pointer,

@@ -4,8 +4,8 @@ import { CaromError } from "./error.js";
 import { layout, values } from "./generated/layout.js";
 import type { Memory, Pointer } from "./memory.js";
 import type { Shot } from "./shot.js";
-import { readBalls, readStruct, readTable } from "./structs.js";
-import type { BallState, Cue, ShotBall, Table } from "./types.js";
+import { readBalls, readOptions, readStruct, readTable } from "./structs.js";
+import type { BallState, Cue, ShotBall, ShotOptions, Table } from "./types.js";
 
 const RECORD = layout.carom_record.offset;
 const END = layout.carom_record_end.offset;
@@ -35,6 +35,8 @@ export interface Replayed {
   /** The layout at its start; for a continuation, at the start of the shot. */
   balls: ShotBall[];
   cue: Cue;
+  /** The models, and when the shot was stopped. */
+  options: ShotOptions;
   recorded: ShotEnd;
   played: ShotEnd;
   /** Whether every bit of its end agrees. */
@@ -60,7 +62,7 @@ export interface Host {
     shot: Pointer,
     final: Pointer,
     events: Pointer,
-    facts: Pointer,
+    more: { facts: Pointer; cue: Cue; options: ShotOptions },
   ): Shot;
   refuse(code: number, field?: string): void;
 }
@@ -118,6 +120,13 @@ class Game {
     return this.number(RECORD.kind) === values.CAROM_RECORD_END;
   }
 
+  get cue(): Cue {
+    return readStruct(this.#host.memory, this.pointer + RECORD.cue, "carom_cue");
+  }
+  get options(): ShotOptions {
+    return readOptions(this.#host.memory, this.pointer + RECORD.options, "carom_shot_options");
+  }
+
   /** The last shot that was played. */
   film: Shot | undefined;
 
@@ -146,7 +155,7 @@ class Game {
             this.#shot,
             this.pointer + RECORD.final,
             this.#events,
-            this.pointer + RECORD.facts,
+            { facts: this.pointer + RECORD.facts, cue: this.cue, options: this.options },
           );
         return code;
       }
@@ -188,7 +197,8 @@ class Game {
       continues: kind === values.CAROM_RECORD_CONTINUE,
       table: film.table,
       balls: [...film.balls],
-      cue: readStruct<Cue>(memory, this.pointer + RECORD.cue, "carom_cue"),
+      cue: this.cue,
+      options: this.options,
       recorded,
       played,
       same: (Object.keys(played) as (keyof ShotEnd)[]).every((key) =>

@@ -1,5 +1,20 @@
 // One shot that was played: its events, and where the balls are at any time.
-import type { BallState, Contact, Cue, Frame, ShotBall, ShotEvent, Table } from "./types.js";
+import { names } from "./generated/layout.js";
+import { KEYS, refuseUnknown } from "./keys.js";
+import { value, whole } from "./structs.js";
+import type {
+  BallState,
+  Contact,
+  Cue,
+  EventType,
+  FirstEvent,
+  FirstOptions,
+  Frame,
+  ShotBall,
+  ShotEvent,
+  ShotOptions,
+  Table,
+} from "./types.js";
 
 /** The functions of the library that a shot uses. */
 export interface Reader {
@@ -8,6 +23,55 @@ export interface Reader {
   positions(shot: Shot, time: number, into: Float64Array): void;
   positionsAt(shot: Shot, times: ArrayLike<number>, drawn: boolean): Float64Array;
   frame(shot: Shot, time: number): Frame;
+  save(shot: Shot): string;
+}
+
+/** The first event of a kind, as `Shot.first` describes it. `count` is the number of balls. */
+export function firstOf(
+  events: readonly ShotEvent[],
+  kind: EventType,
+  options: FirstOptions,
+  count: number,
+): FirstEvent | undefined {
+  refuseUnknown(options, KEYS.first);
+  const { ball } = options;
+  const earliest = options.after ?? -1;
+  const type = names.carom_event_type[value("carom_event_type", kind, "kind")]!;
+  if (ball !== undefined) whole(ball, "ball", count - 1);
+  const index = events.findIndex((event) => {
+    const isOfBall =
+      ball === undefined || event.a === ball || (type === "ball_ball" && event.b === ball);
+    return event.type === type && event.time > earliest && isOfBall;
+  });
+  const event = events[index];
+  if (event === undefined) return undefined;
+  // Of a collision of two balls, the given ball is a or b.
+  const side = ball !== undefined && type === "ball_ball" && event.b === ball ? 1 : 0;
+  return {
+    index,
+    time: event.time,
+    other: side === 1 ? event.a : event.b,
+    before: event.before[side]!,
+    after: event.after[side]!,
+    event,
+  };
+}
+
+/** Which balls were on the table at the start and are in a pocket at the end. */
+export function pottedOf(
+  balls: readonly ShotBall[],
+  final: readonly Pick<BallState, "label">[],
+): boolean[] {
+  return balls.map(({ state }, k) => final[k]!.label === "pocketed" && state.label !== "pocketed");
+}
+/** Those of one ball, of several, or of all. */
+export function chosenOf(
+  potted: readonly boolean[],
+  ball: number | readonly number[] | undefined,
+): boolean | boolean[] {
+  const potsBall = (k: number): boolean => potted[whole(k, "ball", potted.length - 1)]!;
+  if (ball === undefined) return [...potted];
+  return typeof ball === "number" ? potsBall(ball) : ball.map(potsBall);
 }
 
 /**
@@ -44,6 +108,8 @@ export class Shot {
     readonly retained?: Kept,
     /** The stroke. */
     readonly cue?: Cue,
+    /** The models, and when the shot was stopped. */
+    readonly options: ShotOptions = {},
   ) {
     this.#reader = reader;
   }
@@ -64,6 +130,33 @@ export class Shot {
     );
     if (event === undefined) return undefined;
     return { time: event.time, ball: event.a === struck ? event.b : event.a, event };
+  }
+
+  /**
+   * The first event of a kind, such as "ball_ball" or "sliding_rolling"; undefined if there is
+   * none.
+   */
+  first(kind: EventType, options: FirstOptions = {}): FirstEvent | undefined {
+    return firstOf(this.events, kind, options, this.balls.length);
+  }
+
+  /**
+   * Whether a ball was potted: on the table at the start, in a pocket at the end. Without an
+   * argument, or with a list: of each ball.
+   */
+  potted(ball: number): boolean;
+  potted(ball?: readonly number[]): boolean[];
+  potted(ball?: number | readonly number[]): boolean | boolean[] {
+    return chosenOf(pottedOf(this.balls, this.final), ball);
+  }
+
+  /**
+   * The shot as a recording, text that `carom.load` reads and `carom verify` checks: the table, the
+   * balls, the cue, the options and a hash of the result. Events are computed again. Throws if
+   * playing the shot again has other bits, because an object was changed.
+   */
+  save(): string {
+    return this.#reader.save(this);
   }
 
   /**

@@ -22,10 +22,51 @@ import type {
 
 export type StructName = keyof typeof layout;
 
-/** The index of a name in a list. */
-export function indexOf(words: readonly string[], word: unknown, option: string): number {
-  const found = word === "" ? -1 : words.indexOf(word as string);
-  return found >= 0 ? found : refuseName(option, word as string, words.filter(Boolean));
+/** A library, for its table of synonyms, which is the same in every one. */
+let library: Memory | undefined;
+export function readSynonymsOf(memory: Memory): void {
+  library ??= memory;
+}
+
+/** Whether a text is a word as players write it, by carom_word_means(): "9-ball" is "nineball". */
+function means(text: string, word: string): boolean {
+  if (library === undefined) return false;
+  const bytes = [text, word].map((name) => new TextEncoder().encode(`${name}\0`));
+  const pointers = bytes.map(({ length }) => library!.allocate(length));
+  try {
+    pointers.forEach((pointer, k) => library!.u8.set(bytes[k]!, pointer));
+    return library.exports.carom_word_means(pointers[0]!, pointers[1]!) !== 0;
+  } finally {
+    for (const pointer of pointers) library.free(pointer);
+  }
+}
+const lettersOf = (word: string): string => word.toLowerCase().replace(/[-_ ]/g, "");
+
+/**
+ * The index of a name in a list: of the name itself, else of its letters, else of a synonym in the
+ * library's table.
+ */
+export function indexOf(
+  words: readonly (string | undefined)[],
+  word: unknown,
+  option: string,
+): number {
+  if (typeof word === "string" && word !== "") {
+    const letters = lettersOf(word);
+    const alike = [
+      (known: string) => known === word,
+      (known: string) => lettersOf(known) === letters,
+      (known: string) => means(word, known),
+    ];
+    for (const isAlike of alike) {
+      const found = words.findIndex(
+        (known) => known !== undefined && known !== "" && isAlike(known),
+      );
+      if (found >= 0) return found;
+    }
+  }
+  const known = words.filter((name): name is string => name !== undefined && name !== "");
+  return refuseName(option, word as string, [...new Set(known)]);
 }
 
 /** The value of a name of an enumeration: value("carom_cushion_model", "han", "model"). */
@@ -100,10 +141,14 @@ export function writeStruct(
   refuseUnknownOf(struct, fields, name);
   const { f64, i64, i32 } = memory;
   for (const { key, begin, size, type } of FIELDS[struct]) {
-    if (key === "unused") continue; // it stays 0
+    if (type === "") continue; // it stays 0
     const value =
       (fields as Record<string, unknown>)[key] ??
       (defaults as Record<string, unknown> | undefined)?.[key];
+    if (type in layout && typeof value === "object" && value !== null) {
+      writeStruct(memory, pointer + begin, type as StructName, value, `${name}.${key}`);
+      continue;
+    }
     const whole = type === "i64" || type === "i32";
     const list = listOf(value, size);
     if (
@@ -195,6 +240,26 @@ export function writeOptions(
           : whole(supplied as number, key, form === "seed" ? Number.MAX_SAFE_INTEGER : undefined);
   }
   return setStruct(memory, pointer, struct, fields, !stops);
+}
+
+/** The options in a struct, as they are given: those that differ from the defaults. */
+export function readOptions<T>(
+  memory: Memory,
+  pointer: Pointer,
+  struct: keyof typeof OPTIONS,
+): Partial<T> {
+  const fields = readStruct<Record<string, number>>(memory, pointer, struct);
+  const entries = OPTIONS[struct].flatMap(({ key, form, enumeration }): [string, unknown][] => {
+    const number = fields[key] ?? 0;
+    if (number === 0) return [];
+    if (form === "words") return [[key, NAMES[enumeration as keyof typeof NAMES][number]]];
+    if (form === "flag") return [[key, true]];
+    if (form !== "set") return [[key, number]];
+    const names: readonly string[] =
+      enumeration === "" ? [] : ["contact", ...NAMES[enumeration].slice(1)];
+    return [[key, members(number).map((k) => names[k] ?? k)]];
+  });
+  return Object.fromEntries(entries) as Partial<T>;
 }
 
 /** A struct as an object: numbers, lists of numbers, and structs in it. */

@@ -249,6 +249,150 @@ export interface Odds extends Omit<C.Odds, "score"> {
   /** The games of both sides with which the match is fairest. */
   fair: readonly number[];
 }
+/** What ways are for: that a ball falls, that three-cushion scores, or that the cue ball rests. */
+export type WayGoal = C.WayGoal;
+/** Options of `ways`. */
+export interface WaysOptions {
+  /**
+   * Default: "pot" on a table with pockets and more than one ball, "place" with one ball, else
+   * "score".
+   */
+  goal?: WayGoal;
+  /** For pots: the ball. Default: any. */
+  ball?: number;
+  /** For pots: the pocket by its index or name. Default: any. */
+  pocket?: number | string;
+  /** For pots and places: the largest number of rails. Default 2. */
+  rails?: number;
+  /** Where the cue ball must come to rest, m, for all goals. */
+  place?: Vec2;
+  /** The largest distance to that place, m. Default 0.15. */
+  radius?: number;
+  /** Whether a pot has a way for each stroke that makes it, instead of the best. Default false. */
+  each?: boolean;
+  /** Whose errors the chances have. Default: `player()`. */
+  player?: Player;
+  /** How many directions of all strokes are tried. Default: 20,000, and for points 100,000. */
+  scan?: number;
+  /** How many ways are returned at most. Default 100. */
+  most?: number;
+  shot?: ShotOptions;
+}
+/** A way to a goal. */
+export interface Way extends Omit<C.ShotWay, "kind" | "part" | "parts"> {
+  /** Of a pot. */
+  kind?: C.PlanKind;
+}
+/** The ways to a goal. */
+export interface Ways {
+  /** The best first. */
+  ways: Way[];
+  /** What each way meets, in this order: indices of balls and names of rails. */
+  parts: (number | string)[][];
+  /** How many strokes were played in all directions. */
+  scanned: number;
+  /** How many of them succeeded. */
+  good: number;
+  /** How many succeeded, but had no room, because there were more ways than `most`. */
+  leftOut: number;
+}
+/** Why a choice of a plan is good. Values are chances to win, or those of the goal. */
+export interface Why
+  extends Pick<
+    C.Why,
+    "cut" | "part" | "speed" | "leave" | "value" | "misses" | "loses" | "opponent" | "flawlessValue"
+  > {
+  /** The cushions that the cue ball meets before any ball. */
+  rails: string[];
+  /** The ball that the cue ball meets first. */
+  first: number | undefined;
+  /** What the stroke leaves without errors, as the referee says it. */
+  words: string;
+  /** The best stroke of the player who plays next. */
+  next: PlanStroke | undefined;
+  /** What the errors of aim, speed, tip and eye cost; they add up to flawlessValue - value. */
+  cost: Record<"aim" | "speed" | "tip" | "eye", number>;
+}
+/** Options of `breaks`. */
+export interface BreaksOptions extends Omit<BreakOptions, "breaks" | "best" | "cue"> {
+  /** The stroke. Default: 9 m/s. */
+  cue?: Partial<Cue>;
+  /**
+   * How each break is aimed: at the middle of the ball in front (default), in the direction of the
+   * cue, or as far beside the middle as the cue is in the layout.
+   */
+  aim?: C.BreakAim;
+  /** How many breaks are played. Default 500. */
+  racks?: number;
+}
+/** The results of many breaks. Shares are of all breaks. */
+export interface Breaks {
+  breaks: number;
+  /** Share that pots a ball. */
+  makes: number;
+  /** Balls that fall, the mean of a break. */
+  balls: number;
+  /** Share that plays on by the rules; NaN for a rack of no game with a break. */
+  playsOn: number;
+  /** Share of fouls, likewise. */
+  fouls: number;
+  /** The chance to win by the value of what each break leaves, likewise. */
+  wins: number;
+  /** The standard error of `wins`. */
+  error: number;
+  /** Share in which the cue ball falls. */
+  scratches: number;
+  /** Share in which a ball leaves the table. */
+  off: number;
+  /** Share in which a ball at a wing of the rack falls. */
+  wing: number;
+  /** `fell[ball][pocket]`: how often a ball falls into a pocket, as a share. */
+  fell: number[][];
+  /** The mean place of the cue balls that stay, m. */
+  place: Vec2;
+  /** The standard deviation of these places, m. */
+  spread: number;
+}
+/** Options of `practice`, as of `review`. */
+export interface PracticeOptions {
+  player?: Player;
+  opponent?: Player;
+  seed?: number;
+}
+/** A stroke of a match, and its review. */
+export interface Reviewed {
+  /** Of the recording, from 1. */
+  line: number;
+  /** Who played it. */
+  seat: number;
+  /** The layout before it. */
+  balls: ShotBall[];
+  cue: Cue;
+  review: Review;
+}
+/**
+ * What strokes of a kind cost. Costs are games: chances to win that strokes lost, minus those that
+ * they won.
+ */
+export interface Practice {
+  /** Such as "long thin cut". */
+  group: string;
+  strokes: number;
+  /** How many kept the turn. */
+  kept: number;
+  /** How many would keep it with the errors of the player. */
+  due: number;
+  /** What the misses cost. */
+  missCost: number;
+  /** What the places of the balls cost. */
+  placeCost: number;
+  /** The mean error of the aim to the left, degrees; NaN where no aim is known. */
+  off: number;
+  /** Its standard deviation, degrees. */
+  spread: number;
+  /** Its strokes, those that cost most first; each has a drill. */
+  reviewed: Reviewed[];
+}
 /** Options of the comparison of breaks, for `bestBreaks`. */
 export interface BreakOptions {
   /** How many times each proposed break is played, at least 16. Default 500. */
@@ -410,6 +554,58 @@ export interface AimOf {
    * ["head", ball] a kick: if `ball` is not named, it follows the last other ball.
    */
   via?: readonly (number | string)[];
+}
+
+/** The request for an aim at a ball by its cut, without a pocket. */
+export interface CutOf {
+  ball: number;
+  /**
+   * Degrees, above -90 and below 90, from the direction of the cue ball when it meets `ball` to the
+   * line of centres. 0, the default, is a full hit; above 0, `ball` leaves to the left. It is exact
+   * to 1e-6 degrees, with squirt and swerve. A list results in a list of strokes.
+   */
+  cut?: number | readonly number[];
+}
+
+/** A stroke with which the cue ball meets a ball at a cut. */
+export interface Hit {
+  cue: Cue;
+  /** Degrees. */
+  cut: number;
+  /** Degrees: the least elevation with which the stick clears what is behind the cue ball. */
+  elevation: number;
+}
+
+/** Options of a rack. With lists, there is a rack for each of their elements. */
+export interface RackOptions {
+  /** The distance between neighbours, m. Default 1e-4; 0 is a frozen rack. */
+  gap?: number | readonly number[];
+  /** Draws the displacements of the balls within the gap. Default 1. */
+  seed?: number | bigint | readonly (number | bigint)[];
+  /** Where the cue ball is, m. Default: on the head spot, or where the game has it. */
+  cueBall?: Vec2 | readonly Vec2[];
+}
+
+/** Which events `first` looks for. */
+export interface FirstOptions {
+  /** Only events of this ball. */
+  ball?: number;
+  /** Only events later than this time, s. */
+  after?: number;
+}
+/** The first event of a kind in a shot. */
+export interface FirstEvent {
+  /** Among the events of the shot. */
+  index: number;
+  /** s. */
+  time: number;
+  /** What the ball met: a ball, or a part of the table; -1: nothing. */
+  other: number;
+  /** The ball just before: the given one, else ball a of the event. */
+  before: BallState;
+  /** The ball just after. */
+  after: BallState;
+  event: ShotEvent;
 }
 
 /** A stroke that pots a ball, or the reason why there is none. */

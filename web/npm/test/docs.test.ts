@@ -47,7 +47,8 @@ test("the tarball has its licences, and the WebAssembly once", () => {
   expect(packed.files.map(({ path }) => path)).toEqual(
     expect.arrayContaining(["LICENSE", "NOTICES", "README.md", "dist/index.js"]),
   );
-  expect(packed.files.filter(({ path, size }) => path.endsWith(".d.ts") && size > 100_000)).toEqual(
+  // The declarations of a module would have its text, of more than 400 kB.
+  expect(packed.files.filter(({ path, size }) => path.endsWith(".d.ts") && size > 200_000)).toEqual(
     [],
   );
   // Its modules are most of it, compressed, as text.
@@ -55,7 +56,7 @@ test("the tarball has its licences, and the WebAssembly once", () => {
   expect(modules.length).toBe(2);
   // Without the build plain, the other files of the package weigh more than this allows.
   if (thereIsPlain)
-    expect(packed.size).toBeLessThan(0.9 * modules.reduce((sum, { size }) => sum + size, 0));
+    expect(packed.size).toBeLessThan(0.92 * modules.reduce((sum, { size }) => sum + size, 0));
 });
 
 // web/npm/examples/: each program checks its own answer. The picture of a break is that of the

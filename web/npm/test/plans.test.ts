@@ -186,8 +186,8 @@ test.runIf(thereIsACommand)(
       ]);
       refuses(
         [
-          () => carom.aim(table, balls, {}, { ball: 1, pocket: "top-right" }),
-          /pocket: unknown name "top-right".* one of head-left/,
+          () => carom.aim(table, balls, {}, { ball: 1, pocket: "top" }),
+          /pocket: unknown name "top".* one of head-left/,
         ],
         [
           () => carom.aim(table, balls, {}, { ball: 1, pocket: 2, via: ["lft"] }),

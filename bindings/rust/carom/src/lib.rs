@@ -1,14 +1,24 @@
 //! Billiards with the C library carom: tables, racks, complete shots, plans and recordings. `calls`
-//has ! the other functions that need no pointers, and `sys` has all functions as C declares them. !
-//! ``` ! use carom::{Error, Game, RackKind, TableKind}; ! # fn main() -> Result<(), Error> { ! let
-//table = carom::table(TableKind::Pool9ft)?; ! let balls = carom::rack(RackKind::Nineball, &table,
-//1e-4, 1)?; ! let cue = carom::Cue { speed: 8.0, ..carom::cue(Game::Pool) }; ! let shot =
-//carom::shoot(&table, &balls, &cue, &carom::Options::default())?; !
-//assert_eq!(shot.at(shot.time())?.len(), 10); ! # Ok(()) ! # } ! ``` ! ! Units are SI; directions
-//of a cue are in degrees. A shot has the same bits on all machines, ! unless `fast` is set.
+//! has the other functions that need no pointers, and `sys` has all functions as C declares them.
+//!
+//! ```
+//! use carom::{Error, Game, RackKind, TableKind};
+//! # fn main() -> Result<(), Error> {
+//! let table = carom::table(TableKind::Pool9ft)?;
+//! let balls = carom::rack(RackKind::Nineball, &table, 1e-4, 1)?;
+//! let cue = carom::Cue { speed: 8.0, ..carom::cue(Game::Pool) };
+//! let shot = carom::shoot(&table, &balls, &cue, &carom::Options::default())?;
+//! assert_eq!(shot.at(shot.time())?.len(), 10);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Units are SI; directions of a cue are in degrees. A shot has the same bits on all machines,
+//! unless `fast` is set.
 #[rustfmt::skip] // written by bindings/write.py
 pub mod calls;
 mod match_game;
+mod names;
 mod plan;
 mod record;
 
@@ -18,6 +28,7 @@ pub use calls::{
 };
 pub use carom_sys as sys;
 pub use match_game::Match;
+pub use names::{named, names, Named};
 pub use plan::{rules, spot, strike, GameRules, Position, Thinking};
 pub use record::Recording;
 pub use sys::words::*;

@@ -11,7 +11,11 @@ pub struct Match {
     pub(crate) of: Box<sys::carom_match>,
     scratch: Box<sys::carom_record>,
     room: Box<sys::carom_match>,
+    /// With the lines that the match has made, also those that are due in a file.
     lines: String,
+    /// The members `size`, `known` and `due` of `of`: how many bytes of its text are what. A
+    /// refused act changes them, and not the bytes.
+    sizes: [i64; 3],
     undone: Vec<String>,
     last: Option<Shot>,
 }
@@ -112,20 +116,35 @@ impl Match {
     fn read_all(&mut self, lines: &str) -> Result<(), Error> {
         *self.of = Default::default();
         self.lines.clear();
+        self.keep_sizes();
         for line in lines.split_inclusive('\n') {
             self.read_line(line)?;
         }
-        self.lines += &self.pending();
         self.replay()
     }
 
+    /// Reads a line of a file. `lines` has the lines that are still due already, at its end, and a
+    /// note comes before them.
     fn read_line(&mut self, line: &str) -> Result<(), Error> {
+        let state = |of: &sys::carom_match| (of.record.line, of.record.hash);
+        let (previous, due) = (state(&self.of), self.of.due as usize);
         let at = line.as_ptr() as *const c_char;
         let status =
             unsafe { sys::carom_match_read(&mut *self.of, &mut *self.scratch, at, line.len()) };
         self.refused(status)?;
-        self.lines += line.trim_end_matches('\n');
-        self.lines.push('\n');
+
+        // No blank line, no event, and none that was due.
+        let is_new = state(&self.of) != previous;
+        if is_new {
+            let place = self.lines.len() - due;
+            self.lines
+                .insert_str(place, &format!("{}\n", line.trim_end()));
+        }
+        if is_new && due == 0 {
+            self.keep_lines();
+        } else {
+            self.keep_sizes();
+        }
         Ok(())
     }
 
@@ -133,6 +152,7 @@ impl Match {
     pub fn read(&mut self, line: &str) -> Result<(), Error> {
         let shots = self.shots();
         self.read_line(line)?;
+        self.undone.clear();
         if self.shots() == shots {
             return Ok(());
         }
@@ -154,12 +174,11 @@ impl Match {
             return Ok(false);
         }
         self.undone.clear();
-        if self.of.size > 0 {
-            self.lines += &self.pending();
-        } else {
-            self.lines += line.trim();
-            self.lines.push('\n');
+        if self.of.size == 0 {
+            // A line of the beginning, which is read and not made.
+            self.lines += &format!("{}\n", line.trim_end());
         }
+        self.keep_lines();
         if self.shots() != shots {
             self.replay()?;
         }
@@ -200,8 +219,9 @@ impl Match {
 
     /// Repeats the act that was undone last. False: there is nothing to repeat.
     pub fn redo(&mut self) -> Result<bool, Error> {
-        let Some(act) = self.undone.pop() else {
-            return Ok(false);
+        let act = match self.undone.pop() {
+            Some(act) => act,
+            None => return Ok(false),
         };
         let lines = format!("{}{act}", self.lines);
         self.read_all(&lines)?;
@@ -213,6 +233,7 @@ impl Match {
         let mut made = Match::empty();
         made.of = self.of.clone();
         made.lines = self.lines.clone();
+        made.keep_sizes();
         made.replay()?;
         Ok(made)
     }
@@ -223,6 +244,7 @@ impl Match {
             scratch: Box::default(),
             room: Box::default(),
             lines: String::new(),
+            sizes: [0; 3],
             undone: Vec::new(),
             last: None,
         }
@@ -230,11 +252,22 @@ impl Match {
 
     /// Keeps the lines of an act; returns an error for a rejected act.
     pub(crate) fn told(&mut self, status: sys::carom_status) -> Result<(), Error> {
-        if self.of.size > 0 {
-            self.undone.clear();
+        if status < 0 && self.of.size == 0 {
+            return self.refused(status);
         }
+        self.keep_lines(); // also those of `prepare` before an act that is refused
+        self.undone.clear();
+        self.judged(status)
+    }
+
+    /// Adds the lines that the match has made.
+    fn keep_lines(&mut self) {
         self.lines += &self.pending();
-        self.refused(status)
+        self.keep_sizes();
+    }
+
+    fn keep_sizes(&mut self) {
+        self.sizes = [self.of.size, self.of.known, self.of.due];
     }
 
     /// The lines of the last act, or those that are still missing.
@@ -243,7 +276,15 @@ impl Match {
         String::from_utf8_lossy(&bytes.map(|&one| one as u8).collect::<Vec<_>>()).into_owned()
     }
 
-    fn refused(&self, status: sys::carom_status) -> Result<(), Error> {
+    /// The result of a line or of an act that was perhaps refused; the lines that are due stay due.
+    fn refused(&mut self, status: sys::carom_status) -> Result<(), Error> {
+        if status < 0 {
+            [self.of.size, self.of.known, self.of.due] = self.sizes;
+        }
+        self.judged(status)
+    }
+
+    fn judged(&self, status: sys::carom_status) -> Result<(), Error> {
         if status < 0 && self.of.fault[0] != 0 {
             let (status, fault) = (status_of(status), text(self.of.fault.as_ptr()));
             return Err(Error { status, fault });
