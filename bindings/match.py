@@ -267,7 +267,9 @@ class MatchActs:
                 lines.append(f"    {end} = {value['value']}")
             lines += ["", "    @property", "    def text(self) -> str:"]
             lines += self.about(about, "    ")
-            lines.append(f"        return text_of(lib.carom_word_text(lib.CAROM_WORDS_{words}, self))")
+            lines.append(
+                f"        return text_of(lib.carom_word_text(lib.CAROM_WORDS_{words}, self))"
+            )
         return lines
 
     def head(self):

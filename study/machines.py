@@ -357,7 +357,7 @@ def table_of(table, target):
 
 def figures(_path=MACHINES):
     """Where and when the page's figures were measured, by the notes of their data."""
-    said = {}
+    sentences = {}
     for name in FIGURES:
         notes = Sheet(ROOT / "docs" / "figures" / "data" / f"{name}.csv").notes
         about = (
@@ -365,8 +365,10 @@ def figures(_path=MACHINES):
             f", {compiler_of_figure(notes)}, commit {notes.get('commit', 'unknown')[:8]}"
             f", {notes.get('date', 'unknown')[:10]}"
         )
-        said.setdefault(about, []).append(name)
-    lines = [f"Data of the figures {', '.join(names)}: {about}." for about, names in said.items()]
+        sentences.setdefault(about, []).append(name)
+    lines = [
+        f"Data of the figures {', '.join(names)}: {about}." for about, names in sentences.items()
+    ]
     return textwrap.fill(" ".join(lines), PAGE_WIDTH, break_on_hyphens=False) + "\n"
 
 
@@ -419,12 +421,12 @@ def write_pages():
 def record_and_show(runs, path=MACHINES):
     """Records the runs, and writes the pages where the file is the pages' own."""
     ids = record(runs, path)
-    said = f"recorded in {path.parent}: {', '.join(ids)}"
+    message = f"recorded in {path.parent}: {', '.join(ids)}"
     if path != MACHINES:
-        return said
+        return message
     write_pages()
     pages = " and ".join(str(page.relative_to(ROOT)) for page in PAGES)
-    return f"{said}; {pages} show them"
+    return f"{message}; {pages} show them"
 
 
 # ---- What a run prints

@@ -44,18 +44,20 @@ class NotBuilt(Exception):
 
 def modules_of(build):
     """The names of the modules that the build has, such as clang14-zen2."""
-    said = subprocess.run(
+    answer = subprocess.run(
         [build / "carom-lab", "kernels"], capture_output=True, text=True, check=True
     ).stdout
-    return re.search(r"configurations of the ladder: *(.*)", said)[1].split()
+    return re.search(r"configurations of the ladder: *(.*)", answer)[1].split()
 
 
 def kernels_of(build):
     """The kernels that run on this machine."""
-    said = subprocess.run(
+    answer = subprocess.run(
         [build / "carom-lab", "kernels"], capture_output=True, text=True, check=True
     ).stdout
-    return [line.split()[0] for line in said.partition("\n\n")[0].splitlines()[1:] if line.strip()]
+    return [
+        line.split()[0] for line in answer.partition("\n\n")[0].splitlines()[1:] if line.strip()
+    ]
 
 
 def family(compiler):

@@ -102,9 +102,10 @@ static status_words words_of(carom_status status) {
         ERROR_SMOOTH, "bad_smooth",
         "smooth_q must be 1e-12 to 0.5, smooth_x and smooth_t above 0 and at most 2, smooth_a and "
         "smooth_k 0 to 1, smooth_g, smooth_g_log and smooth_e -1 to 1; or all eight 0")
-    STATUS(ERROR_VERSION, "bad_version",
-           "the program was compiled with the header of a version that this library does not serve; "
-           "compile it with the header of carom_version()")
+    STATUS(
+        ERROR_VERSION, "bad_version",
+        "the program was compiled with the header of a version that this library does not serve; "
+        "compile it with the header of carom_version()")
     STATUS(ERROR_TOO_MANY_EVENTS, "too_many_events",
            "the shot was stopped: it has more events than options.events_most")
     STATUS(ERROR_TOO_LONG, "too_long",

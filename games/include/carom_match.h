@@ -33,7 +33,8 @@
  * record.side is at the table, a beginning names the side that breaks, match.winner is 1 + a side,
  * and the arrays of carom_standing are of sides. A player, carom_player, is how exactly somebody
  * aims. carom_seating has the side of each seat; of the usual two seats, seat 0 is side 0 and seat
- * 1 is side 1. In the lines of recordings, "player" is the side of a "game" and the seat of an "act".
+ * 1 is side 1. In the lines of recordings, "player" is the side of a "game" and the seat of an
+ * "act".
  *
  * Each act is a line of a recording, of format 3, and so is each ruling. Two functions read lines,
  * and both judge them again:
@@ -249,9 +250,11 @@ typedef struct carom_match_setup {
   const carom_shot_options *options; /* the models; NULL: the defaults. */
   carom_leave leave;                 /* of a layout: with ANYWHERE, KITCHEN, D or BAULK the cue
                                         ball is in hand. */
-  int32_t target, equal_innings;     /* with a rack: the points that win, 0: as usual in the game;
-                                        and 1: the side that does not break has an equalizing
-                                        inning, and the match may be drawn, 0: it has none. */
+  int32_t target;                    /* the points that win, of a match with a rack; 0: as usual
+                                        in the game. */
+  int32_t equal_innings;             /* 1, of a match with a rack: the side that does not break has
+                                        an equalizing inning, and the match may be drawn. 0: it has
+                                        none. */
   int64_t side;                      /* the side that breaks, or plays first. */
   uint64_t seed;                     /* of the rack. */
   const carom_seating *seating;      /* NULL: the usual two seats. */

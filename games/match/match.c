@@ -88,8 +88,7 @@ static void put_line(carom_match *match, carom_record_kind kind) {
                                              sizeof match->text - size);
 }
 
-static void put_act(carom_match *match, carom_act act, int seat, int32_t choice,
-                    carom_call call) {
+static void put_act(carom_match *match, carom_act act, int seat, int32_t choice, carom_call call) {
   carom_record *record = &match->record;
   record->act = (int64_t)act;
   record->actor = seat;
@@ -395,8 +394,7 @@ carom_status carom_match_begin_with(carom_match *match, const carom_match_setup 
 carom_status carom_match_begin(carom_match *match, carom_rules_kind kind, const carom_table *table,
                                uint64_t seed, int side) {
   return carom_match_begin_with(
-      match,
-      &(carom_match_setup){.rules = kind, .table = table, .seed = seed, .side = side});
+      match, &(carom_match_setup){.rules = kind, .table = table, .seed = seed, .side = side});
 }
 
 /* ---- Sets */

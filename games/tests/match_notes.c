@@ -193,7 +193,8 @@ TEST(hostile_notes) {
     ck_assert_msg(receive(rows[k].line, rows[k].seat) < 0, "%s is accepted", rows[k].line);
     ck_assert_msg(strcmp(carom_word(CAROM_WORDS_REFUSAL, reader.refusal), rows[k].refusal) == 0 &&
                       strstr(reader.fault, rows[k].words) != NULL,
-                  "%s: %s, %s", rows[k].line, carom_word(CAROM_WORDS_REFUSAL, reader.refusal), reader.fault);
+                  "%s: %s, %s", rows[k].line, carom_word(CAROM_WORDS_REFUSAL, reader.refusal),
+                  reader.fault);
     memcpy(before.fault, reader.fault, sizeof before.fault);
     before.refusal = reader.refusal;
     ck_assert_msg(memcmp(&before, &reader, sizeof before) == 0, "%s changed the match",

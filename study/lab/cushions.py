@@ -15,7 +15,7 @@ from math import atan2, cos, degrees, inf, isnan, radians, sqrt, tan
 from random import Random
 
 from study.lab.computed import library, systems as played_systems
-from study.lab.computed.pockets import size
+from study.lab.computed.pockets import size as size_of_pocket
 from study.lab.computed.library import GAME_POOL, GAME_SNOOKER, LIBRARY, OF, Triple, ball, reference
 
 # Of the library: SHOT_CUSHION_HAN and so on are made by library.types().
@@ -71,12 +71,12 @@ def pockets():
     head("pocket", "angle", "TP 3.5, 3.6", *(f"carom, {v:g} m/s" for v in speeds))
     for side, sizes in TP.items():
         for angle, size in sizes.items():
-            cells = [f"{size(side, angle, v):.0f}" for v in speeds]
+            cells = [f"{size_of_pocket(side, angle, v):.0f}" for v in speeds]
             row("side" if side else "corner", angle, size, *cells)
     speeds = (1, 2, 3, 5, 8)
     head("corner pocket of `9ft`, mm", *(f"{v:g} m/s" for v in speeds))
     for angle in (45, 30, 15, 8):
-        sizes = [size(False, angle, v, TABLE_POOL_9FT, 0.00025) for v in speeds]
+        sizes = [size_of_pocket(False, angle, v, TABLE_POOL_9FT, 0.00025) for v in speeds]
         cells = [f"{size:.1f}" for size in sizes]
         row(f"{angle} degrees to the rail", *cells)
 

@@ -372,7 +372,7 @@ namespace Carom {
           status);
     }
 
-    /// <summary>Checks the status of a plan; an exception names the rejected member of its job.</summary>
+    /// <summary>Checks a plan; an exception names the rejected member of its job.</summary>
     internal static Status Check(Status status, PlanJob *job) {
       if (status != Status.ErrorOptions)
         return Check(status);

@@ -73,8 +73,9 @@ namespace Carom {
     /// win, 0: the usual target of the game; with `equalInnings` the match may be drawn.</summary>
     public static LiveMatch Begin(RulesKind rules, Table table, ulong seed, int side = 0,
                                   int target = 0, bool equalInnings = false) {
-      var setup = new MatchSetup { rules = rules, table = &table,   seed = seed,
-                                   side = side,   target = target, equalInnings = equalInnings ? 1 : 0 };
+      var setup =
+          new MatchSetup { rules = rules, table = &table,  seed = seed,
+                           side = side,   target = target, equalInnings = equalInnings ? 1 : 0 };
       return Begin(&setup);
     }
 
@@ -83,7 +84,7 @@ namespace Carom {
     public static LiveMatch Begin(RulesKind rules, Table table, ShotBall[] balls,
                                   Leave leave = Leave.After, int side = 0) {
       fixed(ShotBall *at = balls) {
-        var setup = new MatchSetup { rules = rules,         table = &table, balls = at,
+        var setup = new MatchSetup { rules = rules,        table = &table, balls = at,
                                      count = balls.Length, leave = leave,  side = side };
         return Begin(&setup);
       }

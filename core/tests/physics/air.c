@@ -598,7 +598,7 @@ TEST(spheres) {
   }
 }
 
-/* Each argument of carom_impact3() that has no meaning has its own status, and the result is NaN. */
+/* Each argument of carom_impact3() without a meaning has its own status, and the result is NaN. */
 #define REJECTED(member, wrong, expected)                               \
   do {                                                                  \
     carom_impact in = good;                                             \

@@ -320,7 +320,9 @@ def isa_in_force() -> str:
     It is the best one of the processor, unless the environment variable CAROM_ISA limits it.
     "sse2" exists only in a package that was built with ``CAROM_ISAS=all``.
     """
-    return str(_ffi.string(_lib.carom_word(_lib.CAROM_WORDS_ISA, _lib.carom_isa_in_force())).decode())
+    return str(
+        _ffi.string(_lib.carom_word(_lib.CAROM_WORDS_ISA, _lib.carom_isa_in_force())).decode()
+    )
 
 
 def physics_revision() -> int:

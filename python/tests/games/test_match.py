@@ -137,9 +137,7 @@ def test_rules_of_ones_own():
     rules.broken = False
     match.stroke(cue)
     assert (
-        match.side == 1
-        and match.state["user"][0] == 1
-        and match.ruling.words == "the other plays"
+        match.side == 1 and match.state["user"][0] == 1 and match.ruling.words == "the other plays"
     )
     assert np.array_equal(carom.Match.load(match.lines, rules=rules).balls, match.balls)
     with pytest.raises(carom.CaromError, match="must be a game of carom.plan"):

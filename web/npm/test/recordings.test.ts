@@ -78,11 +78,7 @@ test.each(builds)("a match refuses, rules and is judged again, by $name", ({ car
   const match = carom.match("eightball", carom.table("9ft"), { seed: 7, side: 1 });
   const begun = match.lines;
   const { bounds } = match;
-  expect([match.phase, match.side, bounds?.high[1]]).toEqual([
-    "place",
-    1,
-    match.table.length / 4,
-  ]);
+  expect([match.phase, match.side, bounds?.high[1]]).toEqual(["place", 1, match.table.length / 4]);
   for (const [act, message] of [
     [() => match.place(0.6, 1), /place: .*0\.635/],
     [

@@ -22,12 +22,7 @@ pub struct Match {
 
 impl Match {
     /// Begins a match with the rack of a game; `side` 0 or 1 breaks.
-    pub fn begin(
-        rules: RulesKind,
-        table: &Table,
-        seed: u64,
-        side: usize,
-    ) -> Result<Match, Error> {
+    pub fn begin(rules: RulesKind, table: &Table, seed: u64, side: usize) -> Result<Match, Error> {
         Match::begin_to(rules, 0, false, table, seed, side)
     }
 

@@ -314,7 +314,10 @@ impl Position {
         let watch = Watch::new(&self.rules);
         self.with_job(&mut memory, |job| {
             let to = told.as_mut_ptr();
-            watch.check_plan(unsafe { sys::carom_plan_try(job, cues.as_ptr(), count, to) }, job)
+            watch.check_plan(
+                unsafe { sys::carom_plan_try(job, cues.as_ptr(), count, to) },
+                job,
+            )
         })?;
         Ok(told)
     }

@@ -136,16 +136,16 @@ def _seating(
             f"seats: this game is not played with {len(each)} seats; help(carom.Match) describes seats"
         )
     each = each or [{}] * int(seating.count)
-    for k, given in enumerate(each):
+    for k, value in enumerate(each):
         if partners:
             seating.seat[k].side = k % 2
-        one = {"name": given} if isinstance(given, str) else given
-        one = one._asdict() if isinstance(one, Seat) else one
-        if not isinstance(one, Mapping):
+        seat = {"name": value} if isinstance(value, str) else value
+        seat = seat._asdict() if isinstance(seat, Seat) else seat
+        if not isinstance(seat, Mapping):
             raise TypeError(
-                f"seats[{k}]: {given!r} is not a name or a mapping with name, side, handicap, rating, cue"
+                f"seats[{k}]: {value!r} is not a name or a mapping with name, side, handicap, rating, cue"
             )
-        _fill(seating.seat[k], one, f"seats[{k}]")
+        _fill(seating.seat[k], seat, f"seats[{k}]")
     seating.alternate = bool(alternate)
     _fill(seating.limits, limits or {}, "limits")
     return seating
