@@ -54,7 +54,7 @@ TEST(arguments_of_plans) {
   REFUSED(player.tip_most, 1.5, CAROM_ERROR_OPTIONS);
   REFUSED(rules.judge, NULL, CAROM_ERROR_OPTIONS);
   REFUSED(rules.race, 4, CAROM_ERROR_OPTIONS);
-  REFUSED(rules.rack, 12, CAROM_ERROR_OPTIONS);
+  REFUSED(rules.rack, CAROM_RACK_EIGHTONSPOT + 1, CAROM_ERROR_OPTIONS);
   REFUSED(rules.reserved[2], 1, CAROM_ERROR_OPTIONS);
   REFUSED(shot_options.unused, 1, CAROM_ERROR_SHOT_OPTIONS);
   REFUSED(balls[1].state, balls[0].state, CAROM_ERROR_OVERLAP);

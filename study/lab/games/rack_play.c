@@ -90,10 +90,20 @@ void lab_rack_end(lab_rack *rack, int left) {
   }
 }
 
+/* Where any ball may be the cue ball, one that is in play: the plan chooses among all. */
+static void choose_cue_ball(lab_rack *rack) {
+  const bool any = rack->rules.any_cue_ball != 0;
+  rack->cue.ball = 0;
+  while (any && rack->cue.ball + 1 < rack->plan.count &&
+         rack->balls[rack->cue.ball].state.label == CAROM_BALL_POCKETED)
+    rack->cue.ball++;
+}
+
 bool lab_rack_stroke(lab_rack *rack, carom_plan_stroke *choice, carom_turn *turn) {
   const carom_plan_job *job = &rack->plan;
   const int count = (int)job->count;
   int found;
+  choose_cue_ball(rack);
   rack->options.seed = rack->state.state;
   const carom_status status = rack->hand ? carom_plan_hand(job, NULL, NULL, choice, 1, &found)
                                          : carom_plan(job, choice, 1, &found);
@@ -118,7 +128,10 @@ bool lab_rack_stroke(lab_rack *rack, carom_plan_stroke *choice, carom_turn *turn
   lab_bits(&rack->state); /* the next stroke has other errors */
   if (choice->kind != CAROM_PLAN_PASS)
     carom_shoot(job->table, rack->balls, count, &cue, job->shot, &played);
-  *turn = rack->rules.judge(&rack->rules.state, in_play, 0, &facts,
+  int cue_ball = 0;
+  if (rack->rules.any_cue_ball != 0)
+    cue_ball = (int)choice->cue.ball;
+  *turn = rack->rules.judge(&rack->rules.state, in_play, cue_ball, &facts,
                             (carom_call){choice->ball, choice->pocket});
 
   /* the next layout; a ball that left the table is down */
