@@ -329,8 +329,8 @@ void recipe_lay(const recipe *r, recipe_layout *l) {
   carom_table_make((carom_table_kind)r->table, &l->table);
   l->count = r->count;
   l->options.time_most = r->time;
-  l->options.cushion_model = r->cushion_model;
-  l->options.friction = r->friction;
+  l->options.cushion_model = (carom_shot_cushion)r->cushion_model;
+  l->options.friction = (carom_ball_friction)r->friction;
   carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
   const double R = kind.radius, mass = kind.mass;
   double turn = 0.0;
