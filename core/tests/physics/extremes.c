@@ -110,7 +110,7 @@ static bool draw(lab_random *random, extreme *x) {
   }
   draw_cue(random, &x->cue);
   x->options.cushion_model = cushions[lab_whole(random, 0, 2)];
-  x->options.friction = lab_whole(random, 0, 1);
+  x->options.friction = (carom_ball_friction)lab_whole(random, 0, 1);
   return place_balls(x, random);
 }
 
