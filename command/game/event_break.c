@@ -19,7 +19,7 @@ static double offset_of(carom_rack_kind rack) {
 
 const char event_break_help[] =
     "fill in what is not given as at professional events, tournament: fast_cloth, a ball speed of "
-    "10 m/s, the cue ball on the head string 0.45 m beside the middle in nine-ball and 0.35 m "
+    "10 m/s, the cue ball on the head string 0.45 m off centre in nine-ball and 0.35 m "
     "otherwise, and eight-ball's rack with the 8 on the foot spot";
 
 OPTION_SET(set_conditions) {

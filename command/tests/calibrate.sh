@@ -8,7 +8,8 @@ carom shoot --cue 0.6,0.8 --aim 20 --speed 3 --csv > usual.csv
 cmp -s mine.csv usual.csv || echo "another table"
 try_rows "calibrate, bad readings"
 echo "--- conditions of a table"
-for with in slow_cloth medium_cloth fast_cloth old_cushion new_cushion humid_cushion lively_cushion dead_cushion fast_cloth,new_cushion; do
+cushions="old_cushion new_cushion humid_cushion lively_cushion dead_cushion"
+for with in slow_cloth medium_cloth fast_cloth $cushions fast_cloth,new_cushion; do
   carom shoot --cue 0.6,0.8 --aim 62 --speed 2 --with $with --csv > $with.csv
 done
 carom shoot --cue 0.6,0.8 --aim 62 --speed 2 --csv | cmp - medium_cloth.csv && echo "medium is the usual cloth"

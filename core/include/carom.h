@@ -639,12 +639,12 @@ CAROM_API int carom_physics_revision(void);
  * the major version must be equal, and the minor one must not be above the library's. */
 CAROM_API int carom_serves(int header_version_number);
 
-/* The structs of this library may be longer in another version. The calls with which a program
- * begins compare the versions therefore: carom_table_make(), carom_table_measured(),
- * carom_shoot(), carom_shoot_batch(), carom_plan(), carom_match_begin(), carom_match_begin_with()
- * and carom_match_read() return CAROM_ERROR_VERSION, before they read or write a struct, if the
- * library does not serve the header with which the call was compiled. The program has nothing to
- * initialize for that. Shared libraries are also told apart by their soname. A program that finds
+/* The structs of this library may be longer in another version. Therefore the calls with which a
+ * program begins compare versions: they return CAROM_ERROR_VERSION, before they read or write a
+ * struct, if the library does not serve the header with which the call was compiled. These are
+ * carom_table_make(), carom_table_measured(), carom_shoot(), carom_shoot_batch(), carom_plan(),
+ * carom_match_begin(), carom_match_begin_with() and carom_match_read(). The program has nothing to
+ * initialize. Shared libraries are also told apart by their soname. A program that finds
  * functions at run time, or in another language, calls carom_serves() itself. The library's own
  * build, and compilers without statement expressions, do not compare. */
 #if defined(__GNUC__) && !defined(CAROM_BUILD)

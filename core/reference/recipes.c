@@ -312,7 +312,11 @@ static double put_first(const recipe *r, const carom_table *t, double R, double 
     return 0.0;
   }
   const carom_rail *rail = &t->rail[r->rail];
-  const double *start = r->end ? rail->q : rail->p, *finish = r->end ? rail->p : rail->q;
+  const double *start = rail->p, *finish = rail->q;
+  if (r->end) {
+    start = rail->q;
+    finish = rail->p;
+  }
   const double x = finish[0] - start[0], y = finish[1] - start[1], size = sqrt(x * x + y * y);
   double out[2] = {-y / size, x / size};
   if (out[0] * (0.5 * t->width - start[0]) + out[1] * (0.5 * t->length - start[1]) < 0.0) {

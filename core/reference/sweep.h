@@ -12,7 +12,7 @@
 bool sweep_play(recipe *r, const recipe_number *number, double x, played *p);
 
 /* Halves the interval between the shots `low` and `high` towards the greater change. Of a smooth
- * result the change halves too, of a square root, as at a graze, it falls by 0.7: the search ends
+ * result the change halves too. Of a square root, as at a graze, it falls by 0.7. The search ends
  * where three halvings leave less than a fifth of the change, or where the change is below
  * SWEEP_LEAST. Returns whether a jump is left, between two neighbouring doubles. */
 bool sweep_halve(recipe *r, const recipe_number *number, played *low, played *high);

@@ -1,6 +1,5 @@
 /* Which part of a job carom_plan() rejects with CAROM_ERROR_OPTIONS, as a text: the member, its
- * value, and the values that it may have. The checks are those of the plan itself, in the same
- * order. */
+ * value and its range. The order is that of the checks in prepare.c. */
 #include "goals.h"
 #include "plan_options.h"
 #include "player.h"

@@ -169,7 +169,7 @@ void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball
       carom_model_balls(sim, pair, normal, in_space, &now[0], &now[1]) < 0)
     return;
 
-  /* both after it, and the mean impulse, as the cloth takes part in that of each */
+  /* the motions after it, and the mean of both impulses, in each of which the cloth takes part */
   for (int side = 0; side < 2; side++) {
     double change[3];
     cluster_minus(false, now[side].v, touching[side].v, change);

@@ -598,7 +598,7 @@ TEST(spheres) {
   }
 }
 
-/* Each argument of carom_impact3() without a meaning has its own status, and the result is NaN. */
+/* carom_impact3() rejects each bad argument with a status of its own, and the result is NaN. */
 #define REJECTED(member, wrong, expected)                               \
   do {                                                                  \
     carom_impact in = good;                                             \

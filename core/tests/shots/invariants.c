@@ -138,7 +138,7 @@ static double distance(const follower *f, int i, int j) {
   return hypot(length2(a->r[0] - b->r[0], a->r[1] - b->r[1]), z_a - z_b);
 }
 
-/* The radius that the table is meant for: its own, or the commonest, or the largest of these. */
+/* The radius for which rails are placed: the table's, or the commonest, or the largest of these. */
 static double reference_of(const follower *f) {
   double best = 0.0;
   int most = 0;
@@ -311,7 +311,7 @@ static double way_out(const follower *f, int i) {
   for (int j = 0; j < f->count; j++) {
     if (j == i || is_out(&f->at[j]) || flies(&f->at[j]))
       continue;
-    const double overlap = overlap_of(f, i > j ? i : j, i > j ? j : i);
+    const double overlap = i > j ? overlap_of(f, i, j) : overlap_of(f, j, i);
     deepest = fmax(deepest, overlap);
     sum += fmax(overlap, 0.0);
   }

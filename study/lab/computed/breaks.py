@@ -9,6 +9,7 @@ from random import Random
 from statistics import median
 
 from study.lab.computed.library import (
+    CONDITION_FAST_CLOTH,
     EVENT_BALL_BALL,
     GAME_POOL,
     LIBRARY,
@@ -25,10 +26,10 @@ from study.lab.computed.strikes import struck
 
 BREAKS = 1600
 
-# Breaks of events: the speed of professionals and the cloth of tournaments, m/s and mu_roll; and the
-# gaps, mm, and the positions about an offset, m, which their sources leave open. Each cell of
-# positions and gaps has CELL breaks.
-EVENT_SPEED, EVENT_CLOTH = 10, 0.005
+# Breaks of events, on `fast_cloth`: the speed of professionals, m/s; and the gaps, mm, and the
+# positions about an offset, m, which their sources leave open. Each cell of positions and gaps has
+# CELL breaks.
+EVENT_SPEED = 10
 EVENT_GAPS, EVENT_POSITIONS, CELL = (0, 0.05, 0.1), (-0.05, 0, 0.05), 400
 
 
@@ -117,8 +118,11 @@ def cells(function, rack, kind, offset):
     """The values of a function in all cells of the breaks of events: their middle, and half of their
     range as the error.
     """
+    fast = OF["carom_ball_kind"]()
+    LIBRARY.carom_condition_give(CONDITION_FAST_CLOTH, reference(fast))
+    cloth = fast.mu_roll
     values = [
-        function(rack, kind, gap, offset + beside, EVENT_SPEED, 0, EVENT_CLOTH, CELL)[0]
+        function(rack, kind, gap, offset + beside, EVENT_SPEED, 0, cloth, CELL)[0]
         for gap in EVENT_GAPS
         for beside in EVENT_POSITIONS
     ]

@@ -16,7 +16,7 @@ from study.lab.computed.two_balls import rolling
 
 TABLE_OF = {"pool": "9ft", "snooker": "snooker", "billiard": "threecushion"}
 
-# Of the table that was played on in 2017, by a fit of 21 shots; that of 2022 has those of the game.
+# The table of 2017, by a fit of 21 shots. The table of 2022 has the constants of the game.
 MATCH_2017 = {
     "restitution_cushion": 0.753,
     "mu_cushion": 0.238,

@@ -86,7 +86,7 @@ def rise_by_jump_cue(ahead, theta, speed):
 
 
 def speed_of_ball(a):
-    """over that of the cue"""
+    """The speed of a ball over the speed of the cue."""
     return struck(a, 0).v[1] / cue().speed
 
 
