@@ -825,8 +825,8 @@ typedef enum carom_event_type {
 typedef struct carom_event {
   double time;                          /* when it happened, s. */
   int32_t type, a, b;                   /* a carom_event_type, and the indices of what it names. */
-  int32_t cluster;                      /* of a CAROM_EVENT_BALL_BALL: the number of contacts in its
-                                           cluster; 0: a contact of only two balls. */
+  int32_t cluster;                      /* the number of events of its cluster: contacts of balls,
+                                           and in a push the strike and a cushion; 0: it is none. */
   double impulse;                       /* N s, for sounds: the magnitude of the impulse that ball a
                                            received from the cue, ball, cushion or slate; in a
                                            cluster only from ball b. 0 for every other event. */

@@ -9,10 +9,12 @@
  * limit of a raised one. Then only what touches within the recovery of the tip belongs to the push,
  * and balls above the slate fall to it. A tip that would close without the impulse of the slate too
  * touches again as it follows through (shot/follow_through.c). All else is met in flight, from
- * positions that make both the same: places.c. */
+ * positions that make both the same: places.c. After a further touch the push goes on until the
+ * shaft is straight, and in a nose until the ball has left it. */
 #ifndef CAROM_SRC_CLUSTER_CLOSING_H
 #define CAROM_SRC_CLUSTER_CLOSING_H
 
+#include "cluster/nose.h"
 #include "cluster/slate.h"
 
 /* s: a tip that lasts shorter takes the steps of this one while it is open, as it has no force */
@@ -20,16 +22,36 @@ static const double long_tip = 1e-4;
 /* of how far the cue goes in the duration of the tip: beyond it the tip will not touch soon */
 static const double far_behind = 20.0;
 
+/* Steps of CAROM_SHAFT_TIME, while only the end of the shaft moves. */
+static const double shaft_steps = 50.0;
+
+/* The longest step that suits a nose: as of the tip, and so that it is not touched deeper than that.
+ */
+static inline double step_of_nose(const carom_cluster_state *cluster) {
+  const carom_cluster_nose *nose = &cluster->nose;
+  const carom_cluster_ball *ball = &cluster->ball[cluster->tip.ball];
+  const double step =
+      push_step(cluster, CAROM_NOSE_TIME, nose->touches ? nose->restitution : least_nose);
+  if (nose->touches)
+    return step;
+  const double gap = nose_gap(nose, ball), approach = nose_approach(nose, ball);
+  return approach > 0.0 ? step + carom_greater(gap, 0.0) / approach : INFINITY;
+}
+
 /* The longest step of a strike. A cue that is far behind does not count, as contacts of balls may
  * last long where they are slow. */
 static inline double strike_step(const carom_cluster_state *cluster) {
   const carom_cluster_tip *tip = &cluster->tip;
-  const bool open = tip->touches > 0 && tip->overlap <= 0.0;
+  const bool open = (tip->touches > 0 || cluster->nose_near) && tip->overlap <= 0.0;
   const double duration = open ? carom_greater(tip->duration, long_tip) : tip->duration;
   const bool far = open && tip->overlap < -far_behind * duration * tip->first;
+  double step = cluster->nose_near ? step_of_nose(cluster) : INFINITY;
+  if (tip->slides && open && (far || tip->touches == 0 || tip->apart > tip->duration))
+    return carom_lesser(step, CAROM_SHAFT_TIME / shaft_steps);
 
   /* the shorter of the times of the tip, and of each slate that acts or carries the struck ball */
-  double step = far ? INFINITY : push_step(cluster, duration, tip->restitution);
+  if (!far)
+    step = carom_lesser(step, push_step(cluster, duration, tip->restitution));
   for (int index = 0; cluster->on_slate && index < cluster->balls; index++)
     if (cluster->slate[index].restitution > 0.0 &&
         ((index == tip->ball && !far) || cluster->slate[index].J > 0.0))
@@ -43,13 +65,26 @@ static inline double strike_step(const carom_cluster_state *cluster) {
 static inline bool slate_ends(carom_cluster_state *cluster, double step) {
   const carom_cluster_tip *tip = &cluster->tip;
   const carom_cluster_ball *ball = &cluster->ball[tip->ball];
+  const double v_z = slate_sees(cluster, tip->ball);
   const double least = too_slow * tip->first, closing = tip_closing(tip, ball),
-               up = slate_releases(&cluster->slate[tip->ball], ball->v[2], step) - ball->v[2];
+               up = slate_releases(&cluster->slate[tip->ball], v_z, step) - v_z;
   /* the condition of the head: the ball would return to the tip */
   if (!tip->gone && closing <= least && closing - tip_upward(tip) * up > least)
     return false;
   slate_lets_go(cluster, step);
   return true;
+}
+
+/* Whether the end of the shaft, bent after a further touch, may touch the ball once more: so long the
+ * push goes on. It does not where the axis recedes and is farther away than the end may swing. */
+static inline bool shaft_straightens(const carom_cluster_state *cluster) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  const carom_cluster_ball *ball = &cluster->ball[tip->ball];
+  if (!tip->slides || tip->gone || tip->touches == 0 || !(tip->apart < CAROM_SHAFT_REST))
+    return false;
+  const double swing = carom_space_size(tip->bend) + CAROM_SHAFT_TIME * carom_space_size(tip->y);
+  return tip->kappa * tip->V > cluster_dot(false, ball->v, tip->n) ||
+         -tip->kappa * tip->overlap < swing;
 }
 
 /* How long the tip needs until its set has recovered, and no longer than it touches. */
@@ -73,8 +108,10 @@ static inline bool follows_through(const carom_cluster_state *cluster) {
 static inline bool go_to_touch(bool flat, carom_cluster_state *cluster, double of_balls,
                                double *tau) {
   carom_cluster_tip *tip = &cluster->tip;
-  const double of_tip =
-      cluster->on_slate && !follows_through(cluster) ? wait_of_tip(cluster) : INFINITY;
+  if (tip->slides) /* what is next is another event */
+    return false;
+  const bool waits = cluster->on_slate && !follows_through(cluster);
+  const double of_tip = waits ? wait_of_tip(cluster) : INFINITY;
 
   /* the first touch: of the tip, of a ball and the slate, or of two balls */
   double wait = of_tip;
@@ -89,7 +126,7 @@ static inline bool go_to_touch(bool flat, carom_cluster_state *cluster, double o
   /* sets recover meanwhile */
   tip_waits(tip, &cluster->ball[tip->ball], wait, of_tip <= wait);
   for (int index = 0; cluster->on_slate && index < cluster->balls; index++)
-    slate_waits(&cluster->slate[index], -cluster->ball[index].v[2], wait,
+    slate_waits(&cluster->slate[index], -slate_sees(cluster, index), wait,
                 wait_of_slate(cluster, index) <= wait);
   for (int index = 0; index < cluster->balls; index++)
     cluster_add(flat, cluster->ball[index].s, wait, cluster->ball[index].v);

@@ -455,6 +455,21 @@ static inline void list_pushed(const cluster_state *cluster, pushes *pushed, bal
   ball->load = ball->g[0] = ball->g[1] = 0.0;
 }
 
+/* The impulse of the nose in a step; by what goes down the ball falls. A ball on the cloth that tip
+ * or slate lift is under the nose, whose force holds it down. */
+static inline void push_by_nose(cluster_state *cluster) {
+  const carom_cluster_nose *nose = &cluster->nose;
+  ball_state *ball = &cluster->ball[cluster->tip.ball];
+  nose_push(nose, nose->J, ball);
+  if (!cluster->on_slate)
+    return;
+  if (!ball->flies)
+    ball->v[2] -= carom_lesser(carom_greater(ball->v[2], 0.0),
+                               nose_slope * nose->J * carom_space_size(nose->v));
+  carom_cluster_slate *slate = &cluster->slate[cluster->tip.ball];
+  slate->falls = carom_lesser(slate->falls + nose->J * nose->v[2], 0.0);
+}
+
 /* Slips, limits and speeds as the step begins, and the normal impulses. */
 static inline void begin_step(bool flat, cluster_state *cluster, pushes *pushed) {
   for (int index = 0; index < cluster->balls; index++)
@@ -513,6 +528,8 @@ static inline void begin_step(bool flat, cluster_state *cluster, pushes *pushed)
   /* the impulses of tip and slate; the slate's is the load of the cloth's friction */
   if (cluster->struck)
     tip_push(flat, cluster);
+  if (cluster->nose_near)
+    push_by_nose(cluster);
   for (int index = 0; cluster->on_slate && index < cluster->balls; index++) {
     ball_state *ball = &cluster->ball[index];
     ball->v[2] += cluster->slate[index].J * ball->inverse_mass;
@@ -546,7 +563,8 @@ static inline void rub_all(bool flat, cluster_state *cluster, const pushes *push
 }
 
 /* The other half of the step, after which contacts may be open. */
-static inline void end_step(bool flat, cluster_state *cluster, double step, const pushes *pushed) {
+static inline void end_step(bool flat, cluster_state *cluster, double step, double tau,
+                            const pushes *pushed) {
   move(flat, cluster, 0.5 * step);
 
   /* sums of friction, which is kept over J for the next step; and the greatest overlap */
@@ -572,6 +590,8 @@ static inline void end_step(bool flat, cluster_state *cluster, double step, cons
     tip_parts(cluster, step);
   if (cluster->on_slate)
     slate_parts(cluster, step);
+  if (cluster->nose_near)
+    nose_parts(&cluster->nose, &cluster->ball[cluster->tip.ball], step, tau + 0.5 * step);
 }
 
 /* ---- All of it */
@@ -632,6 +652,18 @@ static void take_back(cluster_state *cluster, double energy) {
     for (int axis = 0; axis < 3 && touched[index]; axis++)
       cluster->ball[index].v[axis] =
           centre[axis] + share * (cluster->ball[index].v[axis] - centre[axis]);
+}
+
+/* The same of a ball in a nose: by an impulse -J of that, over the mass, which takes
+ * J b - J^2/2 of the speed b along D. */
+static void take_back_from_nose(cluster_state *cluster, double energy) {
+  ball_state *ball = &cluster->ball[cluster->tip.ball];
+  const double more = (energy_of(cluster) - energy) * ball->inverse_mass,
+               parting = nose_dot(&cluster->nose, ball->v, ball->W);
+  if (!(more > 0.0 && parting > 0.0))
+    return;
+  const double left = sqrt(carom_greater(parting * parting - 2.0 * more, 0.0));
+  nose_push(&cluster->nose, (left - parting) * (1.0 + CAROM_ROUNDED_IMPULSE), ball);
 }
 
 /* The same of a strike: by an impulse -J of the tip, which takes J |b| - J^2 k/2 where b is the
@@ -719,22 +751,37 @@ static bool go_on(bool flat, cluster_state *cluster, double *tau) {
   return true;
 }
 
-/* The contacts that act at half a step, at tau. Returns whether any does; *balls whether one
- * of balls does. */
+/* The contacts that act at half a step, at tau. Returns whether any does, or a shaft is bent; *balls
+ * whether one of balls does. */
 static inline bool act(bool flat, cluster_state *cluster, double step, double tau, pushes *pushed,
                        double *norm, bool *balls) {
   *balls = find_acting(flat, cluster, step, tau, pushed, norm);
-  bool cue = false, slate = false;
+  bool cue = false, slate = false, nose = false;
   if (cluster->struck)
     cue = tip_acts(cluster, step, tau);
   if (cluster->on_slate)
     slate = slate_acts(cluster, step);
-  if (*balls || cue)
+  if (cluster->nose_near)
+    nose =
+        nose_acts(&cluster->nose, &cluster->ball[cluster->tip.ball], step, tau, cluster->tip.gone);
+  if (*balls || cue || nose || (cluster->struck && shaft_straightens(cluster)))
     return true;
   if (!slate)
     return false;
   const bool lets_go = slate_ends(cluster, step);
   return !lets_go;
+}
+
+/* The end of the integration, which has begun with an energy. */
+static inline void end_all(bool flat, cluster_state *cluster, double energy) {
+  carom_cluster_nose *nose = &cluster->nose;
+  if (cluster->nose_near && nose->touches)
+    nose_ends(nose, &cluster->ball[cluster->tip.ball], cluster->duration);
+  if (cluster->nose_near && nose->lasted > 0.0)
+    take_back_from_nose(cluster, energy);
+  if (cluster->struck)
+    take_back_from_tip(flat, cluster, energy);
+  take_back(cluster, energy);
 }
 
 /* Step by step, until no contact acts. */
@@ -777,16 +824,14 @@ static inline bool solve(bool flat, cluster_state *cluster) {
     /* impulses, friction and the other half */
     begin_step(flat, cluster, &pushed);
     rub_all(flat, cluster, &pushed);
-    end_step(flat, cluster, step, &pushed);
+    end_step(flat, cluster, step, tau, &pushed);
     tau += 0.5 * step;
     step = step_of(balls ? norm : 0.0, cluster->steps);
     if (cluster->struck)
       step = step_to_touch(cluster, carom_lesser(step, strike_step(cluster)));
   }
   cluster->duration = tau;
-  if (cluster->struck)
-    take_back_from_tip(flat, cluster, energy);
-  take_back(cluster, energy);
+  end_all(flat, cluster, energy);
   return true;
 }
 

@@ -70,6 +70,7 @@
  * those that are nearer are alike */
 #define CAROM_SIMULTANEOUS_TOUCHES 1e-9
 #define CAROM_LEAST_OVERLAP 1e-15 /* m: of tip or slate where they touch anew */
+#define CAROM_NOSE_TIME 5e-3      /* s, that a nose lasts for a ball alone: a convention; nose.h */
 
 /* BETWEEN THE TWO, above: how free of the cloth a ball is by its height, m, and a contact of two
  * balls by the greater height and by the tilt. */
@@ -165,25 +166,50 @@ typedef struct carom_cluster_tip {
   double reach;       /* m: how far the cue continues after it has parted; the caller sets it */
   int ball;           /* of ball[] */
   bool slides;        /* a further touch: n, kappa, mu and end are read, c' and q are not */
-  double n[3], kappa; /* from the position of the touch to the centre; n . c */
+  double n[3], kappa; /* from the tip to the centre; n . c */
   double mu, end;     /* friction; 1/m_e */
-  double place[3];    /* of the touch, from the centre, R */
+  double start[3];    /* p_0, m: the tip from the centre as the push begins */
   /* of the integrator */
   double overlap, overlap_max, J, closing, lost;
-  double y[3];          /* of the end mass across the axis, m/s */
+  double y[3], bend[3];    /* of the end mass across the axis, m/s; Y, m */
+  double beyond;           /* m: overlap less what the position of the tip gives */
+  double apart;            /* s: since it had a force, of one that slides */
+  double hold;             /* 1 to 0: what is left of its force, of one that slides */
+  double arm_way, slowest; /* m: of the arm, of the reach; m/s, at least */
   double travel, delay; /* int V dtau, m; how far the ball is behind, along the axis, as contacts of
                            balls last, m: places.c */
   double impulse;       /* sum of J */
   bool gone;            /* it has parted, and does not continue */
   int touches, touch;   /* how many times it has touched; its last one, in touch[] */
-  double first, second; /* closing speeds of the first and the second of them, m/s */
-  double last;          /* tau at which it acts last */
+  double first;         /* m/s: its closing speed as all begins, or more; */
+  double touch_closing, second; /* and as the first and the second of them begin */
+  double last;                  /* tau at which it acts last */
 } carom_cluster_tip;
+
+/* The nose of a cushion near the struck ball, nose.h. The caller sets it up to the context. */
+typedef struct carom_cluster_nose {
+  double normal[3], gap; /* from the nose to the ball; m, between them as the push begins */
+  /* gives the motion that the model of the cushion leaves a ball with, in `context`; whether it
+     does */
+  bool (*model)(void *context, const carom_cluster_ball *ball, double v[3], double W[3]);
+  void *context;
+  /* of the integrator */
+  bool touches;
+  double v[3], W[3];                       /* D */
+  double stiffness, restitution;           /* k, 1/s^2; e */
+  double change, excess;                   /* m/s: |Delta| with the excess; and that */
+  double overlap, overlap_max, J, closing; /* J over the mass of the ball, m/s */
+  double rest, began, place[3]; /* s, without a force; s and m, of the ball as it touched it */
+  double lasted, moved[3];      /* s and m: of the ball, sums over all touches */
+  double first_gap;             /* m: the gap as all begins */
+  double impulse;               /* sum of J D_v, over the mass, m/s */
+} carom_cluster_nose;
 
 /* The contact of the slate and a ball, tip.h. The caller sets e. */
 typedef struct carom_cluster_slate {
   double restitution; /* restitution; 0: the ball flies, and there is none */
   /* of the integrator */
+  double falls; /* m/s, 0 or below: of v_z, what a ball falls by without tip and slate */
   double overlap, overlap_max, J, closing, impulse;
 } carom_cluster_slate;
 
@@ -191,8 +217,9 @@ typedef struct carom_cluster_slate {
  * carom_cluster_members() in_space and the contacts. */
 typedef struct carom_cluster_state {
   bool in_space;
-  bool struck;   /* by a cue: tip is read, */
-  bool on_slate; /* and slate[], one for each of ball[] */
+  bool struck;    /* by a cue: tip is read, */
+  bool on_slate;  /* and slate[], one for each of ball[] */
+  bool nose_near; /* and nose; of a further touch */
   int balls, contacts;
   double steps;     /* of a contact's duration */
   double steepness; /* of the cue, 0 to 1: how short steps of the slate are; push.c */
@@ -205,6 +232,7 @@ typedef struct carom_cluster_state {
   carom_cluster_contact_state contact[CAROM_CLUSTER_CONTACTS];
   carom_cluster_touch touch[CAROM_CLUSTER_TOUCHES];
   carom_cluster_tip tip;
+  carom_cluster_nose nose;
   carom_cluster_slate *slate; /* CAROM_CLUSTER_BALLS of the caller's, where a cue strikes */
 } carom_cluster_state;
 
@@ -229,10 +257,17 @@ int carom_cluster_members_of_tip(carom_cluster_state *cluster, double most);
 void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double cue[8],
                           double duration);
 
-/* push.c: makes that a further touch, of a tip with the friction mu; `end_mass` is the one of
- * cue[].
- */
-void carom_cluster_tip_slides(carom_cluster_state *cluster, const double cue[8], double mu);
+/* push.c: makes that a further touch, of a tip with the friction mu at tip_place from the centre. */
+void carom_cluster_tip_slides(carom_cluster_state *cluster, double end_mass, double mu,
+                              const double tip_place[3]);
+
+/* push.c: the same of a ball that touches nose. The tip may be anywhere then; of one that is in the
+ * ball what it is compressed by is a set. */
+void carom_cluster_put_in_nose(carom_cluster_state *cluster);
+
+/* push.c: whether the tip may reach the ball while it touches the nose, as a ball alone does: *lasts
+ * becomes how long that is, and moved[] how far it moves then. False: there is no nose either. */
+bool carom_cluster_tip_comes(carom_cluster_state *cluster, double *lasts, double moved[3]);
 
 /* push.c: a push of a ball that nothing else touches, in closed form. */
 void carom_cluster_push_alone(carom_cluster_state *cluster);
@@ -252,6 +287,12 @@ void carom_cluster_find_places(carom_cluster_state *cluster);
 /* Reduces the shifts so that no two balls start too deep in each other; find_places() does so. */
 void carom_cluster_limit_shifts(carom_cluster_state *cluster);
 double carom_cluster_tip_lead(const carom_cluster_state *cluster);
+/* The same of a further touch, which takes no time of the shot's clock: the tip goes on from
+ * `travel` along its axis, beside which it has `moved` against the ball, and the arm from `arm`; m. */
+typedef struct carom_next_tip {
+  double travel, arm, moved[3];
+} carom_next_tip;
+carom_next_tip carom_cluster_next_tip(const carom_cluster_state *cluster);
 
 /* The impulse of a contact, friction's share with it. */
 static inline double carom_cluster_size_of_impulse(const carom_cluster_contact_state *contact) {

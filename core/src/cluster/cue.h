@@ -27,24 +27,31 @@ static inline void carom_cue_axes(double phi, double theta, double axis[3], doub
   above[2] = cos_theta;
 }
 
+/* The speed of the arm, whose cue moves at V: a tenth of its first speed at least, which is a
+ * convention. */
+#define CAROM_SLOWEST_ARM 0.1
+static inline double carom_arm_speed(const carom_cue *cue, double V) {
+  return carom_greater(V, CAROM_SLOWEST_ARM * cue->speed);
+}
+
 /* The way from the centre of a ball to the tip, which has gone so far `along` its axis since it
  * touched that ball at `origin`. axes become the directions of the cue. */
 static inline void carom_tip_from(const carom_cue *cue, double radius, const double origin[3],
                                   double along, const double centre[3], double axes[3][3],
-                                  double to_tip[3]) {
+                                  double tip_place[3]) {
   const double a = cue->a, b = cue->b, ahead = along - radius * sqrt(1.0 - a * a - b * b);
   carom_cue_axes(cue->phi, cue->theta, axes[0], axes[1], axes[2]);
   for (int axis = 0; axis < 3; axis++)
-    to_tip[axis] = origin[axis] + radius * (a * axes[1][axis] + b * axes[2][axis]) +
-                   ahead * axes[0][axis] - centre[axis];
+    tip_place[axis] = origin[axis] + radius * (a * axes[1][axis] + b * axes[2][axis]) +
+                      ahead * axes[0][axis] - centre[axis];
 }
 
 /* The direction of that way along these axes, of which the last two are the (a, b) of a touch.
  * Returns the square of the distance. */
-static inline double carom_tip_on(double axes[3][3], const double to_tip[3], double offset[3]) {
-  const double square = carom_space_dot(to_tip, to_tip), over = 1.0 / sqrt(square);
+static inline double carom_tip_on(double axes[3][3], const double tip_place[3], double offset[3]) {
+  const double square = carom_space_dot(tip_place, tip_place), over = 1.0 / sqrt(square);
   for (int axis = 0; axis < 3; axis++)
-    offset[axis] = over * carom_space_dot(to_tip, axes[axis]);
+    offset[axis] = over * carom_space_dot(tip_place, axes[axis]);
   return square;
 }
 

@@ -235,11 +235,14 @@ int carom_cluster_members_of_tip(carom_cluster_state *cluster, double most) {
   bool in[CAROM_CLUSTER_BALLS] = {false};
   int queue[CAROM_CLUSTER_BALLS] = {cluster->tip.ball};
   const int struck = cluster->ball[cluster->tip.ball].index;
-  /* as far as the ball gets in twice the duration of tip or slate, next to what a contact is
+  /* as far as the ball gets in twice the duration of tip, slate or nose, next to what a contact is
    * deep */
   first_contact starts =
       first_of(&cluster->ball[cluster->tip.ball], &cluster->ball[cluster->tip.ball], most);
-  starts.delta += most * carom_greater(cluster->tip.duration, CAROM_SLATE_TIME);
+  double lasts = carom_greater(cluster->tip.duration, CAROM_SLATE_TIME);
+  if (cluster->nose_near)
+    lasts = carom_greater(lasts, CAROM_NOSE_TIME);
+  starts.delta += most * lasts;
   follow(cluster, &starts, queue, 1, in);
   const int count = keep(cluster, &starts, in);
   for (int index = 0; index < cluster->balls; index++)

@@ -39,7 +39,11 @@
  *     lead = int V - t_m V' + (r' - r + t_m v' - s) . c - delay
  *     delay = sum over touches with balls of (dv_k . c) (centroid_k - tau_k)
  *
- * For a ball alone the lead is V_0 L. */
+ * For a ball alone the lead is V_0 L.
+ *
+ * NOSE. A ball that touches a nose for a time tau_c meanwhile, and moves by s_c in it, is where a
+ * ball alone would be, whose cushion takes no time: it starts from r + s - s_c - t_m v', but not
+ * from behind the nose, with t_m = tau_e - tau_c. The tip is against it as it is at tau_e. */
 #include "cluster/cluster.h"
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
@@ -198,6 +202,19 @@ void carom_cluster_limit_shifts(carom_cluster_state *cluster) {
       cluster->ball[index].shift[axis] *= share;
 }
 
+/* The shift of a ball that has touched a nose. */
+static void place_past_nose(carom_cluster_state *cluster) {
+  const carom_cluster_nose *nose = &cluster->nose;
+  carom_cluster_ball *ball = &cluster->ball[cluster->tip.ball];
+  const double late = cluster->duration - nose->lasted;
+  for (int axis = 0; axis < 3; axis++)
+    ball->shift[axis] = ball->s[axis] - nose->moved[axis] - late * ball->v[axis];
+  ball->shift[2] = ball->flies ? carom_greater(ball->shift[2], ball->radius - ball->r[2]) : 0.0;
+  const double gap = nose->first_gap + carom_space_dot(nose->normal, ball->shift);
+  if (gap < CAROM_TOUCHING) /* not behind the nose */
+    cluster_add(false, ball->shift, CAROM_TOUCHING - gap, nose->normal);
+}
+
 void carom_cluster_find_places(carom_cluster_state *cluster) {
   changes sum;
   sort(cluster);
@@ -222,6 +239,8 @@ void carom_cluster_find_places(carom_cluster_state *cluster) {
     /* one on the slate starts from there, and none from below it */
     ball->shift[2] = ball->flies ? carom_greater(ball->shift[2], ball->radius - ball->r[2]) : 0.0;
   }
+  if (cluster->nose_near && cluster->nose.lasted > 0.0)
+    place_past_nose(cluster);
   carom_cluster_limit_shifts(cluster);
 }
 
@@ -238,6 +257,21 @@ double carom_cluster_tip_lead(const carom_cluster_state *cluster) {
   for (int axis = 0; axis < 3; axis++)
     place[axis] = ball->shift[axis] + late * ball->v[axis] - ball->s[axis];
   return tip->travel - late * tip->V - tip->delay + cluster_dot(false, place, tip->axis);
+}
+
+carom_next_tip carom_cluster_next_tip(const carom_cluster_state *cluster) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  const carom_cluster_ball *ball = &cluster->ball[tip->ball];
+  double last = tip->last;
+  if (cluster->nose_near)
+    last = carom_greater(last, cluster->nose.lasted);
+  const double late = cluster->duration - last;
+  carom_next_tip out;
+  out.travel = tip->travel - late * tip->V;
+  out.arm = tip->arm_way - late * carom_greater(tip->V, tip->slowest);
+  for (int axis = 0; axis < 3; axis++)
+    out.moved[axis] = ball->shift[axis] + late * ball->v[axis] - ball->s[axis];
+  return out;
 }
 
 double carom_cluster_separation(const carom_cluster_state *cluster) {

@@ -17,6 +17,7 @@
  *     c' = ((1 + m/m_e + 5/2 (1 - a^2)) c - 5/2 a sqrt(1 - a^2) left), made a unit vector. */
 #include "cluster/cluster.h"
 #include "cluster/cue.h"
+#include "cluster/nose.h"
 #include "cluster/tip.h"
 #include "cluster/vectors.h"
 #include "platform/sphere.h"
@@ -65,24 +66,56 @@ void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double
                    (tip->inverse_mass + (1.0 + CAROM_SPHERE_TURN * (a * a + b * b)) * inverse);
   tip->first = tip->V - cluster_dot(false, cluster->ball[struck].v, tip->along) -
                cluster_dot(false, cluster->ball[struck].W, tip->arm);
+  tip->touch_closing = tip->first;
 }
 
-void carom_cluster_tip_slides(carom_cluster_state *cluster, const double cue[8], double mu) {
+void carom_cluster_tip_slides(carom_cluster_state *cluster, double end_mass, double mu,
+                              const double tip_place[3]) {
   carom_cluster_tip *tip = &cluster->tip;
-  double left[3], above[3];
-  carom_cue_axes(cue[PHI], cue[THETA], tip->axis, left, above);
+  carom_cluster_ball *ball = &cluster->ball[tip->ball];
   tip->slides = true;
   tip->mu = mu;
-  tip->end = 1.0 / cue[END_MASS];
+  tip->end = 1.0 / end_mass;
+  for (int axis = 0; axis < 3; axis++) {
+    tip->start[axis] = tip_place[axis];
+    ball->s[axis] = 0.0;
+  }
 
-  /* from the position of the touch to the centre */
-  tip->kappa = sqrt(1.0 - cue[OFFSET_A] * cue[OFFSET_A] - cue[OFFSET_B] * cue[OFFSET_B]);
+  /* a tip that is inside the ball by what it is compressed counts as at its surface */
+  tip->hold = 1.0;
+  tip->beyond = -tip_turns(tip, ball);
+  tip_lets_go(tip);
+  tip->first = tip_closing(tip, ball);
+}
+
+void carom_cluster_put_in_nose(carom_cluster_state *cluster) {
+  carom_cluster_tip *tip = &cluster->tip;
+  const double lost = 1.0 - tip->restitution * tip->restitution, deep = -tip->beyond;
+  tip->beyond = 0.0;
+  tip->overlap = carom_lesser(deep, 0.0);
+  if (deep > 0.0 && lost > 0.0) {
+    tip->overlap = deep;
+    tip->overlap_max = deep / lost;
+  }
+  tip->first = fabs(tip->V) + carom_space_size(cluster->ball[tip->ball].v);
+}
+
+bool carom_cluster_tip_comes(carom_cluster_state *cluster, double *lasts, double moved[3]) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  const carom_cluster_ball *ball = &cluster->ball[tip->ball];
+  carom_cluster_nose nose = cluster->nose; /* it touches in the integrator */
+  double v[3], W[3], leaves[3];
+  cluster->nose_near = nose.model(nose.context, ball, v, W) && nose_of(ball, v, W, &nose);
+  if (!cluster->nose_near)
+    return false;
+  *lasts = nose_lasts(&nose);
+  nose_moves(&nose, ball->v, *lasts, moved);
+  if (tip->gone)
+    return false;
   for (int axis = 0; axis < 3; axis++)
-    tip->n[axis] =
-        tip->kappa * tip->axis[axis] - cue[OFFSET_A] * left[axis] - cue[OFFSET_B] * above[axis];
-  for (int axis = 0; axis < 3; axis++)
-    tip->place[axis] = -tip->n[axis];
-  tip->first = tip_closing(tip, &cluster->ball[tip->ball]);
+    leaves[axis] = ball->v[axis] + nose.change * nose.v[axis];
+  const double fastest = carom_greater(carom_space_size(ball->v), carom_space_size(leaves));
+  return -tip->overlap * tip->kappa < *lasts * (fabs(tip->V) + fastest);
 }
 
 void carom_cluster_push_alone(carom_cluster_state *cluster) {

@@ -5,13 +5,22 @@
  * cloth (cluster.h) with F for L. By itself it lasts CAROM_SLATE_TIME. The tip presses the struck
  * ball on the slate with the part F_down of its force. That frees a contact of the ball from the
  * cloth: phi grows by min(1, F_down / (mu F)). So a cue that is raised by a hair pushes as a level
- * one. A ball that nothing else touches has the same law in phases: shot/raised.c. */
+ * one. A ball that nothing else touches has the same law in phases: shot/raised.c.
+ *
+ * A ball that a nose throws down (nose.h), or that comes down to one, lands afterwards, as its own
+ * event, as it does where no tip is. So the slate does not see what it `falls` by: the speed that
+ * closes here is -(v_z - falls). */
 #ifndef CAROM_SRC_CLUSTER_SLATE_H
 #define CAROM_SRC_CLUSTER_SLATE_H
 
 #include "carom_shot.h"
 #include "cluster/tip.h"
 #include "platform/sphere.h"
+
+/* The upward speed of a ball that the slate sees. */
+static inline double slate_sees(const carom_cluster_state *cluster, int ball) {
+  return cluster->ball[ball].v[2] - cluster->slate[ball].falls;
+}
 
 /* Half a step of the overlaps of all, and their impulses; whether one acts. */
 static inline bool slate_acts(carom_cluster_state *cluster, double step) {
@@ -22,7 +31,7 @@ static inline bool slate_acts(carom_cluster_state *cluster, double step) {
 
     /* half a step, by the speed at which it begins */
     slate->J = 0.0;
-    slate->closing = -ball->v[2];
+    slate->closing = -slate_sees(cluster, index);
     slate->overlap += 0.5 * step * slate->closing;
     if (slate->overlap <= 0.0 || !(slate->restitution > 0.0))
       continue;
@@ -54,7 +63,7 @@ static inline double share_of_tip(const carom_cluster_state *cluster, int i, int
 static inline void slate_parts(carom_cluster_state *cluster, double step) {
   for (int index = 0; index < cluster->balls; index++) {
     carom_cluster_slate *slate = &cluster->slate[index];
-    const double closing = -cluster->ball[index].v[2], middle = slate->overlap;
+    const double closing = -slate_sees(cluster, index), middle = slate->overlap;
     slate->overlap += 0.5 * step * closing;
     if (slate->overlap_max == 0.0)
       continue;
@@ -67,7 +76,7 @@ static inline void slate_parts(carom_cluster_state *cluster, double step) {
 /* How long a ball above the slate needs down to it; infinite: it does not reach it. */
 static inline double wait_of_slate(const carom_cluster_state *cluster, int ball) {
   const carom_cluster_slate *slate = &cluster->slate[ball];
-  const double down = -cluster->ball[ball].v[2];
+  const double down = -slate_sees(cluster, ball);
   const bool comes =
       slate->restitution > 0.0 && slate->overlap <= 0.0 && down > too_slow * cluster->tip.first;
   return comes ? -slate->overlap / down : INFINITY;
@@ -111,8 +120,8 @@ static inline void slate_lets_go(carom_cluster_state *cluster, double step) {
       continue;
 
     /* the rest of the impulse, in place of this step's */
-    const double up = slate_releases(slate, ball->v[2], step), gain = up - ball->v[2];
-    ball->v[2] = up;
+    const double v_z = slate_sees(cluster, index), gain = slate_releases(slate, v_z, step) - v_z;
+    ball->v[2] += gain;
     slate->impulse += gain / ball->inverse_mass - slate->J;
     slate->overlap = slate->overlap_max = slate->J = 0.0;
 

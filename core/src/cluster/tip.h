@@ -28,29 +28,36 @@
  * touches anew. So no speed jumps where a force reaches 0. In flat play the downward component of
  * the push is lost, with the speed that it would give.
  *
- * FURTHER TOUCH. The ball moves and turns by itself, so that the tip may slide on it. With n the
- * unit vector from the position of the touch to the centre, kappa = n . c, and y the velocity of
- * the end mass m_e across c, which begins at 0,
+ * FURTHER TOUCH. The ball moves and turns by itself, so that the tip may slide on it. The end of
+ * the cue, of mass m_e, is on a shaft that bends: Y is how far the end is aside from the axis, and
+ * y its velocity. The position of the tip from the centre of the ball, which moves by s, is
  *
- *     r = V c + y - v - W x p,  p = -n         of the tip and the position that it touches
+ *     p = p_0 + Y + c int V dt - s.
+ *
+ * With n = -p/|p|, kappa = n . c, which turn as p does:
+ *
+ *     r = V c + y - v + W x n          of the tip and the position that it touches
  *     delta' = r . n / kappa
  *     P = N n + f per time, with P . c = k delta,  |f| <= mu N
  *     u = r - delta' c, across n;  f stops it in a step, or is mu N
- *     M V' = -P . c      m_e y' = -(P - (P . c) c)      m v' = P      (2/5) m W' = p x P
+ *     M V' = -P . c      m v' = P      (2/5) m W' = P x n
+ *     Y' = y      m_e y' = -(P - (P . c) c) - K Y - m_e y/tau_s
  *
- *     c -->  ======\ m_e        n     from the touch to the centre, |n| = 1
+ *     c -->  ======\ m_e        n     from the tip to the centre, |n| = 1
  *                   \.-'''-.   kappa  n . c: 1 where the axis meets the centre
- *                  .'  '.   '.  y     of the end m_e, across c, which the shaft holds
- *                 /      'n   \        where it would be drawn into the ball
+ *                  .'  '.   '.  y     velocity of the end m_e, across c
+ *                 /      'n   \  Y     how far it is aside
  *                 |        'o |
  *
  * and mu = a/sqrt(1 - a^2), a the offset of a miscue. P . r is the power of the spring and of
- * friction. A tip that does not slide has r = delta' c, as the first touch has it, whose push goes
- * along c' too. Where friction holds back as much as it pushes, N is at most 2 k delta/kappa: the
- * rest would wedge the tip. The end gives way, but the shaft holds it where friction would draw it
- * into the ball. It springs back where the force has reached 0. If the axis closes from the
- * position that the tip has slid to, the light end would bounce until it does not: one impulse
- * represents these. */
+ * friction, for each n, so that no energy is added. A tip that does not slide has r = delta' c, as
+ * the first touch has it, whose push goes along c' too. Where friction holds back as much as it
+ * pushes, N is at most 2 k delta/kappa: the rest would wedge the tip.
+ *
+ * While the tip has no force, delta is what its position gives, (R - |p|)/kappa, and what it
+ * differed from that by as the force ended. A touch begins at delta = 0. The light end may bounce:
+ * all that follows within the duration of the tip is one touch. The shaft has CAROM_SHAFT_REST to
+ * become straight before the push is over. */
 #ifndef CAROM_SRC_CLUSTER_TIP_H
 #define CAROM_SRC_CLUSTER_TIP_H
 
@@ -61,18 +68,21 @@
 #include "platform/sphere.h"
 
 /* Steps of the duration of tip or slate, for each of a contact of balls: 200 by default, which are
- * 5 us of a leather tip, with errors of 2e-4, and 9e-4 at most. Fewer are not taken. */
-enum { CAROM_TIP_STEPS = 200, CAROM_TIP_STEPS_EACH = 8 };
-/* Iterations for the impulse that represents the bounces of the end: one where it slips or sticks
- * throughout, further ones where the slip ends. */
-enum { CAROM_TIP_ITERATIONS = 3 };
-static const double too_slow = 1e-9;   /* of the speed of the cue: contacts that close slower are
+ * 5 us of a leather tip, with errors of 2e-4, and 9e-4 at most. Fewer are not taken. A further
+ * touch, whose light end bounces for milliseconds, has half as many. */
+enum { CAROM_TIP_STEPS = 200, CAROM_FURTHER_STEPS = 100, CAROM_TIP_STEPS_EACH = 8 };
+/* The shaft, by 3 E I/L^3 of 13 mm of maple (E = 12.6 GPa) that is free for L = 0.2 m; how fast its
+ * end comes to rest aside, which is a convention; and how long it needs until it is straight. */
+#define CAROM_SHAFT_STIFFNESS 6300.0 /* K, N/m */
+#define CAROM_SHAFT_TIME 1e-3        /* tau_s, s */
+#define CAROM_SHAFT_REST 5e-3        /* s */
+static const double too_slow = 1e-9; /* of the speed of the cue: contacts that close slower are
                                         none */
-static const double least_kappa = 0.1; /* a tip that slides past it misses */
-
-/* The fraction of kappa that friction leaves at least, where it holds back; N is 1 over it at
- * most. */
-#define CAROM_LEAST_PUSH 0.5
+/* kappa at which a tip that slides off the side of the ball begins to lose it, and has lost it */
+static const double side_kappa = 0.3, least_kappa = 0.1;
+#define CAROM_ARM_STOPS \
+  3e-3 /* m: the last part of the follow-through, in which the arm takes the
+                                cue away */
 
 /* delta': the speed at which the tip closes. */
 static inline double tip_closing(const carom_cluster_tip *tip, const carom_cluster_ball *ball) {
@@ -92,8 +102,9 @@ static inline double tip_upward(const carom_cluster_tip *tip) {
  * e/(1 + e) of the duration, has half as many steps. */
 static inline double push_step(const carom_cluster_state *cluster, double duration,
                                double restitution) {
-  const double steps =
-      carom_greater((double)CAROM_TIP_STEPS, cluster->steps * (double)CAROM_TIP_STEPS_EACH);
+  const double least = (double)(cluster->tip.slides ? CAROM_FURTHER_STEPS : CAROM_TIP_STEPS),
+               each = least / (double)(CAROM_TIP_STEPS / CAROM_TIP_STEPS_EACH);
+  const double steps = carom_greater(least, cluster->steps * each);
   return 2.0 * restitution / (1.0 + restitution) * duration / steps;
 }
 
@@ -140,34 +151,28 @@ static inline void slide(const carom_cluster_tip *tip, const carom_cluster_ball 
                        (across + gain * cluster_dot(false, aside, aside));
   for (int axis = 0; axis < 3; axis++)
     friction[axis] = slip[axis] / across + share * aside[axis];
-  const double friction_along = cluster_dot(false, friction, aside),
-               size = sqrt(cluster_dot(false, friction, friction));
-  double N = (tip->J - friction_along) / kappa;
 
-  /* or as large as N lets it be: P . c = N (kappa + mu part) is J, unless the tip wedges */
-  if (size > 0.0 && !(size <= tip->mu * N)) {
-    const double part = friction_along / size, push = kappa + tip->mu * part;
-    const bool wedges = push < CAROM_LEAST_PUSH * kappa;
-    N = wedges ? 2.0 * tip->J / kappa : tip->J / push;
-    const double rub = wedges ? -tip->J / part : tip->mu * N;
+  /* or as large as N lets it be, by P . c = N (kappa + mu part) = J; and where it holds back, so
+   * that N is at most 2 J/kappa: the rest would wedge the tip */
+  const double size = sqrt(cluster_dot(false, friction, friction)),
+               part = size > 0.0 ? cluster_dot(false, friction, aside) / size : 0.0;
+  double rub = size;
+  if (kappa + tip->mu * part > 0.0)
+    rub = carom_lesser(rub, tip->mu * tip->J / (kappa + tip->mu * part));
+  if (part < 0.0)
+    rub = carom_lesser(rub, -tip->J / part);
+  if (size > 0.0)
     for (int axis = 0; axis < 3; axis++)
       friction[axis] *= rub / size;
-  }
+  const double N = (tip->J - rub * part) / kappa;
   for (int axis = 0; axis < 3; axis++)
     P[axis] = N * normal[axis] + friction[axis];
 }
 
-/* The end mass after an impulse -P: it gives way across c, and is not drawn into the ball. */
+/* The end mass after an impulse -P: it gives way across c. */
 static inline void end_gives_way(carom_cluster_tip *tip, const double P[3]) {
   cluster_add(false, tip->y, -tip->end, P);
   cluster_add(false, tip->y, tip->end * tip->J, tip->axis);
-
-  /* the shaft takes what leads inward, across c: n - kappa c, of the square 1 - kappa^2 */
-  const double inward = cluster_dot(false, tip->y, tip->n), across = 1.0 - tip->kappa * tip->kappa;
-  if (!(inward > 0.0 && across > 0.0))
-    return;
-  cluster_add(false, tip->y, -inward / across, tip->n);
-  cluster_add(false, tip->y, inward / across * tip->kappa, tip->axis);
 }
 
 /* Gives the ball an impulse P of a tip that slides. */
@@ -205,66 +210,65 @@ static inline void tip_push(bool flat, carom_cluster_state *cluster) {
   cluster_add(false, cluster->touch[tip->touch].P, tip->J, tip->along);
 }
 
-/* The force has reached 0: the end springs back, and the tip has slid on. If the axis closes from
- * there, the end would press again, and bounce: all of that is one impulse, after which it does not
- * close. */
-static inline void end_springs_back(carom_cluster_state *cluster) {
-  carom_cluster_tip *tip = &cluster->tip;
-  const carom_cluster_ball *ball = &cluster->ball[tip->ball];
-  double normal[3], P[3];
+/* What is left of the force as the tip slides off the side of the ball, and as the arm takes the
+ * cue away: 1 to 0. It never grows while the tip is compressed, so that no energy is added. */
+static inline void tip_lets_go(carom_cluster_tip *tip) {
+  const double side = (tip->kappa - least_kappa) / (side_kappa - least_kappa),
+               arm = (tip->reach - tip->arm_way) / CAROM_ARM_STOPS;
+  const double hold = carom_lesser(carom_lesser(side, arm), 1.0);
+  tip->hold = tip->overlap > 0.0 ? carom_lesser(tip->hold, hold) : hold;
+  tip->gone |= !(tip->hold > 0.0);
+}
 
-  /* n from where the tip has slid to; past the side of the ball it misses */
-  for (int axis = 0; axis < 3; axis++) {
-    tip->y[axis] = 0.0;
-    normal[axis] =
-        -tip->place[axis] - (tip->travel * tip->axis[axis] - ball->s[axis]) / ball->radius;
-  }
-  const double over = 1.0 / sqrt(cluster_dot(false, normal, normal)),
-               kappa = over * cluster_dot(false, normal, tip->axis);
-  tip->gone |= kappa < least_kappa;
-  if (tip->gone)
-    return;
-  tip->kappa = kappa;
+/* n and kappa of a tip that slides, from where it is. Returns how deep that is in the ball, along
+ * the axis. A tip that has passed the side of the ball misses. */
+static inline double tip_turns(carom_cluster_tip *tip, const carom_cluster_ball *ball) {
+  double tip_place[3];
   for (int axis = 0; axis < 3; axis++)
-    tip->n[axis] = over * normal[axis];
+    tip_place[axis] =
+        tip->start[axis] + tip->bend[axis] + tip->travel * tip->axis[axis] - ball->s[axis];
+  const double size = sqrt(cluster_dot(false, tip_place, tip_place)),
+               kappa = -cluster_dot(false, tip_place, tip->axis) / size;
+  tip->gone |= !(kappa >= least_kappa);
+  if (tip->gone)
+    return tip->overlap;
+  for (int axis = 0; axis < 3; axis++)
+    tip->n[axis] = -tip_place[axis] / size;
+  tip->kappa = kappa;
+  return (ball->radius - size) / kappa;
+}
 
-  /* J by its response, which is linear in it unless the slip ends */
-  const double closing = tip_closing(tip, ball), inverse_mass = ball->inverse_mass, end = tip->end;
-  tip->closing = carom_lesser(closing, 0.0);
-  if (!(closing > 0.0))
+/* A tip that slides has a force: whether that begins a touch, which what its light end bounces does
+ * not. */
+static inline void tip_presses(carom_cluster_state *cluster, double tau) {
+  carom_cluster_tip *tip = &cluster->tip;
+  const bool begins = tip->touches == 0 || tip->apart > tip->duration;
+  tip->apart = 0.0;
+  if (!begins)
     return;
-  tip->end = 0.0;
-  tip->J = closing / (tip->inverse_mass + inverse_mass / (kappa * kappa));
-  for (int iteration = 0; iteration < CAROM_TIP_ITERATIONS; iteration++) {
-    slide(tip, ball, P);
-    tip->J *= closing / (tip->J * tip->inverse_mass +
-                         inverse_mass * cluster_dot(!cluster->in_space, P, tip->n) / kappa);
-  }
-
-  /* given at once */
-  slide(tip, ball, P);
-  tip->end = end;
-  tip->V -= tip->J * tip->inverse_mass;
-  tip->impulse += tip->J;
-  slide_on(cluster, P);
-  tip->J = 0.0;
+  tip->touch = carom_cluster_begin_touch(cluster, -1, tip->touches > 0 ? tip->touch : -1, tau, 0.0);
+  tip->touches++;
+  if (tip->touches == 1)
+    tip->touch_closing = tip->closing;
+  else if (tip->touches == 2)
+    tip->second = tip->closing;
 }
 
 /* Half a step of its compression, and its impulse; whether it acts. */
 static inline bool tip_acts(carom_cluster_state *cluster, double step, double tau) {
   carom_cluster_tip *tip = &cluster->tip;
-  const bool pressed = tip->J > 0.0;
 
   /* half a step, by the speed at which it begins */
   tip->J = 0.0;
   tip->closing = tip_closing(tip, &cluster->ball[tip->ball]);
   tip->overlap += 0.5 * step * tip->closing;
   tip->travel += 0.5 * step * tip->V;
+  tip->apart += step;
   if (tip->overlap <= 0.0 || tip->gone)
     return false;
 
-  /* it touches */
-  if (tip->overlap_max == 0.0) {
+  /* a first touch begins where the tip is closed, another where it has a force */
+  if (!tip->slides && tip->overlap_max == 0.0) {
     tip->touch =
         carom_cluster_begin_touch(cluster, -1, tip->touches > 0 ? tip->touch : -1, tau, 0.0);
     tip->touches++;
@@ -275,9 +279,11 @@ static inline bool tip_acts(carom_cluster_state *cluster, double step, double ta
   /* the impulse of the step */
   tip->J =
       step * carom_linear_force(tip->stiffness, tip->restitution, tip->overlap, &tip->overlap_max);
+  if (tip->slides)
+    tip->J *= tip->hold;
   tip->impulse += tip->J;
-  if (tip->slides && pressed && !(tip->J > 0.0))
-    end_springs_back(cluster);
+  if (tip->slides && tip->J > 0.0)
+    tip_presses(cluster, tau);
 
   /* a tip without a force acts where it closes */
   const bool acts = tip->J > 0.0 || tip->closing > too_slow * tip->first;
@@ -293,16 +299,40 @@ static inline void tip_recovers(carom_cluster_tip *tip) {
   tip->gone |= !(tip->reach > 0.0); /* without follow-through it is over */
 }
 
+/* The end on its shaft, a step later; and where the tip is then. The arm takes away a cue that has
+ * used up its length, once it does not press. */
+static inline void shaft_bends(carom_cluster_tip *tip, const carom_cluster_ball *ball,
+                               double step) {
+  for (int axis = 0; axis < 3; axis++) {
+    tip->bend[axis] += step * tip->y[axis];
+    tip->y[axis] -= step * (tip->y[axis] / CAROM_SHAFT_TIME +
+                            CAROM_SHAFT_STIFFNESS * tip->end * tip->bend[axis]);
+  }
+  tip->arm_way += step * carom_greater(tip->V, tip->slowest);
+  if (tip->gone)
+    return;
+  const double deep = tip_turns(tip, ball);
+  tip_lets_go(tip);
+  if (tip->J > 0.0)
+    tip->beyond = tip->overlap - deep;
+  else
+    tip->overlap = deep + tip->beyond;
+}
+
 /* The other half of the step. */
 static inline void tip_parts(carom_cluster_state *cluster, double step) {
   carom_cluster_tip *tip = &cluster->tip;
-  const double closing = tip_closing(tip, &cluster->ball[tip->ball]), middle = tip->overlap;
+  const carom_cluster_ball *ball = &cluster->ball[tip->ball];
+  const double closing = tip_closing(tip, ball), middle = tip->overlap;
   tip->overlap += 0.5 * step * closing;
   tip->travel += 0.5 * step * tip->V;
-  if (tip->overlap_max == 0.0)
-    return;
-  tip->overlap_max = carom_hertz_vertex(middle, tip->overlap_max, step, tip->closing, closing);
-  tip_recovers(tip);
+  if (tip->overlap_max > 0.0)
+    tip->overlap_max = carom_hertz_vertex(middle, tip->overlap_max, step, tip->closing, closing);
+  const bool was_closed = tip->overlap_max > 0.0;
+  if (tip->slides)
+    shaft_bends(tip, ball, step);
+  if (was_closed)
+    tip_recovers(tip);
 }
 
 /* A wait of the push, in which nothing acts; `touches` at its end. */

@@ -312,7 +312,7 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_in_turn *turn,
 
   /* all balls in play, as they are now; the two that meet, by their positions in the list */
   cluster->balls = 0;
-  cluster->struck = cluster->on_slate = false;
+  cluster->struck = cluster->on_slate = cluster->nose_near = false;
   cluster->steps = steps_of(sim->opt);
   cluster->slow = carom_slow_speed(sim->slow_instants);
   int first = 0, second = 0;
@@ -395,13 +395,15 @@ static void put_on_slate(const carom_sim *sim, carom_cluster_state *cluster) {
 }
 
 /* The tip of a cue at ball[struck]. */
-static void put_tip(const carom_cue *cue, int struck, bool again, carom_cluster_state *cluster) {
+static void put_tip(const carom_cue_push *push, int struck, carom_cluster_state *cluster) {
+  const carom_cue *cue = push->cue;
   const double numbers[8] = {cue->speed, cue->phi,  cue->theta,    cue->a,
                              cue->b,     cue->mass, cue->end_mass, cue->tip_restitution};
   carom_cluster_tip_of(cluster, struck, numbers, carom_tip_time(cue));
   cluster->tip.reach = cue->follow;
-  if (again)
-    carom_cluster_tip_slides(cluster, numbers, carom_tip_friction(cue));
+  cluster->tip.slowest = push->slowest;
+  if (push->tip_place != NULL)
+    carom_cluster_tip_slides(cluster, cue->end_mass, carom_tip_friction(cue), push->tip_place);
 }
 
 /* A ball as it is now, as one of a cluster. */
@@ -411,13 +413,63 @@ static carom_cluster_ball member_now(const carom_sim *sim, int index) {
   return member_of(sim->layout->kind[index], &current, sim->opt, carom_flies(&current), index);
 }
 
-int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
-                         carom_cluster_state *cluster, uint8_t order[CAROM_CLUSTER_CONTACTS]) {
+/* The struck ball may be above the slate as a further touch presses it down. */
+static void put_low_slate(const carom_sim *sim, carom_cluster_state *cluster) {
+  const int struck = cluster->tip.ball;
+  const carom_cluster_ball *ball = &cluster->ball[struck];
+  carom_cluster_slate *slate = &cluster->slate[struck];
+  slate->restitution = carom_slate_under(sim->layout->kind[ball->index]);
+  slate->falls = carom_lesser(ball->v[2], 0.0);
+  slate->overlap = carom_lesser(ball->radius - ball->r[2], 0.0);
+}
+
+/* What the cushion leaves of the motion of the struck ball. On the cloth it has no vertical one. */
+static bool model_of_nose(void *context, const carom_cluster_ball *ball, double v[3], double W[3]) {
+  const carom_push_nose *nose = (const carom_push_nose *)context;
+  carom_sim *sim = nose->sim;
+  const int64_t slow_instants = sim->slow_instants;
+  const double slow_last = sim->slow_last;
+  carom_ball_state start;
+  carom_path_at(&sim->path[ball->index], &sim->rates[ball->index], sim->time, &start);
+  for (int axis = 0; axis < 3; axis++) {
+    start.r[axis] += ball->s[axis];
+    start.v[axis] = ball->v[axis];
+    start.w[axis] = ball->W[axis] / ball->radius;
+  }
+  if (!ball->flies) {
+    start.r[2] = ball->radius;
+    start.v[2] = 0.0;
+  }
+  carom_ball_state end = start;
+  const carom_status status = sim->rules->resolve(sim, &nose->event, &end, NULL);
+  sim->slow_instants = slow_instants;
+  sim->slow_last = slow_last;
+  for (int axis = 0; axis < 3; axis++) {
+    v[axis] = ball->v[axis] + (end.v[axis] - start.v[axis]);
+    W[axis] = ball->W[axis] + ball->radius * (end.w[axis] - start.w[axis]);
+  }
+  return status >= 0;
+}
+
+/* The nose near the struck ball, or at it. */
+static void put_nose(carom_push_nose *nose, carom_cluster_state *cluster) {
+  memset(&cluster->nose, 0, sizeof cluster->nose);
+  memcpy(cluster->nose.normal, nose->normal, sizeof nose->normal);
+  cluster->nose.gap = cluster->nose.first_gap = nose->gap;
+  cluster->nose.model = model_of_nose;
+  cluster->nose.context = nose;
+  if (nose->touches)
+    carom_cluster_put_in_nose(cluster);
+}
+
+int carom_cluster_strike(carom_sim *sim, const carom_cue_push *push, carom_cluster_state *cluster,
+                         uint8_t order[CAROM_CLUSTER_CONTACTS]) {
   cluster->balls = 0;
   cluster->steps = steps_of(sim->opt);
   cluster->slow = carom_slow_speed(sim->slow_instants);
   cluster->struck = true;
   cluster->on_slate = false;
+  cluster->nose_near = push->nose != NULL;
   int struck = 0;
   for (int index = 0; index < sim->count; index++) {
     if (carom_is_out(sim->path[index].from.label))
@@ -428,13 +480,20 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
   }
 
   /* those that the ball can reach, and of a raised cue the slate */
-  const bool again = sim->shot->count > 0;
-  put_tip(cue, struck, again, cluster);
-  if (carom_cluster_members_of_tip(cluster, most) < 0)
+  const bool again = push->tip_place != NULL;
+  put_tip(push, struck, cluster);
+  if (carom_cluster_members_of_tip(cluster, push->most) < 0)
     return -1;
-  if (slate)
+  if (push->slate)
     put_on_slate(sim, cluster);
-  const bool alone = cluster->contacts == 0 && !slate && !again;
+  if (push->slate && again)
+    put_low_slate(sim, cluster);
+  if (push->nose != NULL)
+    put_nose(push->nose, cluster);
+  if (push->nose != NULL && push->nose->touches &&
+      !carom_cluster_tip_comes(cluster, &push->nose->lasts, push->nose->moved))
+    return 0;
+  const bool alone = cluster->contacts == 0 && !push->slate && !again;
   if (!alone && !carom_cluster_solve(cluster))
     return -1;
   int count = 0;
@@ -442,10 +501,10 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
     count = in_order(cluster, order);
 
   /* none of the near balls was touched: the result is the same as for a single contact */
-  if (count == 0 && !slate && !again) {
+  if (count == 0 && !push->slate && !again) {
     struck = cluster->tip.ball;
     cluster->ball[struck] = member_now(sim, sim->struck);
-    put_tip(cue, struck, again, cluster);
+    put_tip(push, struck, cluster);
     carom_cluster_push_alone(cluster);
   }
   return count;
@@ -486,7 +545,7 @@ static carom_cluster_contact contact_of(const carom_cluster_state *cluster,
 static void gather(const carom_shot_ball *balls, int count, const carom_shot_options *opt,
                    const bool done[], carom_cluster_state *cluster) {
   cluster->balls = 0;
-  cluster->struck = cluster->on_slate = false;
+  cluster->struck = cluster->on_slate = cluster->nose_near = false;
   cluster->steps = steps_of(opt);
   cluster->slow = carom_slow_speed(0);
   for (int index = 0; index < count; index++) {

@@ -63,22 +63,55 @@ bool carom_lasts(const carom_shot_options *opt);
  * pushes it. */
 bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
 
-/* The push of a cue, now, of the struck ball, which gets the speed `most` at most, and of those
- * that it meets meanwhile; of a raised one on the slate. cue->follow is what is left of it. Returns
- * how many contacts of balls had an impulse, in the order of order[]; -1 where there are too many
- * contacts or steps. */
+/* The nose of a cushion near the struck ball, near_nose.c. */
+typedef struct carom_push_nose {
+  carom_sim *sim;
+  carom_due event;       /* the event of touching it */
+  double normal[3], gap; /* from the nose to the ball; m */
+  bool touches;          /* now, by that event */
+  /* of one that the tip does not come to: s, how long the ball touches it; m, how far it moves */
+  double lasts, moved[3];
+} carom_push_nose;
+/* The nearest one within reach of a push; false: none is. */
+bool carom_find_nose(carom_sim *sim, const carom_ball_state *ball, carom_push_nose *nose);
+/* That of a part, as an event names it: its plane. */
+void carom_nose_of_part(carom_sim *sim, const carom_ball_state *ball, const carom_due *event,
+                        carom_push_nose *nose);
+/* The one that is due to be touched. */
+void carom_nose_now(carom_sim *sim, const carom_ball_state *ball, const carom_due *event,
+                    carom_push_nose *nose);
+
+/* A push of a cue, now. */
+typedef struct carom_cue_push {
+  const carom_cue *cue; /* cue->follow is what is left of it */
+  /* of a further touch: from the centre of the struck ball to the tip, and the nose near that ball;
+     or NULL */
+  const double *tip_place;
+  carom_push_nose *nose;
+  double most;    /* m/s: the greatest speed that the ball gets */
+  double slowest; /* m/s: of the arm, of a further touch */
+  bool slate;     /* of a raised cue, on the slate */
+} carom_cue_push;
+/* That push of the struck ball, and of those that it meets meanwhile. Returns how many contacts of
+ * balls had an impulse, in the order of order[]; -1 where there are too many contacts or steps. In
+ * a nose that the tip does not come to, nothing happens: its impulse is 0. */
 #define CAROM_LEAST_TOUCH 0.001 /* m/s: a further touch that is slower is none */
-int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
-                         carom_cluster_state *cluster, uint8_t order[CAROM_CLUSTER_CONTACTS]);
+int carom_cluster_strike(carom_sim *sim, const carom_cue_push *push, carom_cluster_state *cluster,
+                         uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
 /* follow_through.c. The cue continues from now at a speed, its tip `lead` m ahead of its position
- * at the ball, as in places.c. */
-void carom_follow_on(carom_play *play, double speed, double lead);
+ * at the ball, as in places.c; the arm has gone on by `arm` m. */
+void carom_follow_on(carom_play *play, double speed, double lead, double arm);
+/* It is where it is now. */
+void carom_follow_now(carom_play *play);
 /* Sets play->follow.time: when its tip touches the struck ball again. */
 void carom_follow_find(carom_play *play);
-/* *moved_cue becomes the cue with the position of its tip and its speed. Returns whether that is a
- * touch. */
-bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue);
+/* *moved_cue becomes the cue with the position of its tip and its speed; tip_place the way from the
+ * centre to the tip. Returns whether that is a touch. */
+bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue, double tip_place[3]);
+/* The tip is moved against the ball, beside what the cue travels: as if the cue had struck that
+ * much aside. */
+void carom_follow_moved(carom_play *play, const double moved[3]);
 
 /* raised.c: e of the contact of a ball with the slate; and what an impulse J of it, over the mass,
  * takes from the turn about the vertical and the end of hops from v[2]. */

@@ -235,7 +235,7 @@ void carom_facts_push(const carom_sim *sim, const carom_cluster_state *cluster,
   carom_facts *facts = sim->shot->facts;
   if (facts == NULL)
     return;
-  carom_facts_touches(sim, cluster->tip.touches, cluster->tip.first, cluster->tip.second);
+  carom_facts_touches(sim, cluster->tip.touches, cluster->tip.touch_closing, cluster->tip.second);
   for (int index = 0; index < count; index++) {
     const carom_cluster_contact_state *contact = &cluster->contact[order[index]];
     const bool of_tip = contact->i == cluster->tip.ball || contact->j == cluster->tip.ball;

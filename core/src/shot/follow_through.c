@@ -1,8 +1,10 @@
 /* The cue after its push: it follows through, and touches the cue ball again where it reaches it.
  *
  * Its tip continues along the axis c at the speed V that the push has left it, for the length
- * cue.follow from where it struck. That length is a convention: the arm, which stops the cue, is
- * not computed. With p from the centre of the struck ball to the tip, the next touch is where
+ * cue.follow from where it struck. That length is a convention: the arm, which takes the cue away,
+ * is not computed. It goes on at a tenth of the first speed at least, also where the ball has
+ * stopped the cue or thrown it back: the cue stays in the way until then. With p from the centre of
+ * the struck ball to the tip, the next touch is where
  *
  *     |p| = R,   p = p0 + t V c - v t - a t^2
  *
@@ -14,8 +16,12 @@
  * is left. It is looked for from the first contact of the cue ball with another ball or a cushion
  * after a touch on: before that the ball runs away from the cue, but in slow draws, in which an arm
  * stops. A tip that closes slower than CAROM_LEAST_TOUCH is at the ball until the next event; a tip
- * that passes its middle misses: there the follow-through ends. A push may also stop the cue, or
- * throw it back. The cue is in the way even then, until the arm takes it away. */
+ * that passes its middle misses: there the follow-through ends.
+ *
+ * NOSE. A cushion that the ball meets meanwhile lasts (cluster/nose.h), and the cue goes on by that
+ * time, though the clock of the shot stands still: where the tip is against the ball counts. If it
+ * presses the ball in the nose, both are one event of the shot, a push. Otherwise the cushion gives
+ * what it gives without a cue, to the bit. */
 #include "cluster/cue.h"
 #include "motion/gap.h"
 #include "shot/clusters.h"
@@ -28,33 +34,44 @@
 static const double least_distance2 = 0.25; /* |p|^2, of R^2 */
 static const double least_ahead = 0.1;
 
-/* A cue that is slower than this fraction of its first speed, or moves backwards, is taken away as
- * soon as a cue of that speed would have ended. This is a convention. */
-static const double slowest = 0.1;
-
-void carom_follow_on(carom_play *play, double speed, double lead) {
+void carom_follow_on(carom_play *play, double speed, double lead, double arm) {
   const carom_sim *sim = &play->sim;
   const carom_cue *cue = sim->cue;
   carom_follow *follow = &play->follow;
   follow->along += lead;
+  follow->left -= arm;
 
-  /* how far it still goes; balls must last as it touches them */
-  const double left = cue->follow - follow->along;
+  /* balls must last as it touches them */
   follow->end = -1.0;
-  if (!(left > 0.0) || cue->tip_time < 0.0 || !sim->rules->clusters || !carom_lasts(sim->opt))
+  if (!(follow->left > 0.0) || cue->tip_time < 0.0 || !sim->rules->clusters ||
+      !carom_lasts(sim->opt))
     return;
   follow->start = sim->time;
-  follow->end = sim->time + left / carom_greater(speed, slowest * cue->speed);
+  follow->end = sim->time + follow->left / carom_arm_speed(cue, speed);
   follow->V = speed;
+}
+
+void carom_follow_now(carom_play *play) {
+  carom_follow *follow = &play->follow;
+  const double elapsed = play->sim.time - follow->start;
+  follow->along += follow->V * elapsed;
+  follow->left -= carom_arm_speed(play->sim.cue, follow->V) * elapsed;
+  follow->start = play->sim.time;
+  follow->time = INFINITY;
+}
+
+void carom_follow_moved(carom_play *play, const double moved[3]) {
+  for (int axis = 0; axis < 3; axis++)
+    play->follow.origin[axis] += moved[axis];
 }
 
 /* p, from the centre to the tip, now, and the directions of the cue. */
 static void tip_of(const carom_play *play, const double centre[3], double axes[3][3],
-                   double to_tip[3]) {
+                   double tip_place[3]) {
   const carom_sim *sim = &play->sim;
   const carom_follow *follow = &play->follow;
   carom_tip_from(sim->cue, sim->rates[sim->struck].radius, follow->origin,
-                 follow->along + follow->V * (sim->time - follow->start), centre, axes, to_tip);
+                 follow->along + follow->V * (sim->time - follow->start), centre, axes, tip_place);
 }
 
 /* The struck ball from now on, in axes[0] the axis of the cue, and the way from the ball to the
@@ -95,20 +112,21 @@ void carom_follow_find(carom_play *play) {
         sim->time + carom_first_contact_in_space(&separation, sim->rates[struck].radius, horizon);
 }
 
-bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue) {
+bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue, double tip_place[3]) {
   const carom_sim *sim = &play->sim;
   const int struck = sim->struck;
   const double radius = sim->rates[struck].radius;
   carom_ball_state state;
-  double axes[3][3], to_tip[3], offset[3];
+  double axes[3][3], offset[3];
   carom_path_at(&sim->path[struck], &sim->rates[struck], sim->time, &state);
-  tip_of(play, state.r, axes, to_tip);
+  tip_of(play, state.r, axes, tip_place);
 
   /* the cue with what is left of its way, at this touch */
-  const double square = carom_tip_on(axes, to_tip, offset);
+  const double square = carom_tip_on(axes, tip_place, offset);
   *moved_cue = *sim->cue;
   moved_cue->speed = play->follow.V;
-  moved_cue->follow -= play->follow.along + play->follow.V * (sim->time - play->follow.start);
+  moved_cue->follow = play->follow.left -
+                      carom_arm_speed(sim->cue, play->follow.V) * (sim->time - play->follow.start);
   moved_cue->a = offset[1];
   moved_cue->b = offset[2];
   return square > least_distance2 * radius * radius && offset[0] < -least_ahead;

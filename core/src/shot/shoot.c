@@ -1,5 +1,6 @@
 /* The loop of a shot: find the next event, bring the balls in it there, resolve it, and look for
  * their next meetings. */
+#include "cluster/cue.h"
 #include "cluster/hertz.h"
 #include "motion/strike.h"
 #include "platform/promise.h"
@@ -190,6 +191,16 @@ static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
   }
 }
 
+/* Whether the struck ball touches a nose meanwhile. */
+static inline bool has_nose(const carom_cluster_state *cluster) {
+  return cluster->struck && cluster->nose_near && cluster->nose.lasted > 0.0;
+}
+
+/* How many events a cluster has: so many contacts of balls, the strike, and the nose. */
+static inline int together_with(const carom_cluster_state *cluster, int count) {
+  return count + cluster->struck + has_nose(cluster);
+}
+
 /* Each contact of a cluster is an event. A ball changes at its first one, unless it is among
  * changed[], and has the same state before and after the others. *pending_event becomes the first
  * contact of the struck ball, where it has one. */
@@ -210,7 +221,7 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *clu
       *pending_event = contact;
 
     carom_event spare, *event = note(sim, &spare, &contact);
-    event->cluster = count + cluster->struck; /* the strike is one of them */
+    event->cluster = together_with(cluster, count);
     event->impulse = carom_cluster_size_of_impulse(touching);
     for (int side = 0; side < 2; side++) {
       const int ball = two[side]->index;
@@ -282,51 +293,118 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
 }
 
 /* Which strike a push is: the first strike of a ball with others nearby, the first strike of a ball
- * without, or a further touch of the tip. */
-typedef enum push_kind { PUSH_OF_SEVERAL, PUSH_OF_ONE, PUSH_AGAIN } push_kind;
+ * without, a further touch of the tip, or one while the ball touches the nose of a cushion. */
+typedef enum push_kind { PUSH_OF_SEVERAL, PUSH_OF_ONE, PUSH_AGAIN, PUSH_IN_NOSE } push_kind;
 
-/* Resolves the push of a cue together with the contacts of balls that last meanwhile; their events
- * follow the event of the strike. Returns false, with nothing changed, where no other ball takes
- * part in a PUSH_OF_SEVERAL, and where a PUSH_AGAIN closes below CAROM_LEAST_TOUCH. *contact
- * becomes the first contact of the struck ball. */
-__attribute__((noinline, cold)) static bool push(carom_play *play, const carom_cue *cue,
-                                                 double most, bool slate, push_kind kind,
-                                                 carom_due *contact, carom_status *status) {
+/* Whether a push is none: no other ball takes part in a PUSH_OF_SEVERAL, a PUSH_AGAIN closes below
+ * CAROM_LEAST_TOUCH, or in a PUSH_IN_NOSE the tip has no force. */
+static bool is_none(const carom_cluster_state *cluster, push_kind kind, int count) {
+  switch (kind) {
+  case PUSH_AGAIN:
+    return cluster->tip.first < CAROM_LEAST_TOUCH;
+  case PUSH_OF_SEVERAL:
+    return count == 0;
+  case PUSH_IN_NOSE:
+    return count == 0 && !(cluster->tip.impulse > 0.0);
+  default:
+    return false;
+  }
+}
+
+/* The cue continues behind a nose that the tip has not come to. */
+static void pass_nose(carom_play *play, const carom_push_nose *nose) {
+  const double V = play->follow.V, arm = carom_arm_speed(play->sim.cue, V);
+  const double moved[3] = {-nose->moved[0], -nose->moved[1], -nose->moved[2]};
+  carom_follow_now(play);
+  carom_follow_moved(play, moved);
+  carom_follow_on(play, V, V * nose->lasts, arm * nose->lasts);
+}
+
+/* The cue after a push, which has taken the ball from one state to another. */
+static void follow_push(carom_play *play, const carom_cluster_state *cluster,
+                        const carom_ball_state *start, const carom_ball_state *end) {
+  const carom_cluster_tip *tip = &cluster->tip;
+  if (tip->slides) {
+    carom_next_tip next = carom_cluster_next_tip(cluster);
+    const double *shift = cluster->ball[tip->ball].shift;
+    for (int axis = 0; axis < 3; axis++)
+      next.moved[axis] += end->r[axis] - start->r[axis] - shift[axis];
+    carom_follow_moved(play, next.moved);
+    carom_follow_on(play, tip->V, next.travel, next.arm);
+  } else {
+    const double lead = carom_cluster_tip_lead(cluster);
+    carom_follow_on(play, tip->V, lead, lead);
+  }
+  if (tip->gone) /* it has passed the ball, or does not follow through */
+    play->follow.end = -1.0;
+}
+
+/* The events of the tip and of the nose, in the order in which they begin. The first one has the
+ * whole change, and the other one the same state before and after. */
+static carom_status note_push(carom_play *play, const carom_cluster_state *cluster,
+                              const uint8_t order[], int count, carom_push_nose *nose,
+                              bool nose_leads) {
+  carom_sim *sim = &play->sim;
+  const int i = sim->struck, together = together_with(cluster, count);
+  carom_ball_state start, end;
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &start);
+  end = start;
+  carom_cluster_rest(sim, cluster, cluster->tip.ball, &end);
+  carom_label_after(cluster->in_space, sim->layout->kind[i], &end);
+  stay_before_noses(sim, i, &start, &end);
+  const bool finite = carom_is_finite(end.v) && carom_is_finite(end.w);
+  if (!finite)
+    end = start;
+
+  const int events = 1 + has_nose(cluster);
+  for (int index = 0; index < events; index++) {
+    const bool of_tip = events == 1 || (index == 1) == nose_leads;
+    carom_due contact = {sim->time, CAROM_EVENT_STRIKE, i, -1};
+    if (!of_tip)
+      contact = nose->event;
+    carom_event spare, *event = note(sim, &spare, &contact);
+    if (of_tip)
+      carom_facts_push(sim, cluster, order, count);
+    event->before[0] = index == 0 ? start : end;
+    event->after[0] = end;
+    memset(&event->after[1], 0, sizeof event->after[1]);
+    event->impulse =
+        of_tip ? cluster->tip.impulse : cluster->nose.impulse * sim->layout->kind[i]->mass;
+    if (together > 1)
+      event->cluster = together;
+    if (index > 0)
+      continue;
+    sim->path[i].from = end;
+    carom_path_begin(&sim->path[i], &sim->rates[i], sim->time);
+  }
+  follow_push(play, cluster, &start, &end);
+  if (events > 1)
+    nose->touches = true;
+  return finite ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+}
+
+/* Resolves the push of a cue together with the contacts of balls that last meanwhile, and with a
+ * nose; their events follow the event of the strike. Returns false, with nothing changed, where it
+ * is none. *contact becomes the first contact of the struck ball with another one. */
+__attribute__((noinline, cold)) static bool push(carom_play *play, const carom_cue_push *task,
+                                                 push_kind kind, carom_due *contact,
+                                                 carom_status *status) {
   carom_sim *sim = &play->sim;
   carom_cluster_state cluster;
   carom_cluster_slate slates[CAROM_CLUSTER_BALLS];
   uint8_t order[CAROM_CLUSTER_CONTACTS];
   cluster.slate = slates;
-  const int count = carom_cluster_strike(sim, cue, most, slate, &cluster, order), i = sim->struck;
-  if (kind == PUSH_AGAIN && cluster.tip.first < CAROM_LEAST_TOUCH)
+  const int count = carom_cluster_strike(sim, task, &cluster, order), i = sim->struck;
+  if (is_none(&cluster, kind, count))
     return false;
   if (count < 0) {
     *status = unresolved(sim);
     return true;
   }
-  if (kind == PUSH_OF_SEVERAL && count == 0)
-    return false;
 
-  const carom_due strike_event = {sim->time, CAROM_EVENT_STRIKE, i, -1};
-  carom_event spare, *event = note(sim, &spare, &strike_event);
-  carom_ball_state *state = &sim->path[i].from;
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &event->before[0]);
-  *state = event->before[0];
-  carom_facts_push(sim, &cluster, order, count);
-  carom_cluster_rest(sim, &cluster, cluster.tip.ball, state);
-  carom_label_after(cluster.in_space, sim->layout->kind[i], state);
-  stay_before_noses(sim, i, &event->before[0], state);
-  event->after[0] = *state;
-  event->impulse = cluster.tip.impulse;
-  if (count > 0)
-    event->cluster = count + 1;
-  memset(&event->after[1], 0, sizeof event->after[1]);
-  *status = CAROM_OK;
-  if (!carom_is_finite(state->v) || !carom_is_finite(state->w)) {
-    *status = CAROM_ERROR_OVERFLOW;
-    *state = event->before[0];
-  }
-  carom_path_begin(&sim->path[i], &sim->rates[i], sim->time);
+  if (cluster.tip.touches == 0) /* it closes, and is thrown off by the set */
+    cluster.tip.touches = 1;
+  *status = note_push(play, &cluster, order, count, task->nose, kind == PUSH_IN_NOSE);
 
   bool changed[CAROM_BALLS_MOST] = {false};
   changed[i] = true;
@@ -336,9 +414,6 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   const carom_status of_contacts = note_contacts(sim, &cluster, order, count, changed, contact);
   if (*status == CAROM_OK)
     *status = of_contacts;
-  carom_follow_on(play, cluster.tip.V, carom_cluster_tip_lead(&cluster));
-  if (cluster.tip.gone) /* it has passed the ball, or does not follow through */
-    play->follow.end = -1.0;
   return true;
 }
 
@@ -454,13 +529,14 @@ static carom_status strike(carom_play *play, carom_due *contact) {
   carom_facts_frozen(sim);
   memcpy(play->follow.origin, sim->path[ball].from.r, sizeof play->follow.origin);
   play->follow.along = 0.0;
+  play->follow.left = cue->follow;
 
   /* together with the balls that the struck ball meets while the cue pushes */
   carom_status together;
   const double *v = motion.v, most = carom_space_size(v);
   const bool down = v[2] != 0.0;
-  if (carom_may_push(sim, &motion) &&
-      push(play, cue, most, down, PUSH_OF_SEVERAL, contact, &together))
+  const carom_cue_push task = {.cue = cue, .most = most, .slate = down};
+  if (carom_may_push(sim, &motion) && push(play, &task, PUSH_OF_SEVERAL, contact, &together))
     return together;
 
   /* alone: a level strike has a closed form, a raised one presses the ball on the slate, unless
@@ -473,10 +549,10 @@ static carom_status strike(carom_play *play, carom_due *contact) {
   memcpy(alone.w, motion.w, sizeof alone.w);
   const bool is_push = down && cue->tip_time >= 0.0;
   if (is_push && !carom_push_alone(kind, cue, &alone, &raised)) {
-    push(play, cue, most, down, PUSH_OF_ONE, contact, &together);
+    push(play, &task, PUSH_OF_ONE, contact, &together);
     return together;
   }
-  carom_follow_on(play, raised.V, raised.lead);
+  carom_follow_on(play, raised.V, raised.lead, raised.lead);
   note_strike(sim, &alone, &raised, down, is_push);
   return CAROM_OK;
 }
@@ -531,22 +607,31 @@ touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
   carom_ball_state ball;
   carom_path_at(&sim->path[sim->struck], &sim->rates[sim->struck], sim->time, &ball);
   carom_cue cue;
+  double tip_place[3];
   carom_status status = CAROM_OK;
-  const bool touches = carom_follow_cue(play, &cue);
+  const bool touches = carom_follow_cue(play, &cue, tip_place);
   /* its force has a part down or up under a level cue too */
-  const bool raised = sim->opt->space != CAROM_SPACE_FLAT;
-  const double most = 2.0 * fabs(cue.speed) + carom_space_size(ball.v);
-  f->along += f->V * (sim->time - f->start);
+  carom_push_nose nose;
+  const bool nose_near = carom_find_nose(sim, &ball, &nose);
+  const carom_cue_push task = {.cue = &cue,
+                               .tip_place = tip_place,
+                               .nose = nose_near ? &nose : NULL,
+                               .most = 2.0 * fabs(cue.speed) + carom_space_size(ball.v),
+                               .slowest = CAROM_SLOWEST_ARM * sim->cue->speed,
+                               .slate = sim->opt->space != CAROM_SPACE_FLAT};
+  carom_follow_now(play);
   f->end = -1.0;
-  f->time = INFINITY;
   pending_event->type = CAROM_DUE_NOTHING;
-  const bool pushes = touches && push(play, &cue, most, raised, PUSH_AGAIN, pending_event, &status);
+  const bool pushes = touches && push(play, &task, PUSH_AGAIN, pending_event, &status);
   *lies = touches && !pushes;
   if (pushes) {
-    sim->turned = false;
+    sim->turned = nose_near && nose.touches;
     carom_detect_all(sim);
     const carom_due strike_event = {sim->time, CAROM_EVENT_STRIKE, sim->struck, -1};
-    if (status == CAROM_OK && stops_at(sim, &strike_event, false))
+    bool stops = stops_at(sim, &strike_event, false);
+    if (sim->turned)
+      stops |= stops_at(sim, &nose.event, false);
+    if (status == CAROM_OK && stops)
       status = CAROM_STOPPED_AT_EVENT;
   } else if (touches) { /* the cue continues */
     *f = until_now;
@@ -556,6 +641,51 @@ touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
   if (pending_event->type == CAROM_DUE_NOTHING)
     pending_event->type = CAROM_DUE_PIECE;
   return status;
+}
+
+/* The struck ball meets a cushion while the cue follows through. Returns whether the tip pushes it
+ * meanwhile: then both are over, and *status is that of the shot. Otherwise the cue has gone on. */
+__attribute__((noinline, cold)) static bool push_in_nose(carom_play *play, const carom_due *event,
+                                                         carom_status *status) {
+  carom_sim *sim = &play->sim;
+  carom_ball_state ball;
+  carom_path_at(&sim->path[sim->struck], &sim->rates[sim->struck], sim->time, &ball);
+  carom_cue cue;
+  double tip_place[3];
+  carom_due contact;
+  carom_push_nose nose;
+  carom_nose_now(sim, &ball, event, &nose);
+  carom_follow_cue(play, &cue, tip_place);
+  const carom_cue_push task = {.cue = &cue,
+                               .tip_place = tip_place,
+                               .nose = &nose,
+                               .most = 2.0 * fabs(cue.speed) + carom_space_size(ball.v),
+                               .slowest = CAROM_SLOWEST_ARM * sim->cue->speed,
+                               .slate = sim->opt->space != CAROM_SPACE_FLAT};
+  const carom_follow saved = play->follow;
+  carom_follow_now(play);
+  if (!push(play, &task, PUSH_IN_NOSE, &contact, status)) {
+    play->follow = saved;
+    pass_nose(play, &nose);
+    return false;
+  }
+
+  /* the strike and a contact of balls may stop the shot; the cushion does in go_on() */
+  carom_detect_all(sim);
+  const carom_due strike_event = {sim->time, CAROM_EVENT_STRIKE, sim->struck, -1};
+  const bool first = note_event(sim, &contact);
+  bool stops = stops_at(sim, &strike_event, false);
+  if (contact.type != CAROM_DUE_NOTHING)
+    stops |= stops_at(sim, &contact, first);
+  if (*status == CAROM_OK && stops)
+    *status = CAROM_STOPPED_AT_EVENT;
+  return true;
+}
+
+/* Whether a cushion is due of the struck ball, which the cue follows. */
+static inline bool meets_nose(const carom_play *play, const carom_due *pending_event) {
+  return (pending_event->type == CAROM_EVENT_RAIL || pending_event->type == CAROM_EVENT_JAW) &&
+         pending_event->a == play->sim.struck && play->sim.time < play->follow.end;
 }
 
 /* From event to event, until nothing moves or the shot is to stop. Nothing is changed by
@@ -612,7 +742,7 @@ static carom_status go_on(carom_play *play) {
     bool lies = false;
     if (touches_again)
       status = touch_again(play, &pending_event, &lies);
-    else
+    else if (!meets_nose(play, &pending_event) || !push_in_nose(play, &pending_event, &status))
       status = step(sim, &pending_event);
     /* of a shot that stops at a strike too: the contact beside it turns the ball */
     const bool first = note_event(sim, &pending_event);

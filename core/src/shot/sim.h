@@ -19,6 +19,7 @@ typedef struct carom_follow {
   double end;       /* s: it is there up to then; -1: it is not */
   double start, V;  /* s: it moves since then; at this speed, m/s */
   double along;     /* m: where it was then, along its axis from where it struck first */
+  double left;      /* m: of the length of its follow-through, then */
   double origin[3]; /* m: the struck ball at that first strike */
   double time;      /* s: when it touches the struck ball again; infinite: it does not */
   carom_cue cue;    /* of a stopped shot */

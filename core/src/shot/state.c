@@ -220,8 +220,8 @@ static bool good_follow(const carom_play *play) {
   const carom_follow *f = &play->follow;
   return f->end < 0.0 ||
          (f->end < INFINITY && f->start >= 0.0 && f->start <= sim->time && fabs(f->V) < INFINITY &&
-          fabs(f->along) < INFINITY && carom_is_finite(f->origin) && f->time >= sim->time &&
-          carom_check_cue(&f->cue) == CAROM_OK);
+          fabs(f->along) < INFINITY && f->left < INFINITY && carom_is_finite(f->origin) &&
+          f->time >= sim->time && carom_check_cue(&f->cue) == CAROM_OK);
 }
 
 /* Whether all indices and numbers are possible for a shot of sim->layout on sim->table; those that

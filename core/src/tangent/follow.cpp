@@ -150,6 +150,9 @@ CAROM_APART void begin_ball(const carom_tangent_work *w, int i, int side, scene 
   text::carom_path_begin(path, &s->sim.rates[side], known(0.0, ball->start));
 }
 
+/* Where velocity and spin are in a state. */
+const int S_OF_V[3] = {S_V_X, S_V_Y, S_V_Z}, S_OF_W[3] = {S_W_X, S_W_Y, S_W_Z};
+
 /* The state at a time, with derivatives at that fixed time and, by CLOCK, its rate. A path
  * begins at 0 on its own clock. */
 CAROM_APART void state_at(const carom_tangent_work *w, int i, int side, real time, scene *s,
@@ -277,17 +280,19 @@ CAROM_APART void load_cue(const carom_tangent_work *w, text::carom_cue *cue) {
 }
 
 /* The tip that continues, at the time of an event, from the middle of the struck ball; the cue,
- * with the speed that it has then. */
-CAROM_APART void tip_at(const scene *s, text::carom_cue *cue, number *along, number axes[3][3],
-                        number p[3]) {
+ * with the speed that it has then. Returns what is left of its follow-through. */
+CAROM_APART number tip_at(const scene *s, text::carom_cue *cue, number *along, number axes[3][3],
+                          number p[3]) {
   const carom_tangent_work *w = s->w;
   const carom_tangent_tip *tip = &w->tip;
   const int64_t struck = s->event->a;
   load_cue(w, cue);
+  const number arm = text::carom_arm_speed(cue, known(tip->V, tip->V_row));
   cue->speed = known(tip->V, tip->V_row);
   number since = s->event->time - tip->start_time, from[3];
   since.d[CLOCK] = 1;
-  *along = known(tip->along, tip->along_row) + cue->speed * (since - known(0.0, tip->start));
+  since -= known(0.0, tip->start);
+  *along = known(tip->along, tip->along_row) + cue->speed * since;
 
   /* from where it struck */
   for (int k = 0; k < 2; k++) {
@@ -295,7 +300,10 @@ CAROM_APART void tip_at(const scene *s, text::carom_cue *cue, number *along, num
     load(w->pass, w->seeds->state, struck * CAROM_STATE_NUMBERS + S_X + k, &from[k]);
   }
   from[2] = s->ball[0].kind.radius;
+  for (int k = 0; k < 3; k++)
+    from[k] += known(tip->moved[k], tip->moved_row[k]);
   text::carom_tip_from(cue, s->ball[0].kind.radius, from, *along, s->ball[0].state.r, axes, p);
+  return known(tip->left, tip->left_row) - arm * since;
 }
 
 /* d and v of the struck ball and the tip, a point, as bodies() has them. */
@@ -566,6 +574,8 @@ CAROM_APART text::carom_status strike(scene *s) {
   store(raised.V, w->tip.V_row);
   w->tip.along = raised.lead.x;
   store(raised.lead, w->tip.along_row);
+  w->tip.left = w->cue->follow - raised.lead.x;
+  store(-raised.lead, w->tip.left_row);
   return text::CAROM_OK;
 }
 
@@ -724,8 +734,11 @@ struct member {
 struct cluster {
   carom_tangent_work *w;
   int direction, count;
-  bool on_slate; /* it is pushed by a raised cue */
-  number cue[CAROM_CUE_NUMBERS];
+  bool on_slate;           /* it is pushed by a raised cue */
+  bool again;              /* by a further touch of the tip */
+  const carom_event *nose; /* that the struck ball touches too, or null: its plane, and the arm */
+  number normal[3], gap, slowest;
+  number cue[CAROM_TIP_NUMBERS];
   double apart, most; /* differences from the values of the shot, and the largest of these */
   member members[CAROM_BALLS_MOST];
   const carom_tangent_cluster *task;
@@ -741,10 +754,18 @@ struct cluster {
 void find_members(carom_tangent_work *w, const carom_event *events, int count, cluster *c) {
   c->w = w;
   c->count = 0;
+  memset(c->cue, 0, sizeof c->cue);
   c->apart = c->most = 0;
+  c->again = false;
+  c->nose = nullptr;
+  for (int k = 0; k < count; k++) {
+    c->again |= carom_touches_again(&events[k]);
+    if (carom_is_nose(&events[k]))
+      c->nose = &events[k];
+  }
   for (int i = 0; i < w->count; i++)
     for (int k = 0; k < count; k++)
-      if (events[k].a == i || events[k].b == i) {
+      if (events[k].a == i || (events[k].type == CAROM_EVENT_BALL_BALL && events[k].b == i)) {
         c->members[c->count++] = {i, &events[k], events[k].a == i ? 0 : 1};
         break;
       }
@@ -765,28 +786,52 @@ CAROM_APART void take_cue(const scene *s, const row &dT, cluster *c) {
   carom_tangent_tip *tip = &s->w->tip;
   text::carom_cue cue;
   load_cue(s->w, &cue);
-  if (!carom_touches_again(s->event)) {
+  c->slowest = CAROM_SLOWEST_ARM * cue.speed;
+  if (!c->again) {
     for (int j = 0; j < s->w->pass.columns; j++)
       if (!::carom_is_raised(s->w->cue) && cue.theta.d[j] != 0 &&
           s->w->opt->space != CAROM_SPACE_FLAT)
         s->w->note.flags |= CAROM_TANGENT_KINK; /* raised it presses the balls on the slate */
   } else {
     number along, axes[3][3], p[3], on[3];
-    tip_at(s, &cue, &along, axes, p);
+    number left = tip_at(s, &cue, &along, axes, p);
     text::carom_tip_on(axes, p, on);
     cue.a = on[1];
     cue.b = on[2];
-    number *const moving[] = {&cue.a, &cue.b, &along};
+    number *const moving[] = {&cue.a, &cue.b, &along, &left, &p[0], &p[1], &p[2]};
     for (number *x : moving)
       add_time(dT, x);
+    memcpy(c->cue + CAROM_CUE_NUMBERS, p, sizeof p);
     tip->along = along.x;
     store(along, tip->along_row);
-    tip->left = s->w->cue->follow - along.x;
-    store(-along, tip->left_row);
+    tip->left = left.x;
+    store(left, tip->left_row);
+    tip->touch_left = left.x;
+    store(left, tip->touch_left_row);
     tip->start_time = s->event->time;
     memcpy(tip->start, &dT, sizeof dT);
   }
-  memcpy(c->cue, &cue.speed, sizeof c->cue);
+  memcpy(c->cue, &cue.speed, CAROM_CUE_NUMBERS * sizeof *c->cue);
+}
+
+/* The plane of the nose of a scene, as the shot has it. */
+void take_nose_plane(scene *s, bool touches, cluster *c) {
+  const text::carom_due due = {s->event->time, s->event->type, 0, 0};
+  text::carom_push_nose nose = {};
+  s->sim.struck = 0;
+  text::carom_nose_of_part(&s->sim, &s->ball[0].state, &due, &nose);
+  for (int k = 0; k < 3; k++)
+    c->normal[k] = nose.normal[k];
+  c->gap = touches ? number(0) : nose.gap;
+}
+
+CAROM_APART void find_nose(carom_tangent_work *w, const carom_event *first, const row &dT,
+                           cluster *c) {
+  scene s;
+  begin_event(w, c->nose, &s);
+  add_time(dT, &s.ball[0].state);
+  set(first->before[0], &s.ball[0].state);
+  take_nose_plane(&s, first == c->nose, c);
 }
 
 /* The derivatives of the time of the contact that starts a cluster, and its own two balls, which
@@ -794,7 +839,7 @@ CAROM_APART void take_cue(const scene *s, const row &dT, cluster *c) {
 CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e, cluster *c) {
   scene s;
   begin_event(w, e, &s);
-  if (e->type == CAROM_EVENT_STRIKE && !carom_touches_again(e)) { /* at time 0, of a ball at rest */
+  if (e->type == CAROM_EVENT_STRIKE && !c->again) { /* at time 0, of a ball at rest */
     take_cue(&s, row{}, c);
     store_state(&s.ball[0].state, w->approach[0]);
     return row{};
@@ -804,8 +849,10 @@ CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e, clust
   dT[CLOCK] = 0;
   note_grazing(&s, g.d[CLOCK]);
   note_order(&s, g);
-  if (carom_touches_again(e))
+  if (c->again)
     take_cue(&s, dT, c);
+  if (c->nose != nullptr)
+    find_nose(w, e, dT, c);
   for (int i = 0; i <= s.two; i++) {
     add_time(dT, &s.ball[i].state);
     set(e->before[i], &s.ball[i].state);
@@ -858,12 +905,48 @@ CAROM_APART void note_gap(const cluster *c, const carom_event *e) {
       w->note.flags |= CAROM_TANGENT_SIMULTANEOUS;
 }
 
-void give_cue(void *context, real x[8], real d[8]) {
+void give_cue(void *context, real x[CAROM_TIP_NUMBERS], real d[CAROM_TIP_NUMBERS]) {
   const cluster *c = (const cluster *)context;
-  for (int n = 0; n < CAROM_CUE_NUMBERS; n++) {
+  for (int n = 0; n < CAROM_TIP_NUMBERS; n++) {
     x[n] = c->cue[n].x;
     d[n] = c->cue[n].d[c->direction];
   }
+}
+
+number in_direction(const cluster *c, real x, real rate) {
+  number result = x;
+  result.d[c->direction] = rate;
+  return result;
+}
+
+/* What the cushion leaves of a motion of the struck ball. */
+bool give_model(void *context, const real x[CAROM_MOTION_NUMBERS],
+                const real d[CAROM_MOTION_NUMBERS], real out[6], real rate[6]) {
+  const cluster *c = (const cluster *)context;
+  scene s;
+  begin_event(c->w, c->nose, &s);
+  carom_ball_state *state = &s.ball[0].state;
+  const number &R = s.ball[0].kind.radius;
+  for (int k = 0; k < 3; k++) {
+    state->r[k] = in_direction(c, x[k], d[k]);
+    state->v[k] = in_direction(c, x[3 + k], d[3 + k]);
+    state->w[k] = in_direction(c, x[6 + k], d[6 + k]) / R;
+  }
+  state->label = c->members[place_of(c, c->nose->a)].event->before[0].label;
+  s.sim.time = c->nose->time;
+  s.sim.slow_instants = c->w->slow_instants;
+  s.sim.slow_last = c->w->slow_last;
+  const text::carom_due due = {c->nose->time, c->nose->type, 0, 0};
+  if (text::carom_resolve(&s.sim, &due, state, nullptr) < 0)
+    return false;
+  for (int k = 0; k < 3; k++) {
+    const number W = state->w[k] * R;
+    out[k] = state->v[k].x;
+    rate[k] = state->v[k].d[c->direction];
+    out[3 + k] = W.x;
+    rate[3 + k] = W.d[c->direction];
+  }
+  return true;
 }
 
 bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS + 1],
@@ -940,12 +1023,6 @@ CAROM_APART void take_in_turn(cluster *c) {
   }
 }
 
-number in_direction(const cluster *c, real x, real rate) {
-  number result = x;
-  result.d[c->direction] = rate;
-  return result;
-}
-
 /* How far the successive touches agree with the integrator, as in shot/clusters.c. */
 number agreement_in_turn(const cluster *c) {
   const carom_tangent_cluster *task = c->task;
@@ -1017,40 +1094,64 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS + 1],
 CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
   carom_tangent_work *w = c->w;
   const int64_t steps = w->opt->cluster_steps;
-  carom_tangent_cluster task = {.balls = c->count,
-                                .first = place_of(c, first->a),
-                                .second = place_of(c, first->b),
-                                .steps = steps > 0 ? (real)steps : (real)text::CAROM_CLUSTER_STEPS,
-                                .slow = text::carom_slow_speed(w->slow_instants).x,
-                                .friction = (int)w->opt->friction,
-                                .on_slate = c->on_slate,
-                                .tip_time = w->cue != nullptr ? ::carom_tip_time(w->cue) : 0,
-                                .reach = w->cue != nullptr ? w->cue->follow - w->tip.along : 0,
-                                .tip_friction =
-                                    carom_touches_again(first) ? ::carom_tip_friction(w->cue) : 0,
-                                .give_cue = give_cue,
-                                .give = give,
-                                .take = take,
-                                .context = c,
-                                .separation = 0,
-                                .separation_rate = 0,
-                                .duration = 0,
-                                .touches = 0,
-                                .touch = {},
-                                .impulse = {},
-                                .impulse_rate = {},
-                                .V = 0,
-                                .V_rate = 0,
-                                .lead = 0,
-                                .lead_rate = 0};
+  carom_tangent_cluster task = {
+      .balls = c->count,
+      .first = place_of(c, first->a),
+      .second = first->type == CAROM_EVENT_BALL_BALL ? place_of(c, first->b) : -1,
+      .steps = steps > 0 ? (real)steps : (real)text::CAROM_CLUSTER_STEPS,
+      .slow = text::carom_slow_speed(w->slow_instants).x,
+      .friction = (int)w->opt->friction,
+      .on_slate = c->on_slate,
+      .tip_time = w->cue != nullptr ? ::carom_tip_time(w->cue) : 0,
+      .reach = 0,
+      .reach_rate = 0,
+      .slowest = c->slowest.x,
+      .slowest_rate = 0,
+      .tip_friction = c->again ? ::carom_tip_friction(w->cue) : 0,
+      .nose_near = c->nose != nullptr,
+      .in_nose = c->nose == first,
+      .normal = {c->normal[0].x, c->normal[1].x, c->normal[2].x},
+      .normal_rate = {},
+      .gap = c->gap.x,
+      .gap_rate = 0,
+      .model = give_model,
+      .give_cue = give_cue,
+      .give = give,
+      .take = take,
+      .context = c,
+      .separation = 0,
+      .separation_rate = 0,
+      .duration = 0,
+      .touches = 0,
+      .touch = {},
+      .impulse = {},
+      .impulse_rate = {},
+      .V = 0,
+      .V_rate = 0,
+      .lead = 0,
+      .lead_rate = 0,
+      .arm = 0,
+      .arm_rate = 0,
+      .moved = {},
+      .moved_rate = {}};
   c->task = &task;
   carom_tangent_tip *tip = &w->tip;
-  const real along = tip->along;
+  if (!c->again && w->cue != nullptr) { /* the first touch */
+    tip->left = w->cue->follow;
+    memset(tip->left_row, 0, sizeof tip->left_row);
+  }
+  const carom_tangent_tip was = *tip;
+  task.reach = was.left;
   bool kink = false;
   c->in_turn = false;
   for (c->direction = 0; c->direction < w->pass.columns; c->direction++) {
     if (c->in_turn)
       take_in_turn(c);
+    task.reach_rate = tip->left_row[c->direction];
+    task.slowest_rate = c->slowest.d[c->direction];
+    task.gap_rate = c->gap.d[c->direction];
+    for (int k = 0; k < 3; k++)
+      task.normal_rate[k] = c->normal[k].d[c->direction];
     if (!carom_tangent_solve_cluster(&task, &kink))
       return false;
     if (task.separation > 0 && !c->in_turn) {
@@ -1060,9 +1161,15 @@ CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
     }
     if (task.second < 0) {
       tip->V = task.V;
-      tip->along = along + task.lead;
+      tip->along = was.along + task.lead;
+      tip->left = was.left - task.arm;
       tip->V_row[c->direction] = task.V_rate;
       tip->along_row[c->direction] += task.lead_rate;
+      tip->left_row[c->direction] -= task.arm_rate;
+      for (int k = 0; k < 3; k++) {
+        tip->moved[k] = was.moved[k] + task.moved[k];
+        tip->moved_row[k][c->direction] += task.moved_rate[k];
+      }
     }
   }
   if (kink || !(c->apart <= 1e-6 * c->most))
@@ -1096,23 +1203,26 @@ carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_eve
   w->note = {CAROM_TANGENT_CLUSTER, 0};
   watched = {false, {0, 0}};
   find_members(w, events, count, &c);
-  c.on_slate = events[0].type == CAROM_EVENT_STRIKE && w->opt->space != CAROM_SPACE_FLAT &&
-               (::carom_is_raised(w->cue) || carom_touches_again(&events[0]));
+  c.on_slate = w->opt->space != CAROM_SPACE_FLAT &&
+               (c.again || (events[0].type == CAROM_EVENT_STRIKE && ::carom_is_raised(w->cue)));
   const row dT = begin_cluster(w, &events[0], &c);
   for (int k = 0; k < c.count; k++) {
     const member *m = &c.members[k];
-    arrive(w, m, dT, m->ball == events[0].a || m->ball == events[0].b);
+    arrive(w, m, dT,
+           m->ball == events[0].a ||
+               (events[0].type == CAROM_EVENT_BALL_BALL && m->ball == events[0].b));
     tell_before(w, m->ball, 2 * (at + (m->event - events)) + m->side);
   }
   for (int k = 1; k < count; k++)
-    note_gap(&c, &events[k]);
+    if (events[k].type == CAROM_EVENT_BALL_BALL)
+      note_gap(&c, &events[k]);
   if (!solve_cluster(&c, &events[0]))
     return CAROM_ERROR_TANGENT;
   for (int k = 0; k < c.count; k++)
     leave(&c, &c.members[k], dT);
   /* before their further events balls are as after the first */
   for (int k = 1; k < count; k++)
-    for (int side = 0; side < 2; side++) {
+    for (int side = 0; side <= (events[k].type == CAROM_EVENT_BALL_BALL); side++) {
       const int i = side == 0 ? events[k].a : events[k].b;
       if (c.members[place_of(&c, i)].event != &events[k])
         tell_before(w, i, 2 * (at + k) + side);
@@ -1148,6 +1258,42 @@ double carom_tangent_gap(carom_tangent_work *w, const carom_event *e, carom_tang
   store(g, d);
   return g.x;
 }
+
+namespace {
+
+/* The cue continues behind a nose that its tip has not come to, as in shot/follow_through.c. */
+CAROM_APART void pass_nose(const scene *s) {
+  carom_tangent_tip *tip = &s->w->tip;
+  const number &R = s->ball[0].kind.radius;
+  text::carom_cluster_ball ball = {};
+  text::carom_cluster_nose nose = {};
+  text::carom_cue cue;
+  number v[3], W[3], moved[3];
+  for (int k = 0; k < 3; k++) {
+    ball.v[k] = known(s->event->before[0].v[k], s->w->approach[0][S_OF_V[k]]);
+    ball.W[k] = known(s->event->before[0].w[k], s->w->approach[0][S_OF_W[k]]) * R;
+    v[k] = s->ball[0].state.v[k];
+    W[k] = s->ball[0].state.w[k] * R;
+  }
+  if (!text::nose_of(&ball, v, W, &nose))
+    return;
+  load_cue(s->w, &cue);
+  const number V = known(tip->V, tip->V_row), lasts = text::nose_lasts(&nose),
+               along = known(tip->along, tip->along_row) + V * lasts,
+               left = known(tip->left, tip->left_row) - text::carom_arm_speed(&cue, V) * lasts;
+  text::nose_moves(&nose, ball.v, lasts, moved);
+  tip->along = along.x;
+  store(along, tip->along_row);
+  tip->left = left.x;
+  store(left, tip->left_row);
+  for (int k = 0; k < 3; k++) {
+    const number to = known(tip->moved[k], tip->moved_row[k]) - moved[k];
+    tip->moved[k] = to.x;
+    store(to, tip->moved_row[k]);
+  }
+}
+
+} // namespace
 
 carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
   scene s;
@@ -1223,6 +1369,9 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
    * down */
   if (s.two && !in_space && text::changes(s.ball[1].kind.radius - s.ball[0].kind.radius))
     w->note.flags |= CAROM_TANGENT_KINK;
+
+  if (carom_is_nose(e) && w->cue != nullptr && e->a == w->cue->ball)
+    pass_nose(&s);
 
   /* the paths from here on */
   for (int i = 0; i <= s.two; i++) {

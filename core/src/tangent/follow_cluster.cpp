@@ -16,13 +16,67 @@ bool is_level(const text::carom_cluster_contact_state &x, real most) {
              1e-9 * (__builtin_fabs(x.impulse.d[0]) + __builtin_fabs(level.d[0]));
 }
 
+row row_of(real d) {
+  row r = {};
+  r[0] = d;
+  return r;
+}
+
+void tell(const number &from, real *x, real *rate) {
+  *x = from.x;
+  *rate = from.d[0];
+}
+
 /* The cue after a push, and the lead of its tip. */
 void tell_tip(const text::carom_cluster_state &state, carom_tangent_cluster *c) {
-  const number lead = text::carom_cluster_tip_lead(&state);
-  c->V = state.tip.V.x;
-  c->V_rate = state.tip.V.d[0];
-  c->lead = lead.x;
-  c->lead_rate = lead.d[0];
+  text::carom_next_tip next = {};
+  if (state.tip.slides)
+    next = text::carom_cluster_next_tip(&state);
+  else
+    next.travel = next.arm = text::carom_cluster_tip_lead(&state);
+  tell(state.tip.V, &c->V, &c->V_rate);
+  tell(next.travel, &c->lead, &c->lead_rate);
+  tell(next.arm, &c->arm, &c->arm_rate);
+  for (int k = 0; k < 3; k++)
+    tell(next.moved[k], &c->moved[k], &c->moved_rate[k]);
+}
+
+/* What the model of the nose leaves of a motion, as in shot/clusters.c. */
+bool model_of_nose(void *context, const text::carom_cluster_ball *ball, number v[3], number W[3]) {
+  const carom_tangent_cluster *c = (const carom_tangent_cluster *)context;
+  number from[CAROM_MOTION_NUMBERS];
+  for (int k = 0; k < 3; k++) {
+    from[k] = ball->r[k] + ball->s[k];
+    from[3 + k] = ball->v[k];
+    from[6 + k] = ball->W[k];
+  }
+  if (!ball->flies) {
+    from[2] = ball->radius;
+    from[5] = 0;
+  }
+  real x[CAROM_MOTION_NUMBERS], d[CAROM_MOTION_NUMBERS], out[6], rate[6];
+  for (int k = 0; k < CAROM_MOTION_NUMBERS; k++)
+    tell(from[k], &x[k], &d[k]);
+  if (!c->model(c->context, x, d, out, rate))
+    return false;
+  for (int k = 0; k < 3; k++) {
+    v[k] = ball->v[k] + (number(out[k], row_of(rate[k])) - from[3 + k]);
+    W[k] = ball->W[k] + (number(out[3 + k], row_of(rate[3 + k])) - from[6 + k]);
+  }
+  return true;
+}
+
+/* The nose near the struck ball, and the slate below it. */
+void put_nose(carom_tangent_cluster *c, text::carom_cluster_state *state) {
+  text::carom_cluster_nose *nose = &state->nose;
+  *nose = {};
+  for (int k = 0; k < 3; k++)
+    nose->normal[k] = number(c->normal[k], row_of(c->normal_rate[k]));
+  nose->gap = nose->first_gap = number(c->gap, row_of(c->gap_rate));
+  nose->model = model_of_nose;
+  nose->context = c;
+  if (c->in_nose)
+    text::carom_cluster_put_in_nose(state);
 }
 
 /* How far apart the touches are, and in which order they occur. */
@@ -44,11 +98,8 @@ void tell_touches(const text::carom_cluster_state &state, carom_tangent_cluster 
   }
 }
 
-row row_of(real d) {
-  row r = {};
-  r[0] = d;
-  return r;
-}
+/* The position of the end mass in the numbers of a cue. */
+enum { END_MASS = 6 };
 
 } // namespace
 
@@ -60,6 +111,7 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
   state.balls = c->balls;
   state.struck = c->second < 0;
   state.on_slate = c->on_slate;
+  state.nose_near = c->nose_near;
   state.steps = c->steps;
   state.slow = c->slow;
 
@@ -84,20 +136,31 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
   /* all of them must be members, as when the shot was played */
   int contacts;
   if (state.struck) {
-    real x[8], d[8];
-    number cue[8];
+    real x[CAROM_TIP_NUMBERS], d[CAROM_TIP_NUMBERS];
+    number cue[CAROM_TIP_NUMBERS];
     c->give_cue(c->context, x, d);
-    for (int n = 0; n < 8; n++)
+    for (int n = 0; n < CAROM_TIP_NUMBERS; n++)
       cue[n] = number(x[n], row_of(d[n]));
     text::carom_cluster_tip_of(&state, c->first, cue, c->tip_time);
-    if (c->tip_friction > 0)
-      text::carom_cluster_tip_slides(&state, cue, c->tip_friction);
-    state.tip.reach = c->reach;
+    state.tip.reach = number(c->reach, row_of(c->reach_rate));
+    state.tip.slowest = number(c->slowest, row_of(c->slowest_rate));
     contacts = text::carom_cluster_members_of_tip(&state, 1e3);
+    if (c->tip_friction > 0)
+      text::carom_cluster_tip_slides(&state, cue[END_MASS], c->tip_friction,
+                                     cue + CAROM_CUE_NUMBERS);
     if (c->on_slate)
       text::carom_cluster_put_on_slate(&state);
     for (int k = 0; c->on_slate && k < state.balls; k++)
       slates[k].restitution = state.ball[k].flies ? number(0) : slate_e[state.ball[k].index];
+    if (c->on_slate && c->tip_friction > 0) {
+      const text::carom_cluster_ball &struck = state.ball[state.tip.ball];
+      text::carom_cluster_slate *slate = &slates[state.tip.ball];
+      slate->restitution = slate_e[struck.index];
+      slate->falls = text::carom_lesser(struck.v[2], 0);
+      slate->overlap = text::carom_lesser(struck.radius - struck.r[2], 0);
+    }
+    if (c->nose_near)
+      put_nose(c, &state);
   } else {
     contacts = text::carom_cluster_members(&state, c->first, c->second);
   }

@@ -166,9 +166,10 @@ static double distance_at(const miss *m, double t, double *opens) {
 /* When the cue that continues reaches the end of its path, s, and its tangents. */
 static double end_of_tip(const carom_tangent_work *w, carom_tangent_row d) {
   const carom_tangent_tip *tip = &w->tip;
-  const double time = (w->cue->follow - tip->along) / tip->V;
+  const double speed = carom_arm_speed(w->cue, tip->V), time = tip->left / speed;
+  const bool slow = speed > tip->V; /* the arm, whose speed has no tangent here */
   for (int j = 0; j < w->pass.columns; j++)
-    d[j] = tip->start[j] - (tip->along_row[j] + time * tip->V_row[j]) / tip->V;
+    d[j] = tip->start[j] + (tip->left_row[j] - (slow ? 0.0 : time * tip->V_row[j])) / speed;
   return tip->start_time + time;
 }
 
@@ -286,12 +287,14 @@ static void misses_of_tip(carom_reach *reach, int i, const carom_event *event) {
   const carom_tangent_work *w = reach->work;
   const carom_tangent_tip *tip = &w->tip;
   const carom_tangent_ball *ball = &w->ball[i];
-  if (!tip->turned || !(tip->V > 0.0 && w->cue->follow > 0.0) || i != w->cue->ball ||
-      carom_touches_again(event) || carom_is_out(ball->origin.label))
+  if (!tip->turned || !(tip->left > 0.0) || i != w->cue->ball || carom_touches_again(event) ||
+      carom_is_out(ball->origin.label))
     return;
   carom_tangent_row d;
   double r[3], v[3], a[3], axes[3][3];
-  const double R = ball->kind->radius, origin[3] = {tip->origin[0], tip->origin[1], R};
+  const double R = ball->kind->radius,
+               origin[3] = {tip->origin[0] + tip->moved[0], tip->origin[1] + tip->moved[1],
+                            R + tip->moved[2]};
   const double end = end_of_tip(w, d);
   miss m = {.type = CAROM_EVENT_STRIKE, .ball = i, .partner = -1, .reach = R};
   m.start = fmax(ball->origin_time, tip->start_time);
@@ -432,7 +435,7 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) 
   /* a further touch before the end of its way */
   if (carom_touches_again(event))
     for (int j = 0; j < m; j++)
-      take(reach, j, w->tip.left, w->tip.left_row[j]);
+      take(reach, j, w->tip.touch_left, w->tip.touch_left_row[j]);
 
   /* of a cluster the contact that starts it, and a ball that leaves it quite otherwise */
   if (w->note.flags & CAROM_TANGENT_CLUSTER)

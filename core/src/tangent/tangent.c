@@ -43,6 +43,12 @@ static int contacts_of(const carom_event *event) {
   return event->cluster;
 }
 
+/* Whether an event may be that one of a cluster: tip and nose are the first two. */
+static bool may_be_in_cluster(const carom_event *event, int64_t place) {
+  return event->type == CAROM_EVENT_BALL_BALL ||
+         (place < 2 && (event->type == CAROM_EVENT_STRIKE || carom_is_nose(event)));
+}
+
 /* Whether the contacts of each cluster are all there, at one time. */
 static carom_status check_clusters(const carom_shot *shot) {
   for (int64_t k = 0; k < shot->count;) {
@@ -51,8 +57,8 @@ static carom_status check_clusters(const carom_shot *shot) {
     if (contacts > shot->count - k)
       return CAROM_ERROR_STATE;
     for (const carom_event *e = first; first->cluster > 0 && e < first + contacts; e++)
-      if ((e->type != CAROM_EVENT_BALL_BALL && (e->type != CAROM_EVENT_STRIKE || e > first)) ||
-          e->cluster != first->cluster || e->time != first->time)
+      if (!may_be_in_cluster(e, e - first) || e->cluster != first->cluster ||
+          e->time != first->time)
         return CAROM_ERROR_STATE;
     k += contacts;
   }
@@ -195,7 +201,7 @@ __attribute__((noinline)) static bool is_in_pile(const work *w, const carom_even
 /* Whether the struck ball meets a ball or a cushion, so that it may return to the tip. */
 static bool turns_to_tip(const carom_event *e, int struck) {
   const bool ball = e->type == CAROM_EVENT_BALL_BALL && (e->a == struck || e->b == struck);
-  return ball || ((e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW) && e->a == struck);
+  return ball || (carom_is_nose(e) && e->a == struck);
 }
 
 /* The directions of one pass. */
@@ -240,7 +246,7 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
     if (status < 0)
       return status;
     tell(w, k, event, &reach);
-    if (carom_touches_again(event))
+    if (carom_touches_again(event) && !w->inner)
       w->tip.turned = false;
     w->tip.turned |= w->cue != NULL && turns_to_tip(event, (int)w->cue->ball);
     if (tangent->flags != NULL && w->pass.first == 0)

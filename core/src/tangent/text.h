@@ -23,6 +23,7 @@ namespace text {
 #include "dual/ball_ball/reduced.h"
 #include "dual/cluster/cluster.h"
 #include "dual/cluster/cue.h"
+#include "dual/cluster/nose.h"
 #include "dual/cushion/models.h"
 #include "dual/platform/threads.h"
 #include "dual/shot/sim.h"
@@ -68,7 +69,12 @@ int carom_cluster_members_of_tip(carom_cluster_state *, number) {
 }
 void carom_cluster_tip_of(carom_cluster_state *, int, const number *, number) {
 }
-void carom_cluster_tip_slides(carom_cluster_state *, const number *, number) {
+void carom_cluster_tip_slides(carom_cluster_state *, number, number, const number *) {
+}
+void carom_cluster_put_in_nose(carom_cluster_state *) {
+}
+bool carom_cluster_tip_comes(carom_cluster_state *, number *, number *) {
+  return false;
 }
 void carom_cluster_push_alone(carom_cluster_state *) {
 }
@@ -94,6 +100,7 @@ void carom_cluster_limit_shifts(carom_cluster_state *) {
 #include "dual/motion/strike.c"
 #include "dual/shot/clusters.c"
 #include "dual/shot/models.c"
+#include "dual/shot/near_nose.c"
 #include "dual/shot/raised.c"
 #include "dual/shot/resolve.c"
 #include "dual/shot/slate.c"

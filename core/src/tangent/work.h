@@ -41,10 +41,14 @@ typedef struct carom_tangent_ball {
 
 /* The tip of a cue that continues after its push, as in carom_follow, with its tangents. */
 typedef struct carom_tangent_tip {
-  double V, along, start_time, origin[2];
+  double V, along, start_time, origin[2]; /* from start_time, s */
   carom_tangent_row V_row, along_row, start;
-  double left; /* m, of the way of the cue as its tip touched last */
+  double left; /* m, of the length of the follow-through, at the start; */
   carom_tangent_row left_row;
+  double touch_left; /* and as its tip touched last */
+  carom_tangent_row touch_left_row;
+  double moved[3]; /* m, by noses, beside its way: shot/follow_through.c */
+  carom_tangent_row moved_row[3];
   bool turned; /* the struck ball has met another, or a cushion */
 } carom_tangent_tip;
 
@@ -77,6 +81,11 @@ typedef struct carom_tangent_work {
 /* Whether an event is a further touch of the tip, after the strike. */
 static inline bool carom_touches_again(const carom_event *e) {
   return e->type == CAROM_EVENT_STRIKE && e->time > 0.0;
+}
+
+/* Whether it is a contact with the nose of a cushion. */
+static inline bool carom_is_nose(const carom_event *e) {
+  return e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW;
 }
 
 /* The numbers of the caller that represent row `row` in a pass. */

@@ -131,7 +131,7 @@ static double gain_of_cluster(const extreme *x, const carom_event *event, int64_
   bool seen[CAROM_BALLS_MOST] = {false};
   const int64_t end = *k + event[*k].cluster;
   for (int64_t index = *k; index < end; index++)
-    for (int side = 0; side < 2; side++) {
+    for (int side = 0; side < 1 + (event[index].type == CAROM_EVENT_BALL_BALL); side++) {
       const int ball = side == 0 ? event[index].a : event[index].b;
       if (seen[ball])
         continue;
@@ -143,13 +143,19 @@ static double gain_of_cluster(const extreme *x, const carom_event *event, int64_
   return (after - before) / fmax(before, 1e-12);
 }
 
-/* The greatest one of a shot. The events of a strike are its push, which the cue gives energy. */
+/* Whether a cue pushes the balls of a cluster: its strike is the first event, or the second, behind
+ * that of a nose. */
+static bool is_push(const carom_event *first) {
+  return first[0].type == CAROM_EVENT_STRIKE || first[1].type == CAROM_EVENT_STRIKE;
+}
+
+/* The greatest one of a shot, of those that no cue gives energy. */
 static double gain_of(const extreme *x, const carom_shot *shot) {
   double most = 0.0;
   for (int64_t k = 0; k < shot->count; k++) {
     if (shot->events[k].cluster == 0)
       continue;
-    if (shot->events[k].type == CAROM_EVENT_STRIKE)
+    if (is_push(&shot->events[k]))
       k += shot->events[k].cluster - 1;
     else
       most = fmax(most, gain_of_cluster(x, shot->events, &k));
