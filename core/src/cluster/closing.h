@@ -45,16 +45,17 @@ static inline double strike_step(const carom_cluster_state *cluster) {
   const bool open = (tip->touches > 0 || cluster->nose_near) && tip->overlap <= 0.0;
   const double duration = open ? carom_greater(tip->duration, long_tip) : tip->duration;
   const bool far = open && tip->overlap < -far_behind * duration * tip->first;
+  const bool swings = tip->slides && open;
   double step = cluster->nose_near ? step_of_nose(cluster) : INFINITY;
-  if (tip->slides && open && (far || tip->touches == 0 || tip->apart > tip->duration))
-    return carom_lesser(step, CAROM_SHAFT_TIME / shaft_steps);
 
   /* the shorter of the times of the tip, and of each slate that acts or carries the struck ball */
-  if (!far)
+  if (swings)
+    step = carom_lesser(step, CAROM_SHAFT_TIME / shaft_steps);
+  else if (!far)
     step = carom_lesser(step, push_step(cluster, duration, tip->restitution));
   for (int index = 0; cluster->on_slate && index < cluster->balls; index++)
     if (cluster->slate[index].restitution > 0.0 &&
-        ((index == tip->ball && !far) || cluster->slate[index].J > 0.0))
+        ((index == tip->ball && !far && !swings) || cluster->slate[index].J > 0.0))
       step = carom_lesser(step,
                           push_step(cluster, CAROM_SLATE_TIME, cluster->slate[index].restitution) /
                               cluster->steepness);

@@ -265,9 +265,9 @@ void carom_cluster_tip_slides(carom_cluster_state *cluster, double end_mass, dou
  * ball what it is compressed by is a set. */
 void carom_cluster_put_in_nose(carom_cluster_state *cluster);
 
-/* push.c: whether the tip may reach the ball while it touches the nose, as a ball alone does: *lasts
- * becomes how long that is, and moved[] how far it moves then. False: there is no nose either. */
-bool carom_cluster_tip_comes(carom_cluster_state *cluster, double *lasts, double moved[3]);
+/* push.c: whether the tip may reach the ball while it touches the nose, as a ball alone does. Where
+ * the nose does not push the ball, there is none. */
+bool carom_cluster_tip_comes(carom_cluster_state *cluster);
 
 /* push.c: a push of a ball that nothing else touches, in closed form. */
 void carom_cluster_push_alone(carom_cluster_state *cluster);
@@ -287,8 +287,8 @@ void carom_cluster_find_places(carom_cluster_state *cluster);
 /* Reduces the shifts so that no two balls start too deep in each other; find_places() does so. */
 void carom_cluster_limit_shifts(carom_cluster_state *cluster);
 double carom_cluster_tip_lead(const carom_cluster_state *cluster);
-/* The same of a further touch, which takes no time of the shot's clock: the tip goes on from
- * `travel` along its axis, beside which it has `moved` against the ball, and the arm from `arm`; m. */
+/* The same of a further touch, which takes no time of the shot's clock, in m: the tip goes on from
+ * `travel` along its axis, beside which it has `moved` against the ball; and the arm from `arm`. */
 typedef struct carom_next_tip {
   double travel, arm, moved[3];
 } carom_next_tip;

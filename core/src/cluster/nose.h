@@ -29,7 +29,7 @@
 #ifndef CAROM_SRC_CLUSTER_NOSE_H
 #define CAROM_SRC_CLUSTER_NOSE_H
 
-#include "carom_shot.h"
+#include "cluster/cluster.h"
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
 #include "platform/ranges.h"
@@ -39,8 +39,8 @@
 #include <string.h>
 
 static const double least_nose = 0.05; /* e */
-/* How much of its force a nose may have downwards on a ball that lies: the slope of the line from its
- * height, about 1.27 R, to the centre. */
+/* How much of its force a nose may have downwards on a ball that lies: the slope of the line from
+ * its height, about 1.27 R, to the centre. */
 static const double nose_slope = 0.3;
 
 /* <D, (v, W)> */
@@ -132,8 +132,8 @@ static inline void nose_ends(carom_cluster_nose *nose, carom_cluster_ball *ball,
 }
 
 /* Half a step of its compression, and its impulse per mass; whether it acts: with a force, or until
- * the ball has parted, or as long again as it lasts. A ball that the tip has `gone` from meets it as
- * another event. */
+ * the ball has parted, or as long again as it lasts. A ball that the tip has `gone` from meets it
+ * as another event. */
 static inline bool nose_acts(carom_cluster_nose *nose, const carom_cluster_ball *ball, double step,
                              double tau, bool gone) {
   nose->J = 0.0;

@@ -100,22 +100,18 @@ void carom_cluster_put_in_nose(carom_cluster_state *cluster) {
   tip->first = fabs(tip->V) + carom_space_size(cluster->ball[tip->ball].v);
 }
 
-bool carom_cluster_tip_comes(carom_cluster_state *cluster, double *lasts, double moved[3]) {
+bool carom_cluster_tip_comes(carom_cluster_state *cluster) {
   const carom_cluster_tip *tip = &cluster->tip;
   const carom_cluster_ball *ball = &cluster->ball[tip->ball];
   carom_cluster_nose nose = cluster->nose; /* it touches in the integrator */
   double v[3], W[3], leaves[3];
   cluster->nose_near = nose.model(nose.context, ball, v, W) && nose_of(ball, v, W, &nose);
-  if (!cluster->nose_near)
-    return false;
-  *lasts = nose_lasts(&nose);
-  nose_moves(&nose, ball->v, *lasts, moved);
-  if (tip->gone)
+  if (!cluster->nose_near || tip->gone)
     return false;
   for (int axis = 0; axis < 3; axis++)
     leaves[axis] = ball->v[axis] + nose.change * nose.v[axis];
   const double fastest = carom_greater(carom_space_size(ball->v), carom_space_size(leaves));
-  return -tip->overlap * tip->kappa < *lasts * (fabs(tip->V) + fastest);
+  return -tip->overlap * tip->kappa < nose_lasts(&nose) * (fabs(tip->V) + fastest);
 }
 
 void carom_cluster_push_alone(carom_cluster_state *cluster) {

@@ -490,8 +490,7 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue_push *push, carom_clust
     put_low_slate(sim, cluster);
   if (push->nose != NULL)
     put_nose(push->nose, cluster);
-  if (push->nose != NULL && push->nose->touches &&
-      !carom_cluster_tip_comes(cluster, &push->nose->lasts, push->nose->moved))
+  if (push->nose != NULL && push->nose->touches && !carom_cluster_tip_comes(cluster))
     return 0;
   const bool alone = cluster->contacts == 0 && !push->slate && !again;
   if (!alone && !carom_cluster_solve(cluster))

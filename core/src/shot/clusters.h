@@ -69,8 +69,6 @@ typedef struct carom_push_nose {
   carom_due event;       /* the event of touching it */
   double normal[3], gap; /* from the nose to the ball; m */
   bool touches;          /* now, by that event */
-  /* of one that the tip does not come to: s, how long the ball touches it; m, how far it moves */
-  double lasts, moved[3];
 } carom_push_nose;
 /* The nearest one within reach of a push; false: none is. */
 bool carom_find_nose(carom_sim *sim, const carom_ball_state *ball, carom_push_nose *nose);
@@ -112,6 +110,11 @@ bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue, double tip_p
 /* The tip is moved against the ball, beside what the cue travels: as if the cue had struck that
  * much aside. */
 void carom_follow_moved(carom_play *play, const double moved[3]);
+/* Whether the tip may reach the struck ball while that touches a nose; and, behind one that the tip
+ * has not reached, which took the ball from one state to another, the cue goes on. */
+bool carom_tip_is_near(const carom_play *play, const carom_ball_state *ball);
+void carom_follow_nose(carom_play *play, const carom_ball_state *start,
+                       const carom_ball_state *end);
 
 /* raised.c: e of the contact of a ball with the slate; and what an impulse J of it, over the mass,
  * takes from the turn about the vertical and the end of hops from v[2]. */

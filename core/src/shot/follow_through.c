@@ -23,6 +23,7 @@
  * presses the ball in the nose, both are one event of the shot, a push. Otherwise the cushion gives
  * what it gives without a cue, to the bit. */
 #include "cluster/cue.h"
+#include "cluster/nose.h"
 #include "motion/gap.h"
 #include "shot/clusters.h"
 #include "shot/rules.h"
@@ -130,4 +131,39 @@ bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue, double tip_p
   moved_cue->a = offset[1];
   moved_cue->b = offset[2];
   return square > least_distance2 * radius * radius && offset[0] < -least_ahead;
+}
+
+bool carom_tip_is_near(const carom_play *play, const carom_ball_state *ball) {
+  const double radius = play->sim.rates[play->sim.struck].radius;
+  double axes[3][3], tip_place[3];
+  tip_of(play, ball->r, axes, tip_place);
+
+  /* no model of a cushion raises the energy, so this is the greatest speed of the ball */
+  const double turns2 = radius * radius * carom_space_dot(ball->w, ball->w),
+               fastest =
+                   sqrt(carom_space_dot(ball->v, ball->v) + 2.0 * CAROM_SPHERE_ENERGY * turns2);
+  return carom_space_size(tip_place) - radius <
+         2.0 * CAROM_NOSE_TIME * (fabs(play->follow.V) + fastest);
+}
+
+void carom_follow_nose(carom_play *play, const carom_ball_state *start,
+                       const carom_ball_state *end) {
+  const double radius = play->sim.rates[play->sim.struck].radius, V = play->follow.V;
+  carom_cluster_ball ball;
+  carom_cluster_nose nose;
+  double W[3], moved[3];
+  for (int axis = 0; axis < 3; axis++) {
+    ball.v[axis] = start->v[axis];
+    ball.W[axis] = radius * start->w[axis];
+    W[axis] = radius * end->w[axis];
+  }
+  if (!nose_of(&ball, end->v, W, &nose))
+    return;
+  const double lasts = nose_lasts(&nose);
+  nose_moves(&nose, ball.v, lasts, moved);
+  for (int axis = 0; axis < 3; axis++)
+    moved[axis] = -moved[axis];
+  carom_follow_now(play);
+  carom_follow_moved(play, moved);
+  carom_follow_on(play, V, V * lasts, carom_arm_speed(play->sim.cue, V) * lasts);
 }

@@ -311,15 +311,6 @@ static bool is_none(const carom_cluster_state *cluster, push_kind kind, int coun
   }
 }
 
-/* The cue continues behind a nose that the tip has not come to. */
-static void pass_nose(carom_play *play, const carom_push_nose *nose) {
-  const double V = play->follow.V, arm = carom_arm_speed(play->sim.cue, V);
-  const double moved[3] = {-nose->moved[0], -nose->moved[1], -nose->moved[2]};
-  carom_follow_now(play);
-  carom_follow_moved(play, moved);
-  carom_follow_on(play, V, V * nose->lasts, arm * nose->lasts);
-}
-
 /* The cue after a push, which has taken the ball from one state to another. */
 static void follow_push(carom_play *play, const carom_cluster_state *cluster,
                         const carom_ball_state *start, const carom_ball_state *end) {
@@ -643,30 +634,31 @@ touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
   return status;
 }
 
-/* The struck ball meets a cushion while the cue follows through. Returns whether the tip pushes it
- * meanwhile: then both are over, and *status is that of the shot. Otherwise the cue has gone on. */
+/* The struck ball, as it is now, meets a cushion while the cue follows through. Returns whether the
+ * tip presses it meanwhile: then both are over, and *status is that of the shot. */
 __attribute__((noinline, cold)) static bool push_in_nose(carom_play *play, const carom_due *event,
+                                                         carom_ball_state *ball,
                                                          carom_status *status) {
   carom_sim *sim = &play->sim;
-  carom_ball_state ball;
-  carom_path_at(&sim->path[sim->struck], &sim->rates[sim->struck], sim->time, &ball);
+  carom_path_at(&sim->path[sim->struck], &sim->rates[sim->struck], sim->time, ball);
+  if (!carom_tip_is_near(play, ball))
+    return false;
   carom_cue cue;
   double tip_place[3];
   carom_due contact;
   carom_push_nose nose;
-  carom_nose_now(sim, &ball, event, &nose);
+  carom_nose_now(sim, ball, event, &nose);
   carom_follow_cue(play, &cue, tip_place);
   const carom_cue_push task = {.cue = &cue,
                                .tip_place = tip_place,
                                .nose = &nose,
-                               .most = 2.0 * fabs(cue.speed) + carom_space_size(ball.v),
+                               .most = 2.0 * fabs(cue.speed) + carom_space_size(ball->v),
                                .slowest = CAROM_SLOWEST_ARM * sim->cue->speed,
                                .slate = sim->opt->space != CAROM_SPACE_FLAT};
   const carom_follow saved = play->follow;
   carom_follow_now(play);
   if (!push(play, &task, PUSH_IN_NOSE, &contact, status)) {
     play->follow = saved;
-    pass_nose(play, &nose);
     return false;
   }
 
@@ -739,11 +731,17 @@ static carom_status go_on(carom_play *play) {
     /* the time of an event that is simultaneous with the last one may be a rounding error less */
     sim->time = carom_greater(sim->time, pending_event.time);
     sim->round++;
-    bool lies = false;
+    bool lies = false, pushed = false;
+    const bool at_nose = !touches_again && meets_nose(play, &pending_event);
+    carom_ball_state ball;
+    if (at_nose)
+      pushed = push_in_nose(play, &pending_event, &ball, &status);
     if (touches_again)
       status = touch_again(play, &pending_event, &lies);
-    else if (!meets_nose(play, &pending_event) || !push_in_nose(play, &pending_event, &status))
+    else if (!pushed)
       status = step(sim, &pending_event);
+    if (at_nose && !pushed && status >= 0) /* the cue goes on by the time of the cushion */
+      carom_follow_nose(play, &ball, &sim->path[sim->struck].from);
     /* of a shot that stops at a strike too: the contact beside it turns the ball */
     const bool first = note_event(sim, &pending_event);
     if (status == CAROM_OK && stops_at(sim, &pending_event, first))

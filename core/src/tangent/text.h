@@ -73,7 +73,7 @@ void carom_cluster_tip_slides(carom_cluster_state *, number, number, const numbe
 }
 void carom_cluster_put_in_nose(carom_cluster_state *) {
 }
-bool carom_cluster_tip_comes(carom_cluster_state *, number *, number *) {
+bool carom_cluster_tip_comes(carom_cluster_state *) {
   return false;
 }
 void carom_cluster_push_alone(carom_cluster_state *) {
