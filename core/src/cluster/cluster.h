@@ -257,7 +257,8 @@ int carom_cluster_members_of_tip(carom_cluster_state *cluster, double most);
 void carom_cluster_tip_of(carom_cluster_state *cluster, int struck, const double cue[8],
                           double duration);
 
-/* push.c: makes that a further touch, of a tip with the friction mu at tip_place from the centre. */
+/* push.c: makes that a further touch, of a tip with the friction mu at that place from the centre.
+ */
 void carom_cluster_tip_slides(carom_cluster_state *cluster, double end_mass, double mu,
                               const double tip_place[3]);
 
