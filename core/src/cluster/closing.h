@@ -25,8 +25,7 @@ static const double far_behind = 20.0;
 /* Steps of CAROM_SHAFT_TIME, while only the end of the shaft moves. */
 static const double shaft_steps = 50.0;
 
-/* The longest step that suits a nose: as of the tip, and so that it is not touched deeper than that.
- */
+/* The longest step that suits a nose: as of the tip, and so that it is touched no deeper. */
 static inline double step_of_nose(const carom_cluster_state *cluster) {
   const carom_cluster_nose *nose = &cluster->nose;
   const carom_cluster_ball *ball = &cluster->ball[cluster->tip.ball];
@@ -76,8 +75,8 @@ static inline bool slate_ends(carom_cluster_state *cluster, double step) {
   return true;
 }
 
-/* Whether the end of the shaft, bent after a further touch, may touch the ball once more: so long the
- * push goes on. It does not where the axis recedes and is farther away than the end may swing. */
+/* Whether the end of the shaft, bent after a further touch, may touch the ball once more: so long
+ * the push goes on. It does not where the axis recedes and is farther away than the end may swing. */
 static inline bool shaft_straightens(const carom_cluster_state *cluster) {
   const carom_cluster_tip *tip = &cluster->tip;
   const carom_cluster_ball *ball = &cluster->ball[tip->ball];

@@ -751,8 +751,8 @@ static bool go_on(bool flat, cluster_state *cluster, double *tau) {
   return true;
 }
 
-/* The contacts that act at half a step, at tau. Returns whether any does, or a shaft is bent; *balls
- * whether one of balls does. */
+/* The contacts that act at half a step, at tau. Returns whether any does, or a shaft is bent;
+ * *balls whether one of balls does. */
 static inline bool act(bool flat, cluster_state *cluster, double step, double tau, pushes *pushed,
                        double *norm, bool *balls) {
   *balls = find_acting(flat, cluster, step, tau, pushed, norm);
