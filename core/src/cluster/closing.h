@@ -76,7 +76,7 @@ static inline bool slate_ends(carom_cluster_state *cluster, double step) {
 }
 
 /* Whether the end of the shaft, bent after a further touch, may touch the ball once more: so long
- * the push goes on. It does not where the axis recedes and is farther away than the end may swing. */
+ * the push goes on. It does not where the axis recedes, farther away than the end may swing. */
 static inline bool shaft_straightens(const carom_cluster_state *cluster) {
   const carom_cluster_tip *tip = &cluster->tip;
   const carom_cluster_ball *ball = &cluster->ball[tip->ball];

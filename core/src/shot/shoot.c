@@ -680,6 +680,24 @@ static inline bool meets_nose(const carom_play *play, const carom_due *pending_e
          pending_event->a == play->sim.struck && play->sim.time < play->follow.end;
 }
 
+/* What is due happens: another touch of the tip, a cushion that the cue follows the ball to, or any
+ * other event. *lies becomes whether the tip stays at the ball. */
+static inline carom_status happen(carom_play *play, carom_due *pending_event, bool touches_again,
+                                  bool *lies) {
+  carom_sim *sim = &play->sim;
+  if (touches_again)
+    return touch_again(play, pending_event, lies);
+  const bool by_nose = meets_nose(play, pending_event);
+  carom_ball_state ball;
+  carom_status status = CAROM_OK;
+  if (by_nose && push_in_nose(play, pending_event, &ball, &status))
+    return status;
+  status = step(sim, pending_event);
+  if (by_nose && status >= 0) /* the cue goes on by the time of the cushion */
+    carom_follow_nose(play, &ball, &sim->path[sim->struck].from);
+  return status;
+}
+
 /* From event to event, until nothing moves or the shot is to stop. Nothing is changed by
  * stopping, so the loop continues later as if it had not. */
 static carom_status go_on(carom_play *play) {
@@ -731,17 +749,8 @@ static carom_status go_on(carom_play *play) {
     /* the time of an event that is simultaneous with the last one may be a rounding error less */
     sim->time = carom_greater(sim->time, pending_event.time);
     sim->round++;
-    bool lies = false, pushed = false;
-    const bool at_nose = !touches_again && meets_nose(play, &pending_event);
-    carom_ball_state ball;
-    if (at_nose)
-      pushed = push_in_nose(play, &pending_event, &ball, &status);
-    if (touches_again)
-      status = touch_again(play, &pending_event, &lies);
-    else if (!pushed)
-      status = step(sim, &pending_event);
-    if (at_nose && !pushed && status >= 0) /* the cue goes on by the time of the cushion */
-      carom_follow_nose(play, &ball, &sim->path[sim->struck].from);
+    bool lies = false;
+    status = happen(play, &pending_event, touches_again, &lies);
     /* of a shot that stops at a strike too: the contact beside it turns the ball */
     const bool first = note_event(sim, &pending_event);
     if (status == CAROM_OK && stops_at(sim, &pending_event, first))
