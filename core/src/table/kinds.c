@@ -40,7 +40,7 @@ static void drop_smooth_law(carom_ball_kind *kind) {
 }
 
 static void take_pool(carom_ball_kind *kind) {
-  /* throws of frozen balls at known speeds (data/measured.csv) */
+  /* throws at known speeds */
   kind->law_a = 0.042;
   kind->law_b = 0.12;
   kind->law_c = 1.3;

@@ -414,9 +414,9 @@ static double impulse_error(const follower *f, const carom_event *e, int togethe
     }
   }
 
-  /* Several impulses on a ball can cancel, one cannot. Friction is at most friction_most() of the normal
-   * impulse; its vertical part does not show, and the cloth takes mu_slide times as much. A ball
-   * that would move at 1e-12 m/s rests. */
+  /* Several impulses on a ball can cancel, one cannot. Friction is at most friction_most() of the
+   * normal impulse; its vertical part does not show, and the cloth takes mu_slide times as much. A
+   * ball that would move at 1e-12 m/s rests. */
   for (int i = 0; i < f->count; i++) {
     const double off = contacts[i] == 1 ? fabs(shown[i] - sum[i]) : shown[i] - sum[i];
     const double hidden = 0.015 + friction_most(&f->balls[i].kind) * f->balls[i].kind.mu_slide;
