@@ -18,7 +18,7 @@ sed -n '/Down:/,/class="band\|The best/p' down.svg | grep -o '>[0-9]<' | tr -d '
 grep -c 'class="ball"' down.svg
 for cushion in "" "--cushion mirror"; do carom plan --rules potting --shots 300 --csv $cushion layout.jsonl; done | sort | uniq -u | grep -q . && echo "models count"
 echo "--- push-outs and passes"
-carom shoot --cue 0.4,0.9 --balls 0.9,1.7:0.9574,1.7:0.9287,1.74971:0.8713,1.74971:0.8426,1.7:0.8713,1.65029:0.9287,1.65029 --aim 90 --json > hidden.jsonl
+carom shoot --cue 0.5,1.5 --balls 0.9,1.7:0.9574,1.7:0.9287,1.74971:0.8713,1.74971:0.8426,1.7:0.8713,1.65029:0.9287,1.65029 --aim 90 --json > hidden.jsonl
 for may in shoot push-out pass; do carom plan --rules nineball --shots 300 --may $may --csv hidden.jsonl | cut -d , -f 2 | sed -n 2p; done
 echo "--- the break"
 for game in eightball nineball; do carom shoot --balls $game --aim 90 --json | carom plan --rules $game --opening --in-hand --shots 300 --csv - | cut -d , -f 2,3,6 | sed -n 2p; done
@@ -50,7 +50,8 @@ sed -n 's/.*and the other then wins \([0-9]*\) %.*/\1/p' hand.txt | awk '{ print
 carom plan --rules nineball --may push-out --why --shots 300 hidden.jsonl | grep -A 2 "a push-out" | grep -o "played [0-9]* times"
 carom plan --rules nineball --why --cue 0.4,0.4 --balls 9=0.25,0.25 --shots 300 | grep "cut of [01] degrees" || echo straight
 echo "--- to run out, a turn that ends is worth nothing"
-for out in "" --run-out; do carom plan --rules nineball --shots 300 $out --csv layout.jsonl | sed -n 2p | cut -d , -f 12; done | awk 'NR == 1 { wins = $1 } END { print ($1 < wins - 0.02) }'
+carom shoot --cue 0.4,0.4 --balls 0.2,2.3:0.7,1.27:1.1,0.3:0.6,2.2:0.9,1.9 --aim 90 --json > five.jsonl
+for out in "" --run-out; do carom plan --rules nineball --shots 300 $out --csv five.jsonl | sed -n 2p | cut -d , -f 12; done | awk 'NR == 1 { wins = $1 } END { print ($1 < wins - 0.02) }'
 echo "--- the run-out as a whole"
 run="--cue 0.3,0.8 --balls 2=0.35,2.1:3=0.8,0.5:5=0.9,1.6:9=0.6,1.9 --rules nineball --sequence --shots 300"
 carom plan $run --plays 40 --plot run.svg > run.txt

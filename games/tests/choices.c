@@ -6,7 +6,7 @@
  * two. Where a change of the method or of the physics is meant to change them, the new hash is
  * the one that this test prints. */
 TEST(golden_choices) {
-  static const uint64_t golden = UINT64_C(0x090bc6654609d9ee);
+  static const uint64_t golden = UINT64_C(0xd805f4ded3f43471);
   uint64_t h = UINT64_C(0xcbf29ce484222325);
   int pots = 0;
   for (int k = 0; k < 20; k++) {
@@ -259,7 +259,7 @@ TEST(ball_behind_the_head_string) {
     place_ball(0, 0.36, 0.36);
     job.leave = leave;
     plan(false, &best, 1);
-    const bool direct = best.ball == 1 && best.cue.phi > 180.0;
+    const bool direct = best.ball == 1 && best.cue.phi > 180.0 && best.kind != CAROM_PLAN_KICK;
     ck_assert_msg(direct == (leave == 0), "ball %d, %g degrees", best.ball, best.cue.phi);
   }
 }

@@ -810,7 +810,7 @@ TEST(defaults_are_resolved) {
         expect_ok(carom_ball_kind_resolve(NULL, NULL, &kind));
         ck_assert_mem_eq(&once, &kind, sizeof kind);
       }
-  carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_SNOOKER); /* without its own law */
   carom_shot_options wrong = {.friction = (carom_ball_friction)9};
   ck_assert_int_eq(carom_ball_kind_resolve(NULL, NULL, NULL), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_ball_kind_resolve(NULL, &wrong, &kind), CAROM_ERROR_FRICTION);

@@ -6,6 +6,7 @@
 
 static carom_sequence_stroke strokes[CAROM_SEQUENCE_MOST];
 static const double within = 0.03;
+static const double bad_step = 0.1 / 16.0; /* degrees from a tolerance to a stroke that fails */
 
 static int find_sequence(uint64_t seed, int in_play) {
   int found = 0;
@@ -101,7 +102,7 @@ TEST(zones_and_tolerances) {
           aside.phi = s->phi[side];
           ck_assert_int_eq(result_of(s, layout, state, &fast), 2);
           ck_assert_int_eq(result_of(s, layout, state, &aside), 2);
-          aside.phi += side == 0 ? -0.0071 : 0.0071;
+          aside.phi += side == 0 ? -bad_step : bad_step;
           const double width = fabs(s->phi[side] - own.phi);
           ck_assert(width > 5.9 || result_of(s, layout, state, &aside) < 2);
         }

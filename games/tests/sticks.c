@@ -235,7 +235,7 @@ TEST(where_the_stick_begins_to_touch) {
     const int k = n * STRIDE % PLACES;
     make_layout(1, 2);
     place_ball(8, 0.4, 2.2);
-    place_ball(0, 0.62, k % 3 == 0 ? 1.6 : 1.7828 + 1e-5 * k);
+    place_ball(0, 0.62, k % 3 == 0 ? 1.6 : 1.7861 + 1e-5 * k);
     const double R = balls[0].kind.radius, D = 0.1 + 0.002 * k;
     carom_cue stroke = cue;
     stroke.speed = 2.5;

@@ -20,7 +20,7 @@ static carom_cue put_pot(bool bank) {
   stroke.b = 0.25;
   expect_ok(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke));
   ck_assert_msg(pot.outcome == CAROM_POT_FALLS, "%s: %d", bank ? "bank" : "pot", pot.outcome);
-  options.shots = 600;
+  options.shots = 9600;
   return stroke;
 }
 

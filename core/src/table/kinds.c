@@ -40,6 +40,11 @@ static void drop_smooth_law(carom_ball_kind *kind) {
 }
 
 static void take_pool(carom_ball_kind *kind) {
+  /* throws at known speeds */
+  kind->law_a = 0.042;
+  kind->law_b = 0.12;
+  kind->law_c = 1.3;
+
   take_smooth_law(kind);
   kind->mu_cushion = 0.28;
   kind->restitution_cushion = 0.8;

@@ -238,8 +238,13 @@ static double jump_of(const carom_ball_state *a, const carom_ball_state *b, doub
   return worst;
 }
 
-/* The cloth takes at most mu_slide times the vertical impulse, which is friction's, at most 0.12
- * of the normal one (or mu_ball). */
+/* Friction of balls at no slip, the greatest of their laws; Alciatore's is below 0.12. */
+static double friction_most(const carom_ball_kind *kind) {
+  return fmax(0.12, kind->law_a + kind->law_b);
+}
+
+/* The cloth takes at most mu_slide times the vertical impulse, which is friction's, at most
+ * friction_most() of the normal one (or mu_ball). */
 static double momentum_change(const follower *f, const carom_event *e) {
   const carom_ball_kind *a = &f->balls[e->a].kind, *b = &f->balls[e->b].kind;
   double change[2], normal[2];
@@ -250,8 +255,9 @@ static double momentum_change(const follower *f, const carom_event *e) {
     normal[axis] = p_b;
   }
   const double share = share_of_cloth(f->balls, e);
-  const double allowed = share * fmax(a->mu_slide, b->mu_slide) * 0.12 * 1.01 *
-                             length2(normal[0], normal[1]) / (1.0 - 0.12) +
+  const double friction = fmax(friction_most(a), friction_most(b));
+  const double allowed = share * fmax(a->mu_slide, b->mu_slide) * friction * 1.01 *
+                             length2(normal[0], normal[1]) / (1.0 - friction) +
                          1e-13;
   if (in_space(f->balls, e)) { /* heights count, but for a ball that stays on the cloth */
     const double p_a = a->mass * (e->after[0].v[2] - e->before[0].v[2]),
@@ -337,7 +343,7 @@ static double way_of(const follower *f, const carom_event *e, int side) {
  * cloth: friction's part of the normal impulses, of which each contact has at most as much as
  * the balls of the cluster change together. */
 static double momentum_change_of_cluster(const follower *f, const carom_event *e) {
-  double change[3] = {0.0}, sum = 0.0, mass = 0.0, mu = 0.0;
+  double change[3] = {0.0}, sum = 0.0, mass = 0.0, mu = 0.0, friction = 0.0;
   double share = 0.0;
   bool space = false, changed[CAROM_BALLS_MOST] = {false};
   for (int k = 0; k < e->cluster; k++) {
@@ -357,13 +363,14 @@ static double momentum_change_of_cluster(const follower *f, const carom_event *e
       sum += hypot(length2(own[0], own[1]), own[2]);
       mass += kind->mass;
       mu = fmax(mu, kind->mu_slide);
+      friction = fmax(friction, friction_most(kind));
       space |= flies(&e[k].before[side]) || kind->radius != f->balls[e->a].kind.radius;
     }
   }
   const double given = e->type == CAROM_EVENT_STRIKE ? e->impulse : 0.0,
                size = fmax(hypot(length2(change[0], change[1]), change[2]) - given, 0.0);
   const double meanwhile = e->type == CAROM_EVENT_BALL_BALL ? rubbed_speed * mass : 0.0,
-               cloth = mu * 0.12 * e->cluster * sum + meanwhile;
+               cloth = mu * friction * e->cluster * sum + meanwhile;
   return size / (1e-13 + (space ? 1e-9 * mass + share * cloth : cloth));
 }
 
@@ -407,12 +414,12 @@ static double impulse_error(const follower *f, const carom_event *e, int togethe
     }
   }
 
-  /* Several impulses on a ball can cancel, one cannot. Friction is at most 0.12 of the normal
-   * impulse; its vertical part does not show, and the cloth takes mu_slide times as much. A ball
-   * that would move at 1e-12 m/s rests. */
+  /* Several impulses on a ball can cancel, one cannot. Friction is at most friction_most() of the
+   * normal impulse; its vertical part does not show, and the cloth takes mu_slide times as much. A
+   * ball that would move at 1e-12 m/s rests. */
   for (int i = 0; i < f->count; i++) {
     const double off = contacts[i] == 1 ? fabs(shown[i] - sum[i]) : shown[i] - sum[i];
-    const double hidden = 0.015 + 0.12 * f->balls[i].kind.mu_slide;
+    const double hidden = 0.015 + friction_most(&f->balls[i].kind) * f->balls[i].kind.mu_slide;
     const double meanwhile = e->type == CAROM_EVENT_BALL_BALL ? rubbed_speed : 0.0;
     worst = fmax(worst, off / (1e-12 + meanwhile * f->balls[i].kind.mass + hidden * sum[i]));
   }

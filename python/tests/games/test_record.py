@@ -69,7 +69,7 @@ def test_a_forged_stroke_ends_otherwise():
             '"revision":',
             '"revision":9',
             "ERROR_REVISION",
-            "line 1: the recording was made with physics revision 925, not 25; its shots have other bits here",
+            "line 1: the recording was made with physics revision 926, not 26; its shots have other bits here",
         ),
         ('"phi":', '"phy":', "ERROR_RECORD", "line 6: shot.phy is not a key of the format"),
         ('{"end"', "", "ERROR_RECORD", "line 12"),

@@ -140,14 +140,14 @@ def deflection(cut, *numbers):
     return angle(rolling(hit(cut, *numbers)[0])) - cut
 
 
-def deflection_of_cut(cut):
+def deflection_of_cut(cut, speed):
     """over the cut, of a rolling ball"""
-    return deflection(cut, 1, 1) / cut
+    return deflection(cut, speed, 1) / cut
 
 
-def share_of_tangent_line(cut):
+def share_of_tangent_line(cut, speed):
     """The deflection of a rolling ball over that of a sliding one."""
-    return deflection(cut, 1, 1) / (90 - cut)
+    return deflection(cut, speed, 1) / (90 - cut)
 
 
 def oblique(speed, object_angle, what):
@@ -202,3 +202,15 @@ def kiss_share(angle, speed):
         ]
     )
     return motions[0].v[0] / motions[0].v[1] / tan(radians(angle))
+
+
+RULE_SPEEDS = (1, 1.5, 2, 3, 4)
+
+
+def at_any_speed(name, cut, *numbers):
+    """A function of this file by its name, for a rule that names no speed: the middle and half of
+    the range over the speeds of ordinary strokes, 1 to 4 m/s.
+    """
+    values = [globals()[name](cut, speed, *numbers) for speed in RULE_SPEEDS]
+    low, high = min(values), max(values)
+    return 0.5 * (low + high), 0.5 * (high - low)
