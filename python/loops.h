@@ -127,8 +127,9 @@ typedef struct carom_python_tracks {
  * along t of both; R w_z of a, and of b. Contacts are the CAROM_EVENT_BALL_BALL and
  * CAROM_EVENT_RAIL in the order of the events; of a cluster the last has the kicks.
  *
- * With m = 6 + 5 kicks + constants, sums[(3 + m + m (m + 1)/2) k ...] becomes: the cost; the sum
- * of d^2; the number of samples; and, where the cost is below most[k], J^T W d (m) and J^T W J
+ * With m = 6 + 5 kicks + constants, sums[(4 + m + m (m + 1)/2) k ...] becomes: the cost; the sum
+ * of d^2; the number of samples; the basin, an integer that is the same for plays with the same
+ * contacts in the same order; and, where the cost is below most[k], J^T W d (m) and J^T W J
  * (the lower triangle by rows): W are the weights that make the cost a weighted sum of squares
  * nearby, J is by forward differences, of the strike, the kicks and then the constants. A play
  * that ends in an error has infinite cost. Returns CAROM_OK, or CAROM_ERROR_NULL without memory or

@@ -203,12 +203,12 @@ class Plays:
     ) -> Doubles:
         """Costs of n plays, with normal equations if the cost is below `most`; see loops.h.
 
-        Shape (n, 3 + m + m (m + 1)/2), where m is 6 plus the number of steps. Play k is recording
+        Shape (n, 4 + m + m (m + 1)/2), where m is 6 plus the number of steps. Play k is recording
         of[k] with strikes[k] and the samples up to until[k], s. Kicks of contacts follow each
         strike and add five to m each.
         """
         numbers = strikes.shape[1] + len(self.steps)
-        sums = np.empty((len(shots), 3 + numbers + numbers * (numbers + 1) // 2))
+        sums = np.empty((len(shots), 4 + numbers + numbers * (numbers + 1) // 2))
         shots, strikes, end = (
             np.ascontiguousarray(shots, np.int32),
             np.ascontiguousarray(strikes),
@@ -492,11 +492,11 @@ def at_bound(strike: Doubles) -> str:
 
 def normal(sums: Doubles) -> tuple[Doubles, Doubles]:
     """J^T W J, (n, m, m), and J^T W d, (n, m), of the sums of n plays."""
-    m = (int(math.isqrt(9 + 8 * (sums.shape[1] - 3))) - 3) // 2
+    m = (int(math.isqrt(9 + 8 * (sums.shape[1] - 4))) - 3) // 2
     lower = np.tril_indices(m)
     square = np.zeros((len(sums), m, m))
-    square[:, lower[0], lower[1]] = square[:, lower[1], lower[0]] = sums[:, 3 + m :]
-    return square, sums[:, 3 : 3 + m]
+    square[:, lower[0], lower[1]] = square[:, lower[1], lower[0]] = sums[:, 4 + m :]
+    return square, sums[:, 4 : 4 + m]
 
 
 def descend(
