@@ -1,7 +1,6 @@
 """Tracks of films that `draw` draws, against the shots that they show."""
 
 import io
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,7 +14,7 @@ from conftest import run_python
 import carom
 import carom.fit
 from carom import film
-from carom.film import _camera, _clock, _paths
+from carom.film import _camera, _clock
 
 SNOOKER, POOL = carom.tables.snooker(), carom.tables.pool_9ft()
 W, L = SNOOKER.width, SNOOKER.length
@@ -307,20 +306,3 @@ def test_cameras():
         assert abs(camera.numbers[7] - scene.k1) < 2e-3
         back = camera.places(camera.project(np.column_stack([points, np.full(60, 0.03)])), 0.03)
         assert np.abs(back - points).max() < 1e-6
-
-
-@pytest.mark.parametrize("gap", [1, 6])
-def test_balls_that_are_put_up_anew_begin_another_shot(gap):
-    """A film that is cut where the balls rest, with or without pictures between."""
-    times = np.arange(400) / 50.0
-    moved = np.clip(times - 1.0, 0.0, 1.0), np.clip(times - 5.0, 0.0, 1.0)
-    places = np.column_stack([0.3 + 0.5 * moved[0] + 0.4 * moved[1], np.full(400, 0.5)])
-    places[200:, 1] = 1.1  # another place from 4 s on
-    numbers = [k for k in range(400) if not 200 - gap < k < 200]
-    path = SimpleNamespace(numbers=numbers, places=places[numbers])
-    (first, second) = _paths.spans([path], times, 1e-4)
-    assert first[0] < 1.0 and 2.0 < first[1] < 4.0 <= second[0] < 5.0
-    # balls that are put up while others still count as moving end the shot as well
-    early = SimpleNamespace(numbers=numbers, places=places[numbers] - [[0.2, 0.0]])
-    early.places[numbers.index(200) :, 0] += 0.3
-    assert max(end for _, end in _paths.spans([early], times, 1e-4)[:1]) < 4.0

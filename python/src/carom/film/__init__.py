@@ -35,9 +35,10 @@ from carom.film._camera import Camera, Evidence, fit
 from carom.film._clock import Clock, change, clock_of, pictures
 from carom.film._cloth import NORMALS, Bed, Cloth, FilmError, Picture, area, calibrated
 from carom.film._names import names_of
-from carom.film._paths import Path, linked, spans, turns
+from carom.film._paths import Path, linked, turns
 from carom.tracks import Recording
 from carom.tracks._constants import ground
+from carom.tracks._spans import spans
 
 __all__ = ["Camera", "Film", "FilmError", "track"]
 __dir__ = listing(__name__)
@@ -412,7 +413,8 @@ def _shots(
         balls.setdefault(path.name, []).append(rows)
         merged += bad
     recordings, begins = [], []
-    for number, (begin, end) in enumerate(spans(paths, times, noise), 1):
+    tracks_of = [np.column_stack([times[path.numbers], path.places]) for path in paths]
+    for number, (begin, end) in enumerate(spans(tracks_of, times, noise), 1):
         names, tracks, late = [], [], []
         for name, parts in balls.items():
             rows = np.concatenate(parts)
