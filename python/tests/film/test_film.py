@@ -14,7 +14,8 @@ from conftest import run_python
 import carom
 import carom.fit
 from carom import film
-from carom.film import _camera, _clock
+from carom.film import _camera, _clock, _paths
+from carom.film._balls import blob
 
 SNOOKER, POOL = carom.tables.snooker(), carom.tables.pool_9ft()
 W, L = SNOOKER.width, SNOOKER.length
@@ -306,3 +307,37 @@ def test_cameras():
         assert abs(camera.numbers[7] - scene.k1) < 2e-3
         back = camera.places(camera.project(np.column_stack([points, np.full(60, 0.03)])), 0.03)
         assert np.abs(back - points).max() < 1e-6
+
+
+def rolled(colour, white, begin, end, places):
+    """A path of a ball with these colours over frames, which moves between two positions from 1 s
+    to 2 s after its begin.
+    """
+    path = _paths.Path(list(range(begin, end)))
+    part = np.clip(np.arange(end - begin) / 25.0 - 1.0, 0.0, 1.0)[:, np.newaxis]
+    rows = np.zeros(end - begin, blob)
+    rows["place"] = (1.0 - part) * places[0] + part * np.array(places[1])
+    rows["share"], rows["colour"], rows["white"], rows["whole"] = 1.0, colour, white, True
+    path.blobs = list(rows)
+    return path
+
+
+def test_names_belong_to_a_shot_and_a_shot_has_a_cue_ball():
+    """The balls of a second layout have the colours of the first, in less light."""
+    white, yellow = (225.0, 235.0, 240.0), (10.0, 190.0, 235.0)
+    lies = [(0.9, 1.9), (0.9, 1.9)]
+    paths = [
+        rolled(white, 0.95, 0, 100, [(0.3, 0.5), (0.6, 1.2)]),
+        rolled(yellow, 0.1, 0, 100, lies),
+        rolled(np.multiply(white, 0.8), 0.95, 150, 250, [(0.7, 0.5), (0.4, 0.9)]),
+        rolled(np.multiply(yellow, 0.8), 0.1, 150, 250, lies),
+        # a ball is pushed, and no cue ball is there
+        rolled(yellow, 0.1, 300, 400, [(0.5, 0.5), (0.5, 0.9)]),
+    ]
+    clock, notes = _clock.Clock(np.ones(400, bool), np.arange(400) / 25.0, []), []
+    shots, begins = film._shots("9ft", paths, clock, film.bed_of("9ft"), notes)
+    assert [(shot.id, sorted(shot.balls)) for shot in shots] == [
+        ("s1", ["1", "cue"]),
+        ("s2", ["1", "cue"]),
+    ]
+    assert len(begins) == 2 and notes == ["s3: no cue ball was found; the shot is left out"]
