@@ -643,7 +643,7 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
   for (int i = 0; i < in_play; i++) {
     const int64_t *first = &tracks->first[(size_t)shot * (size_t)count + (size_t)i];
     int indices[PLAYS_MOST] = {0};
-    for (int64_t m = first[0]; m < first[1]; m += tracks->stride) {
+    for (int64_t m = first[0]; m < first[1]; m++) {
       const double *sample = &tracks->samples[3 * m];
       if (sample[0] > end)
         break;

@@ -108,10 +108,9 @@ typedef struct carom_python_tracks {
   const double *steps; /* of the constants */
   int32_t count;       /* the most balls of a shot */
   int32_t shots, constants;
-  int32_t kicks;  /* contacts of a play, from its first on, that have kicks: at most 16 */
-  int32_t stride; /* one of so many samples of a ball is compared, the first among them */
-  double step;    /* of the differences by the strike, m/s and s */
-  double huber;   /* c of the cost, the sum of 2 c^2 (sqrt(1 + d^2/c^2) - 1) over the distances
+  int32_t kicks; /* contacts of a play, from its first on, that have kicks: at most 16 */
+  double step;   /* of the differences by the strike, m/s and s */
+  double huber;  /* c of the cost, the sum of 2 c^2 (sqrt(1 + d^2/c^2) - 1) over the distances
                      d, m; 0: the sum of d^2 */
 } carom_python_tracks;
 

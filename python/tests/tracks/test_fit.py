@@ -61,7 +61,7 @@ def plays(sample):
     return _strikes.Plays(sample.recordings, TABLE, RADIUS, sample.constants, "han")
 
 
-def distances(sample, constants, k, strike, end, stride=1):
+def distances(sample, constants, k, strike, end):
     """Recorded less played places of shot k up to a time, by single calls of simulate."""
     shot = sample.recordings[k]
     strikes = np.zeros((len(sample.recordings), 6))
@@ -79,17 +79,16 @@ def distances(sample, constants, k, strike, end, stride=1):
     )
     apart = []
     for ball, track in enumerate(shot.tracks):
-        rows = track[::stride]
-        rows = rows[rows[:, 0] <= end]
+        rows = track[track[:, 0] <= end]
         apart.append(found.positions(k, rows[:, 0])[:, ball] - rows[:, 1:])
     return np.concatenate(apart)
 
 
 @pytest.mark.parametrize(
-    ("end", "stride", "drag"),
-    [(1.3, 1, 0.0), (np.inf, 1, 0.0), (3.0, 3, 0.0), (np.inf, 1, 0.013)],
+    ("end", "drag"),
+    [(1.3, 0.0), (np.inf, 0.0), (np.inf, 0.013)],
 )
-def test_sums_are_those_of_plays_in_python(sample, end, stride, drag):
+def test_sums_are_those_of_plays_in_python(sample, end, drag):
     # with drag the ways are cubics that are right to some micrometres, and carom_shoot's to one
     tolerance, nearer, shape = (1e-3, 1e-3, 1e-2) if drag else (1e-9, 1e-7, 1e-5)
     constants = {**sample.constants, "drag": drag}
@@ -101,9 +100,9 @@ def test_sums_are_those_of_plays_in_python(sample, end, stride, drag):
         np.minimum(end, plays.ends),
         np.full(n, np.inf),
     )
-    sums = plays.misfit(shots, strikes, ends, most, stride=stride)
+    sums = plays.misfit(shots, strikes, ends, most)
     for k in range(n):
-        d = distances(sample, constants, k, strikes[k], ends[k], stride)
+        d = distances(sample, constants, k, strikes[k], ends[k])
         square = (d**2).sum(axis=1)
         root = np.sqrt(1 + square / _strikes.HUBER**2)
         assert sums[k, 2] == len(d)
@@ -114,7 +113,7 @@ def test_sums_are_those_of_plays_in_python(sample, end, stride, drag):
         for a in range(6):
             moved = strikes[k].copy()
             moved[a] += _strikes.STEP
-            J.append((distances(sample, constants, k, moved, ends[k], stride) - d) / _strikes.STEP)
+            J.append((distances(sample, constants, k, moved, ends[k]) - d) / _strikes.STEP)
         J = np.array(J)
         square = np.einsum("anx,bnx,n->ab", J, J, 1 / root)
         scale = np.sqrt(np.outer(square.diagonal(), square.diagonal())) + 1e-12
@@ -260,9 +259,7 @@ def test_regions_of_forecasts_have_their_share_of_the_places(thin, seeds, some, 
     inside, counts = [], []
     for seed in seeds:
         played = tracks.synthetic(8, seed=seed, thin=thin)
-        known = fit.fit(
-            played.recordings, TABLE, RADIUS, constants=played.constants, free="none"
-        )
+        known = fit.fit(played.recordings, TABLE, RADIUS, constants=played.constants, free="none")
         for shot in range(8):
             try:
                 seen = known.forecast(shot, after=2.0, draws=120)

@@ -314,9 +314,7 @@ class _Before:
     def costs(self, numbers: Doubles) -> Doubles:
         """- 2 log P of a row for each draw; infinite where a play ends in an error."""
         rows, moved = np.arange(len(numbers), dtype=np.int32), numbers[:, self.moved :]
-        self.layouts["state"]["r"][..., :2] = self.play.centres + moved.reshape(
-            len(numbers), -1, 2
-        )
+        self.layouts["state"]["r"][..., :2] = self.play.centres + moved.reshape(len(numbers), -1, 2)
         self.plays.layouts = self.layouts[np.newaxis]
         found = self.plays.misfit(
             rows, np.ascontiguousarray(numbers[:, : self.moved]), self.plays.ends, -np.inf

@@ -136,7 +136,7 @@ class Plays:
             shots, self.kind, self.radius, self.constants, self.cushion_model, self.threads
         )
 
-    def _of_c(self, strikes: Doubles, stride: int = 1, huber: float = HUBER) -> Any:
+    def _of_c(self, strikes: Doubles, huber: float = HUBER) -> Any:
         """The recordings for C, for strikes with a number of parameters."""
         return ffi.new(
             "carom_python_tracks *",
@@ -153,7 +153,6 @@ class Plays:
                 "shots": self.layouts.shape[1],
                 "constants": len(self.steps),
                 "kicks": (strikes.shape[-1] - _NUMBERS) // KICKS,
-                "stride": stride,
                 "step": STEP,
                 "huber": huber,
             },
@@ -199,7 +198,6 @@ class Plays:
         most: Doubles | float,
         *,
         huber: float = HUBER,
-        stride: int = 1,
     ) -> Doubles:
         """Costs of n plays, with normal equations if the cost is below `most`; see loops.h.
 
@@ -215,7 +213,7 @@ class Plays:
             np.ascontiguousarray(end),
         )
         most = np.ascontiguousarray(np.broadcast_to(most, len(shots)), np.float64)
-        tracks = self._of_c(strikes, stride, huber)
+        tracks = self._of_c(strikes, huber)
 
         def part(rows: slice) -> int:
             # at most some milliseconds of C at a time, so that Ctrl-C is heard
@@ -507,7 +505,6 @@ def descend(
     iterations: int,
     *,
     huber: float = HUBER,
-    stride: int = 1,
     held: Doubles | None = None,
     sums: Doubles | None = None,
 ) -> tuple[Doubles, Doubles]:
@@ -523,7 +520,7 @@ def descend(
     n, numbers = strikes.shape
     held = np.zeros((n, numbers)) if held is None else held
     if sums is None:
-        sums = plays.misfit(shots, strikes, end, np.inf, huber=huber, stride=stride)
+        sums = plays.misfit(shots, strikes, end, np.inf, huber=huber)
     sums = sums.copy()
     costs = sums[:, 0] + (held * strikes**2).sum(axis=1)
     damping, failed = np.full(n, 1e-2), np.zeros(n, int)
@@ -544,9 +541,7 @@ def descend(
         tried = allowed(strikes[rows] + step)
         # taken where the cost falls; else a shorter one next time, up to six times
         price = (held[rows] * tried**2).sum(axis=1)
-        new = plays.misfit(
-            shots[rows], tried, end[rows], costs[rows] - price, huber=huber, stride=stride
-        )
+        new = plays.misfit(shots[rows], tried, end[rows], costs[rows] - price, huber=huber)
         cost = new[:, 0] + price
         better = cost < costs[rows]
         drop = 1.0 - cost / costs[rows]
