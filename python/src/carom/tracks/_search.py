@@ -53,9 +53,9 @@ class _Effort:
     iterations: int  # of this descent
 
 
-# Found by trial on the shots of docs/understanding/reality.md, of which a draw loses 4 of 91 by 10 %
-# against the best known strikes. It loses 10 with survivors and parents from any basin and one round
-# without an improvement, and 6 where only parents are from different basins.
+# Found by trial on the shots of docs/understanding/reality.md: of 91, five draws lose 4 to 7 by 10 %
+# against the best known strikes. They lose 12 to 15 with survivors and parents from any basin and one
+# round without an improvement.
 _QUICK = _Effort(
     starts=6,
     horizons=((0.9, 8, 8), (2.0, 3, 3), (4.0, 3, 3), (8.0, 3, 3)),
