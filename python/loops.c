@@ -384,6 +384,7 @@ enum {
   KICKS = 5, /* of a contact */
   KICKED_MOST = 16,
   CONSTANTS_MOST = 24,
+  SUMS = 4, /* cost, squares, samples, basin: before the gradient */
   PLAYS_MOST = 1 + STRIKE + KICKS * KICKED_MOST + CONSTANTS_MOST
 };
 static const double piece_most = 1.0; /* s */
@@ -637,12 +638,12 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
                    double end, double *sums) {
   const int count = tracks->count, in_play = tracks->counts[shot];
   const double c2 = tracks->huber * tracks->huber;
-  double *gradient = &sums[3], *square = &gradient[plays - 1];
-  memset(sums, 0, (size_t)(3 + (plays - 1) + (plays - 1) * plays / 2) * sizeof *sums);
+  double *gradient = &sums[SUMS], *square = &gradient[plays - 1];
+  memset(sums, 0, (size_t)(SUMS + (plays - 1) + (plays - 1) * plays / 2) * sizeof *sums);
   for (int i = 0; i < in_play; i++) {
     const int64_t *first = &tracks->first[(size_t)shot * (size_t)count + (size_t)i];
     int indices[PLAYS_MOST] = {0};
-    for (int64_t m = first[0]; m < first[1]; m += tracks->stride) {
+    for (int64_t m = first[0]; m < first[1]; m++) {
       const double *sample = &tracks->samples[3 * m];
       if (sample[0] > end)
         break;
@@ -697,6 +698,20 @@ static void begins(const carom_python_tracks *tracks, const carom_event *events,
         onset[STRIKE + k] = events[e].time;
 }
 
+/* The basin of a play: a hash (FNV-1a) of the kinds and partners of its contacts in their order. A
+ * double holds the 53 bits that are kept. */
+static double basin_of(const carom_event *events, int many) {
+  uint64_t hash = UINT64_C(14695981039346656037);
+  for (int e = 0; e < many; e++) {
+    if (!is_contact(&events[e]))
+      continue;
+    const int32_t words[3] = {(int32_t)events[e].type, events[e].a, events[e].b};
+    for (int k = 0; k < 3; k++)
+      hash = (hash ^ (uint64_t)(uint32_t)words[k]) * UINT64_C(1099511628211);
+  }
+  return (double)(hash >> 11);
+}
+
 carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *shots,
                                  const double *strikes, const double *ends, const double *most,
                                  double *sums) {
@@ -704,7 +719,7 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
     return CAROM_ERROR_NULL;
   const int count = tracks->count, free_numbers = STRIKE + KICKS * tracks->kicks;
   const int numbers = free_numbers + tracks->constants,
-            size = 3 + numbers + numbers * (numbers + 1) / 2;
+            size = SUMS + numbers + numbers * (numbers + 1) / 2;
   carom_event *events = malloc(EVENTS_MOST * sizeof *events);
   way *ways = malloc((1 + (size_t)numbers) * (size_t)count * sizeof *ways);
   const bool room = events != NULL && ways != NULL;
@@ -718,6 +733,7 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
       sums[0] = sums[1] = HUGE_VAL;
       continue;
     }
+    const double basin = basin_of(events, many);
     add_up(tracks, shots[k], ways, start, 1, step, onset, ends[k], sums);
 
     /* and, where it is good enough, those beside it. */
@@ -743,6 +759,7 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
     }
     if (good)
       add_up(tracks, shots[k], ways, start, 1 + numbers, step, onset, ends[k], sums);
+    sums[SUMS - 1] = basin;
   }
   free(events);
   free(ways);

@@ -108,10 +108,9 @@ typedef struct carom_python_tracks {
   const double *steps; /* of the constants */
   int32_t count;       /* the most balls of a shot */
   int32_t shots, constants;
-  int32_t kicks;  /* contacts of a play, from its first on, that have kicks: at most 16 */
-  int32_t stride; /* one of so many samples of a ball is compared, the first among them */
-  double step;    /* of the differences by the strike, m/s and s */
-  double huber;   /* c of the cost, the sum of 2 c^2 (sqrt(1 + d^2/c^2) - 1) over the distances
+  int32_t kicks; /* contacts of a play, from its first on, that have kicks: at most 16 */
+  double step;   /* of the differences by the strike, m/s and s */
+  double huber;  /* c of the cost, the sum of 2 c^2 (sqrt(1 + d^2/c^2) - 1) over the distances
                      d, m; 0: the sum of d^2 */
 } carom_python_tracks;
 
@@ -127,8 +126,9 @@ typedef struct carom_python_tracks {
  * along t of both; R w_z of a, and of b. Contacts are the CAROM_EVENT_BALL_BALL and
  * CAROM_EVENT_RAIL in the order of the events; of a cluster the last has the kicks.
  *
- * With m = 6 + 5 kicks + constants, sums[(3 + m + m (m + 1)/2) k ...] becomes: the cost; the sum
- * of d^2; the number of samples; and, where the cost is below most[k], J^T W d (m) and J^T W J
+ * With m = 6 + 5 kicks + constants, sums[(4 + m + m (m + 1)/2) k ...] becomes: the cost; the sum
+ * of d^2; the number of samples; the basin, an integer that is the same for plays with the same
+ * contacts in the same order; and, where the cost is below most[k], J^T W d (m) and J^T W J
  * (the lower triangle by rows): W are the weights that make the cost a weighted sum of squares
  * nearby, J is by forward differences, of the strike, the kicks and then the constants. A play
  * that ends in an error has infinite cost. Returns CAROM_OK, or CAROM_ERROR_NULL without memory or

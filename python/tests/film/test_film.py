@@ -1,7 +1,6 @@
 """Tracks of films that `draw` draws, against the shots that they show."""
 
 import io
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +15,7 @@ import carom
 import carom.fit
 from carom import film
 from carom.film import _camera, _clock, _paths
+from carom.film._balls import blob
 
 SNOOKER, POOL = carom.tables.snooker(), carom.tables.pool_9ft()
 W, L = SNOOKER.width, SNOOKER.length
@@ -309,18 +309,35 @@ def test_cameras():
         assert np.abs(back - points).max() < 1e-6
 
 
-@pytest.mark.parametrize("gap", [1, 6])
-def test_balls_that_are_put_up_anew_begin_another_shot(gap):
-    """A film that is cut where the balls rest, with or without pictures between."""
-    times = np.arange(400) / 50.0
-    moved = np.clip(times - 1.0, 0.0, 1.0), np.clip(times - 5.0, 0.0, 1.0)
-    places = np.column_stack([0.3 + 0.5 * moved[0] + 0.4 * moved[1], np.full(400, 0.5)])
-    places[200:, 1] = 1.1  # another place from 4 s on
-    numbers = [k for k in range(400) if not 200 - gap < k < 200]
-    path = SimpleNamespace(numbers=numbers, places=places[numbers])
-    (first, second) = _paths.spans([path], times, 1e-4)
-    assert first[0] < 1.0 and 2.0 < first[1] < 4.0 <= second[0] < 5.0
-    # balls that are put up while others still count as moving end the shot as well
-    early = SimpleNamespace(numbers=numbers, places=places[numbers] - [[0.2, 0.0]])
-    early.places[numbers.index(200) :, 0] += 0.3
-    assert max(end for _, end in _paths.spans([early], times, 1e-4)[:1]) < 4.0
+def rolled(colour, white, begin, end, places):
+    """A path of a ball with these colours over frames, which moves between two positions from 1 s
+    to 2 s after its begin.
+    """
+    path = _paths.Path(list(range(begin, end)))
+    part = np.clip(np.arange(end - begin) / 25.0 - 1.0, 0.0, 1.0)[:, np.newaxis]
+    rows = np.zeros(end - begin, blob)
+    rows["place"] = (1.0 - part) * places[0] + part * np.array(places[1])
+    rows["share"], rows["colour"], rows["white"], rows["whole"] = 1.0, colour, white, True
+    path.blobs = list(rows)
+    return path
+
+
+def test_names_belong_to_a_shot_and_a_shot_has_a_cue_ball():
+    """The balls of a second layout have the colours of the first, in less light."""
+    white, yellow = (225.0, 235.0, 240.0), (10.0, 190.0, 235.0)
+    lies = [(0.9, 1.9), (0.9, 1.9)]
+    paths = [
+        rolled(white, 0.95, 0, 100, [(0.3, 0.5), (0.6, 1.2)]),
+        rolled(yellow, 0.1, 0, 100, lies),
+        rolled(np.multiply(white, 0.8), 0.95, 150, 250, [(0.7, 0.5), (0.4, 0.9)]),
+        rolled(np.multiply(yellow, 0.8), 0.1, 150, 250, lies),
+        # a ball is pushed, and no cue ball is there
+        rolled(yellow, 0.1, 300, 400, [(0.5, 0.5), (0.5, 0.9)]),
+    ]
+    clock, notes = _clock.Clock(np.ones(400, bool), np.arange(400) / 25.0, []), []
+    shots, begins = film._shots("9ft", paths, clock, film.bed_of("9ft"), notes)
+    assert [(shot.id, sorted(shot.balls)) for shot in shots] == [
+        ("s1", ["1", "cue"]),
+        ("s2", ["1", "cue"]),
+    ]
+    assert len(begins) == 2 and notes == ["s3: no cue ball was found; the shot is left out"]

@@ -1,6 +1,7 @@
 """A player from film: the errors with which strokes were played are found again."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -53,6 +54,13 @@ def test_errors_and_rating_are_those_of_the_player(found):
         assert likely.low < likely.mean < likely.high < 2.2 * likely.low, name
     assert player.rating.low < 500 < player.rating.high < player.rating.low + 120
     assert player.record["phi"] == pytest.approx(player.phi.mean / grown, rel=0.1)
+
+
+def test_a_doubtful_strike_is_not_the_players(found):
+    """A wrong strike may be like the others, and makes the errors of a player too large."""
+    status = ["doubtful: RMSE 8.1 cm, 164 times that of the noise", *found.status[1:]]
+    without = replace(found, status=status).player()
+    assert without.groups == [group[1:] if 0 in group else group for group in found.player().groups]
 
 
 def test_a_perfect_player_has_errors_below_the_noise():

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from carom import tracks
+from carom.tracks import _spans
 
 TABLE, RADIUS = (2.84, 1.42), 0.03075
 
@@ -119,7 +120,7 @@ frame,track_id,cx,cy
 """,
         balls="1/1:2",
         notes=[
-            "columns: balls from column track_id; times from column frame; places from cx, cy; all rows as one shot",
+            "columns: balls from column track_id; times from column frame; places from cx, cy; all rows as one film",
             "times are numbers of pictures .column frame.: rate says how many a second",
         ],
     ),
@@ -143,7 +144,7 @@ t;x1;y1;x2;y2
 """,
         balls="1/1:2 1/2:1",
         notes=[
-            "columns: times from column t; balls 1, 2 from pairs of columns; all rows as one shot",
+            "columns: times from column t; balls 1, 2 from pairs of columns; all rows as one film",
             "line 3: the ball has no place there",
         ],
     ),
@@ -170,7 +171,7 @@ t	x	y
 0,000E0	1,500E0	7,000E-1
 """,
         balls="1/mass_A:2 1/mass_B:1",
-        notes=["columns: times from column t; places from x, y; all rows as one shot"],
+        notes=["columns: times from column t; places from x, y; all rows as one film"],
         file="a.txt",
     ),
     "states": Case(
@@ -395,3 +396,49 @@ def test_every_way_of_writing_gives_the_same_places(tmp_path, writer, unit):
     for one, other in zip(found, recordings):
         for a, b in zip(one.tracks, other.tracks, strict=True):
             assert np.allclose(a, b, rtol=0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("gap", [1, 6])
+def test_balls_that_are_put_up_anew_begin_another_shot(gap):
+    """A film that is cut where the balls rest, with or without pictures between."""
+    times = np.arange(400) / 50.0
+    moved = np.clip(times - 1.0, 0.0, 1.0), np.clip(times - 5.0, 0.0, 1.0)
+    places = np.column_stack([0.3 + 0.5 * moved[0] + 0.4 * moved[1], np.full(400, 0.5)])
+    places[200:, 1] = 1.1  # another place from 4 s on
+    numbers = [k for k in range(400) if not 200 - gap < k < 200]
+    track = np.column_stack([times, places])[numbers]
+    (first, second) = _spans.spans([track], times, 1e-4)
+    assert first[0] < 1.0 and 2.0 < first[1] < 4.0 <= second[0] < 5.0
+    # balls that are put up while others still count as moving end the shot as well
+    early = track - [0.0, 0.2, 0.0]
+    early[numbers.index(200) :, 1] += 0.3
+    assert max(end for _, end in _spans.spans([early], times, 1e-4)[:1]) < 4.0
+
+
+@pytest.mark.parametrize("rate", [30.0, None])
+def test_a_film_without_a_column_of_shots_is_cut_into_shots(tmp_path, rate):
+    """Three shots in sequence, with rests of 2 s in between; one shot remains a film."""
+    made = tracks.synthetic(3, rate=30.0, thin=0.0, seed=2)
+    rows, frame, begins = ["frame,ball,x,y"], 0, []
+    for shot in made.recordings:
+        count = len(shot.tracks[0])
+        begins.append(frame + 30)
+        for k in range(-30, count + 30):
+            for ball, track in zip(shot.balls, shot.tracks):
+                x, y = track[min(max(k, 0), count - 1), 1:]
+                rows.append(f"{frame},{ball},{x},{y}")
+            frame += 1
+    file = tmp_path / "film.csv"
+    file.write_text("\n".join(rows), encoding="utf-8")
+    found = tracks.read(file, table=TABLE, radius=RADIUS, rate=rate)
+    assert [shot.id for shot in found] == [1, 2, 3]
+    assert re.search("the film is cut into 3 shots", " ".join(found.notes))
+    assert ("30 pictures a second" in " ".join(found.notes)) == (rate is None)
+    for shot, true, begin in zip(found, made.recordings, begins):
+        assert shot.balls == (1, 2, 3)
+        assert np.abs(shot.rest - true.rest).max() < 1e-3
+        at = shot.moves.min() * (1.0 if rate is None else rate)
+        assert begin <= at < begin + 15
+    file.write_text("\n".join(rows[: 3 * begins[1] - 100]), encoding="utf-8")
+    (alone,) = tracks.read(file, table=TABLE, radius=RADIUS, rate=rate)
+    assert alone.balls == (1, 2, 3) and len(alone.tracks[0]) > begins[1] - 40

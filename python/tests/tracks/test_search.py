@@ -52,6 +52,41 @@ def test_strikes_of_long_shots_are_those_that_were_played(seed):
     )
 
 
+@pytest.mark.parametrize("seed", [0, 4, 6])
+def test_a_strike_is_found_among_basins_that_look_better_at_first(seed):
+    """The second ball moves 80 ms after the first, and the best strikes of the first second all
+    belong to wrong basins, where the shot misses by 16 or 25 cm.
+    """
+    sample = synthetic(35, seed=1)
+    plays = plays_of(sample, sample.recordings[34:])
+    found, _ = _search.find(plays, seed, squares=True)
+    assert plays.rmse(found)[0] < 0.01
+    assert np.abs(found[0, :2] - sample.strikes[34, :2]).max() < 0.1
+
+
+def test_strikes_are_chosen_from_different_basins():
+    shots = np.array([0, 0, 0, 0, 0, 1, 1], np.int32)
+    basins = np.array([7.0, 7.0, 7.0, 8.0, 9.0, 7.0, 7.0])
+    costs = np.array([1.0, 2.0, 3.0, 4.0, np.inf, 6.0, 5.0])
+    # the best, the best of another basin, and the second best
+    assert _search._best(shots, basins, costs, 3).tolist() == [0, 1, 3, 6, 5]
+    assert _search._best(shots, basins, costs, 3, leaders=True).tolist() == [0, 3, 6]
+    assert _search._best(shots, basins, costs, 1).tolist() == [0, 6]
+
+
+def test_plays_with_the_same_contacts_are_of_one_basin():
+    sample = synthetic(1, seed=3)
+    plays = plays_of(sample, sample.recordings)
+    strike = sample.strikes[0] - [0.0, 0.0, 0.0, 0.0, 0.0, plays.origins[0]]
+    strikes = np.array([strike, strike * 1.0001, strike * [-1.0, -1.0, 1.0, 1.0, 1.0, 1.0]])
+    rows, ends = np.zeros(3, np.int32), np.repeat(plays.ends, 3)
+    basins = plays.misfit(rows, strikes, ends, -np.inf)[:, 3]
+    assert basins[0] == basins[1] != basins[2] and (basins == basins.round()).all()
+    assert (plays.misfit(rows, strikes, ends, np.inf)[:, 3] == basins).all()
+    # without a contact there is one basin
+    assert len({*plays.misfit(rows, strikes, np.full(3, 0.0), -np.inf)[:, 3]}) == 1
+
+
 @pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.release)])
 def test_by_a_wrong_law_no_strike_near_the_true_one_is_better(seed):
     """Where the best strike of the first second is not that of the whole shot."""

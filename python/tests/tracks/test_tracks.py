@@ -135,6 +135,17 @@ def test_a_recording_without_motion_has_no_strike():
         synthetic(1, constants={"mu": 0.2})
 
 
+def test_one_row_away_from_the_rest_is_no_motion():
+    """The far end of a camera's view has more noise than the table has on average."""
+    t = np.arange(0.0, 2.0, 0.02)
+    track = np.column_stack([t, 1.0 + np.maximum(t - 1.0, 0.0), np.full(len(t), 0.5)])
+    track[20, 2] += 4e-3
+    shot = tracks.Recording(1, (1,), (track,))
+    assert shot.still == [51] and shot.moves[0] == pytest.approx(1.02)
+    last = np.array([[0.0, 1.0, 0.5], [2.0, 1.01, 0.5]])  # only the end of a thinned track
+    assert tracks.Recording(1, (1,), (last,)).still == [1]
+
+
 def test_the_struck_ball_is_told_from_one_that_it_touches_at_once():
     """Whatever the noise, and however near the other ball lies: it goes on farther, but away from
     the struck one.

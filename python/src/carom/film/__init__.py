@@ -34,10 +34,11 @@ from carom.film._balls import Finder, blob
 from carom.film._camera import Camera, Evidence, fit
 from carom.film._clock import Clock, change, clock_of, pictures
 from carom.film._cloth import NORMALS, Bed, Cloth, FilmError, Picture, area, calibrated
-from carom.film._names import names_of
-from carom.film._paths import Path, linked, spans, turns
+from carom.film._names import kinds_of, names_of
+from carom.film._paths import Path, linked, turns
 from carom.tracks import Recording
 from carom.tracks._constants import ground
+from carom.tracks._spans import spans
 
 __all__ = ["Camera", "Film", "FilmError", "track"]
 __dir__ = listing(__name__)
@@ -45,6 +46,7 @@ __dir__ = listing(__name__)
 _FIRST = 3.0  # s at the beginning, from which the table is found
 _AWAY = 0.5  # s: longest time without a visible table
 _PART = 0.8  # fraction of the usual area below which a ball is partly hidden
+_ABOUT = 8  # rows to each side whose median area is the usual one
 _SPOT = 0.09  # m: largest distance of a snooker ball on its spot
 _ODD = 0.015  # m: largest deviation of a cushion's depth from the kind of table
 _PLACED = 0.004  # m: standard deviation of a ball from its spot
@@ -160,7 +162,7 @@ def track(
         for row, place in zip(path.blobs, camera.places(pixels, bed.radius)):
             row["place"] = place
     notes = [*clock.notes, *seen.notes, *_told(camera, depths, evidence, marks, bed)]
-    recordings, begins = _shots(paths, clock, bed, notes)
+    recordings, begins = _shots(table, paths, clock, bed, notes)
     begin = begins[0] if begins else start
     picture = next((image for t, _, image in pictures(clip, begin, end)), first)
     return Film(recordings, camera, bed, notes, picture, begins)
@@ -386,37 +388,43 @@ def _told(
     return sentences
 
 
-def _rows(path: Path, times: Doubles, bed: Bed) -> tuple[Doubles, int]:
-    """(t, x, y) of the rows in which a ball is completely visible and not about to fall, and the
-    number of other rows.
-    """
+def _is_whole(path: Path, bed: Bed) -> NDArray[np.bool_]:
+    """In which rows a ball is completely visible and not about to fall."""
     shares = np.array([row["share"] for row in path.blobs])
-    usual = float(np.median(shares))
-    whole = np.array([row["whole"] for row in path.blobs])
-    whole &= shares > _PART * usual
-    whole &= ~bed.near_pocket(path.places)
-    return np.column_stack([times[path.numbers], path.places])[whole], int((~whole).sum())
+    # the visible area changes along a path, with the light, the shadow and the blur of the ball
+    wide = np.pad(shares, _ABOUT, mode="reflect" if len(shares) > _ABOUT else "edge")
+    usual = np.median(np.lib.stride_tricks.sliding_window_view(wide, 2 * _ABOUT + 1), axis=1)
+    whole = np.array([row["whole"] for row in path.blobs]) & (shares > _PART * usual)
+    return np.asarray(whole & ~bed.near_pocket(path.places))
 
 
 def _shots(
-    paths: list[Path], clock: Clock, bed: Bed, notes: list[str]
+    table: str, paths: list[Path], clock: Clock, bed: Bed, notes: list[str]
 ) -> tuple[list[Recording], list[float]]:
-    """The shots of the paths; defects are added to the notes."""
+    """The shots of the paths; defects are added to the notes.
+
+    Names belong to a shot: the balls of another rack or layout may have the same colours. A shot
+    without its cue ball is left out.
+    """
     times = clock.times
     rest = [np.diff(path.places, axis=0) for path in paths]
     noise = float(np.median(np.concatenate([np.abs(step).ravel() for step in rest])))
-    balls: dict[str, list[Doubles]] = {}
-    merged = 0
-    for path in sorted(paths, key=lambda path: path.numbers[0]):
-        rows, bad = _rows(path, times, bed)
-        balls.setdefault(path.name, []).append(rows)
-        merged += bad
-    recordings, begins = [], []
-    for number, (begin, end) in enumerate(spans(paths, times, noise), 1):
+    recordings, begins, merged = [], [], 0
+    tracks_of = [np.column_stack([times[path.numbers], path.places]) for path in paths]
+    spans_of = spans(tracks_of, times, noise)
+    for number, (begin, end) in enumerate(spans_of, 1):
+        present = [
+            path
+            for path, rows in zip(paths, tracks_of)
+            if ((rows[:, 0] >= begin) & (rows[:, 0] <= end)).any()
+        ]
+        _name(table, present)
         names, tracks, late = [], [], []
-        for name, parts in balls.items():
-            rows = np.concatenate(parts)
-            rows = rows[np.unique(rows[:, 0], return_index=True)[1]]
+        for path in sorted(present, key=lambda path: path.numbers[0]):
+            name, whole = path.name, _is_whole(path, bed)
+            rows = np.column_stack([times[path.numbers], path.places])
+            merged += int((~whole & (rows[:, 0] >= begin) & (rows[:, 0] <= end)).sum())
+            rows = rows[whole]
             earlier = rows[rows[:, 0] < begin][-8:]
             rows = rows[(rows[:, 0] >= begin) & (rows[:, 0] <= end)]
             if not len(rows):
@@ -440,13 +448,15 @@ def _shots(
             tracks.append(np.column_stack([rows[:, 0] - begin, rows[:, 1:]]))
         if late:
             notes.append(f"s{number}: {', '.join(late)} was first seen moving, and is left out")
-        if tracks:
+        if "cue" in kinds_of(table) and "cue" not in names:
+            notes.append(f"s{number}: no cue ball was found; the shot is left out")
+        elif tracks:
             recordings.append(Recording(f"s{number}", tuple(names), tuple(tracks)))
             begins.append(begin)
     if merged:
         notes.append(
             f"{merged} places of balls that were hidden in part, merged or about to fall have no rows"
         )
-    if not recordings:
+    if not spans_of:
         notes.append("no ball moves by 3 cm: there is no shot")
     return recordings, begins

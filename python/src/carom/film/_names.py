@@ -51,6 +51,11 @@ def _ink(text: str) -> Doubles:
     return np.array([int(text[k : k + 2], 16) for k in (5, 3, 1)], np.float64)
 
 
+def kinds_of(table: str) -> dict[str, tuple[str, int]]:
+    """The names of the balls of a table, with their colours and how many balls have each."""
+    return _KINDS.get(table, _POOL)
+
+
 def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) -> list[str]:
     """Name the balls that are visible at one time.
 
@@ -59,7 +64,7 @@ def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) ->
     """
     if not len(colours):
         return []
-    kinds = _KINDS.get(table, _POOL)
+    kinds = kinds_of(table)
     brightness = colours.mean(axis=1)
     # the cue ball shows the light
     plain = (np.ptp(colours, axis=1) < 0.45 * colours.max(axis=1)) & (whites > 0.5)

@@ -1,4 +1,4 @@
-"""Balls over time: which blob of a frame is which ball, and when a shot is played.
+"""Balls over time: which blob of a frame is which ball.
 
 A ball continues its motion or stays at rest. A struck ball leaves at up to 9 m/s, and is then
 identified by its colour. A hidden ball has no rows until it is visible again.
@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dtypes import Doubles
+from carom.tracks._spans import FASTEST
 
-_FASTEST = 9.0  # m/s
 _RESTING = 0.03  # m/s: below, a ball is at rest, however long it is hidden
 _HIDDEN = 0.5  # s: longest time for which a moving ball may be hidden
 _LOST = 3.0  # s: longest gap between two paths of one ball
@@ -21,14 +21,6 @@ _ALIKE = 60.0  # largest difference of colours of the same ball, levels
 _MOMENT = 0.25  # s: shortest path of a ball
 _WHOLE = 0.72  # fraction of a ball's area below which a path belongs to a shadow or a mark
 _STRAIGHT = 0.006  # m: largest second difference of rows without an event
-_PAUSE = 0.7  # s: rest that separates two shots
-_LEAST = 0.03  # m: length that the longest path of a shot has at least
-_PUT = 0.05  # m: excess distance above which a ball was placed by hand
-_LIES, _CARRIED = (
-    5,
-    1.0,
-)  # rows of a ball at rest; s within which no stroke brings a ball to rest 5 cm away
-_BEFORE, _AFTER = 0.4, 0.2  # s of a shot before the first and after the last motion
 
 
 @dataclass
@@ -100,7 +92,7 @@ def _joined(paths: list[Path], times: Doubles) -> list[Path]:
             gap = float(times[second.numbers[0]] - times[path.numbers[-1]])
             way = float(np.hypot(*(second.blobs[0]["place"] - path.blobs[-1]["place"])))
             alike = _difference(second.blobs[0], path.blobs[-1]) < _ALIKE
-            if 0.0 < gap < _LOST and way < _FASTEST * gap and alike:
+            if 0.0 < gap < _LOST and way < FASTEST * gap and alike:
                 pairs.append((gap + way, i, j))
     following: dict[int, int] = {}
     for _, i, j in sorted(pairs):
@@ -129,7 +121,7 @@ def _pairs(
         for j, blob in enumerate(blobs):
             step = blob["place"] - last["place"]
             way = float(np.hypot(*step))
-            if way > _FASTEST * gap + radius:
+            if way > FASTEST * gap + radius:
                 continue
             colour = _difference(blob, last)
             if colour > _ALIKE:
@@ -149,69 +141,6 @@ def _difference(blob: np.void, second: np.void) -> float:
     plain = 1.0 - max(float(blob["white"]), float(second["white"]))
     turned = abs(float(blob["white"] - second["white"]))
     return 1.3 * plain * levels + 150.0 * max(turned - 0.4, 0.0)
-
-
-def _layouts(paths: list[Path], times: Doubles) -> Doubles:
-    """The times at which balls were set up again, s.
-
-    A ball is then farther from its last position than it could move, or at rest elsewhere sooner
-    than after a stroke.
-    """
-    found = set[float]()
-    for path in paths:
-        t, places = times[path.numbers], path.places
-        ways, gaps = np.hypot(*np.diff(places, axis=0).T), np.diff(t)
-        for k in np.flatnonzero(ways > _PUT).tolist():
-            sides = places[max(k - _LIES, 0) : k + 1], places[k + 1 : k + 2 + _LIES]
-            lies = all(np.hypot(*np.ptp(side, axis=0)) < 0.2 * _PUT for side in sides)
-            if ways[k] > _FASTEST * gaps[k] + _PUT or (lies and gaps[k] < _CARRIED):
-                found.add(float(t[k + 1]))
-    return np.array(sorted(found))
-
-
-def spans(paths: list[Path], times: Doubles, noise: float) -> list[tuple[float, float]]:
-    """Beginning and end of each shot, s: the times of motion between new layouts."""
-    moving = np.zeros(len(times), bool)
-    window, least = 0.2, 0.004 + 4.0 * noise
-    layouts = _layouts(paths, times)
-    for path in paths:
-        t, places = times[path.numbers], path.places
-        grid = [np.interp(times, t, places[:, axis]) for axis in (0, 1)]
-        late = [np.interp(times + window, t, places[:, axis]) for axis in (0, 1)]
-        moves = np.hypot(late[0] - grid[0], late[1] - grid[1]) > least
-        moves &= (times >= t[0]) & (times <= t[-1])
-        moving |= moves
-    # how balls are put up is no motion
-    number = np.searchsorted(layouts, times, side="right")
-    moving &= number == np.searchsorted(layouts, times + window, side="right")
-    runs: list[list[float]] = []
-    for t in times[moving]:
-        laid = runs and not ((layouts > runs[-1][1]) & (layouts <= t)).any()
-        if laid and t - runs[-1][1] < _PAUSE:
-            runs[-1][1] = float(t)
-        else:
-            runs.append([float(t), float(t)])
-    shots = []
-    for begin, end in runs:
-        ways = [_way(path, times, begin - 0.05, end + window) for path in paths]
-        if max(ways, default=0.0) >= _LEAST and end > begin:
-            shots.append((begin, end + window))
-    # a shot has no row of its neighbours'
-    ends = [float(times[0]), *(end for _, end in shots)]
-    begins = [*(begin for begin, _ in shots), np.inf]
-    found = []
-    for (begin, end), preceding, following in zip(shots, ends, begins[1:]):
-        low = max([preceding, *layouts[layouts <= begin]])
-        high = min([following, *(layouts[layouts > begin] - 1e-6)])
-        found.append((max(begin - _BEFORE, low), min(end + _AFTER, high)))
-    return found
-
-
-def _way(path: Path, times: Doubles, begin: float, end: float) -> float:
-    """The extent of a path between two times, m."""
-    t = times[path.numbers]
-    places = path.places[(t >= begin) & (t <= end)]
-    return float(np.hypot(*np.ptp(places, axis=0))) if len(places) else 0.0
 
 
 def turns(

@@ -3,34 +3,36 @@
 The strike, the constants c, the initial positions r and the models of contacts all have errors, and
 a draw includes all four.
 
-1. Before. Constants and initial positions are drawn from their errors. Given c and r, the strike and
-   the kicks y of the contacts in the first t seconds follow
+1. Before. The constants are drawn from their errors. Given these, the strike p, the kicks y of the
+   contacts in the first t seconds and the deviations r of the initial positions follow
 
-       log P(y) = - (E(y) + sum of V_1 y^2/s^2) / (2 V),   V_1 = m^2 PRICE,
+       log P(p, y, r) = - 1/2 (E(p, y, r)/V + sum of y^2/s^2 + sum of r^2/q^2 + sum of p^2/b^2),
 
-   where E is the cost of `_strikes`, whose first numbers are the strike. PRICE is that of `_kicks`,
-   and s is m times its deviations, which single contacts of recorded shots have. m <= 1 is the size
-   of the errors of the models, by the kicks of the fitted shots (`Fit.model_error`): 1 on recorded
-   matches, near 0 where carom's own laws played. V is V_1, or the cost of the best draw per row
-   less the variance of the noise where that is more, as it is where kicks do not explain the rows.
+   where E is the cost of `_strikes`, s is m times the deviations of `_kicks`, which single contacts
+   of recorded shots have, q is the error of an initial position, and b are the bounds of a strike.
+   m <= 1 is the size of the errors of the models, by the kicks of the fitted shots
+   (`Fit.model_error`): 1 on recorded matches, near 0 where carom's own laws played. V is the
+   variance of a coordinate: m^2 PRICE of `_kicks`, or what the best play leaves per row less the
+   variance of the noise where that is more, and at least the variance of the noise.
 
-   Levenberg and Marquardt's method finds the top of P, and the normal equations the normal
-   distribution about it, from which a draw comes. P has edges where events change, so draws are
-   drawn again by their weights. A share of the draws, m times a tenth, has the same, largest
-   weight, because P trusts a wrong strike too much. By the search of 2026-11-27, 73 and 95 % of the
-   places of the match of 2017 lay in the regions of 68 and 95 % with this limit, 2 s being known.
-   They were 70 and 94 % where a twentieth of the draws had the largest weight, 77 and 95 % where a
-   fifth had, and 55 and 76 % without a limit.
+   Levenberg and Marquardt's method finds the maximum of P, and its normal equations the normal
+   distribution about it (Laplace's approximation). A chain for each draw begins with a value of this
+   distribution and takes Metropolis steps of P, which has edges where events change. `effective`
+   counts the draws that no longer depend on where their chains began.
+
+   If the best play misses the known rows by far more than noise and models explain, its strike is
+   not the player's, and there is no forecast.
 
 2. After. Each later contact has a kick, normal with the deviations s.
 
 Kicks tie the draws to the last places that are known, which strikes alone miss by a centimetre.
 `reality.py --forecast 2,4` of the examples counts how many recorded places lie in the regions of
-68 and 95 %. Only the tenth was chosen by them.
+68 and 95 %.
 """
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -45,8 +47,13 @@ from carom.tracks import _covariance, _kicks, _recordings, _search, _strikes
 from carom.tracks._recordings import Recording
 
 SHARES = (0.68, 0.95)
-_STEPS = 6  # iterations of the descent to the maximum of P
-_ALIKE = 0.1  # the share of the draws that have the largest weight
+_DESCENT = 10  # iterations of the descent to the maximum of P, at most
+_CHAIN = 60  # Metropolis steps of a draw
+# The length of a step over the deviations of the normal distribution and the root of the number of
+# parameters; one in three steps is shorter, because edges of P stop long ones.
+_STEP, _SHORTER = 2.0, 0.25
+# The known rows are off by so many times the noise, or m times so much (m), where no strike was found
+_NOISES, _FAR = 5.0, 0.02
 # an RMSE so many times that of the noise is no longer ok: with the true constants nine in ten shots
 # are below
 ROUGH = 2.0
@@ -62,7 +69,8 @@ class Forecast(Arrays):
     after: float  # s from the first motion: the strikes are fitted to the rows until then
     until: float  # s, the same on the clock of the recording
     numbers: Doubles  # (draws, 6 + 5 * 16): Strikes, on the clock of the plays, and kicks
-    plays: _strikes.Plays  # A shot for each draw, with its constants and places of rest
+    plays: _strikes.Plays  # A shot for each draw, with its constants and initial positions
+    effective: float  # The number of draws that are independent of the normal approximation
 
     def positions(self, times: ArrayLike) -> Doubles:
         """Return the centres of all balls in all draws, m, at times of the recording's clock.
@@ -122,6 +130,7 @@ class Forecast(Arrays):
         return {
             "id": self.recording.id,
             "after": self.after,
+            "effective": self.effective,
             "times": times.tolist(),
             "centres": middle.tolist(),
             "radii": radii.tolist(),
@@ -164,12 +173,12 @@ def forecast(fit: Any, whole: Recording, after: float, draws: int, seed: int) ->
     whole, error = replace(whole, noise=fit.noise), fit.model_error
     end = float(whole.moves.min() + after)
     part = _part(fit, whole, after)
-    plays, numbers = _Before(part, end, draws, error, random).drawn(random)
+    plays, numbers, effective = _Before(part, end, draws, error, random).drawn(random)
     plays.ends = np.full(draws, _LONG)
     numbers = _kicked(plays, numbers, end - plays.origins[0], error, random)
     good = np.isfinite(numbers[:, 0])
     plays.layouts = plays.layouts[:, good]
-    return Forecast(whole, after, end, numbers[good], plays)
+    return Forecast(whole, after, end, numbers[good], plays, effective)
 
 
 def _part(fit: Any, whole: Recording, duration: float) -> Any:
@@ -220,76 +229,118 @@ def _kicked(
 
 
 class _Before:
-    """P of strikes and kicks in the first seconds, a row for each draw of constants and places."""
+    """P of strike, kicks and initial positions in the first seconds, with a chain for each draw of
+    the constants.
+    """
 
     def __init__(
         self, fit: Any, end: float, count: int, error: float, random: np.random.Generator
     ) -> None:
-        play = fit._plays([0])
-        start = fit.strikes[:1] - [0.0, 0.0, 0.0, 0.0, 0.0, play.origins[0]]
-        whole = _kicks.find(play, start)
-        first_contacts = _kicks.contacts(play, 0, whole[0])
-        first_contacts = first_contacts[
-            first_contacts["time"] + whole[0, 5] <= end - play.origins[0]
-        ]
-        self.start = whole[:, : 6 + _strikes.KICKS * len(first_contacts)]
-        price = _kicks.PRICE / _kicks.deviations(first_contacts)[: len(first_contacts)].ravel() ** 2
-        self.error, self.variance, self.noise = error, _kicks.PRICE * error**2, fit.noise**2
-        self.held = np.concatenate([self.variance / _covariance.bounds(whole[0]) ** 2, price])
+        self.play, shot = fit._plays([0]), fit.recordings[0]
+        strike = fit.strikes[:1] - [0.0, 0.0, 0.0, 0.0, 0.0, self.play.origins[0]]
+        kicked = _kicks.find(self.play, strike)
+        met_contacts = _kicks.contacts(self.play, 0, kicked[0])
+        known = int((met_contacts["time"] + kicked[0, 5] <= end - self.play.origins[0]).sum())
+        self.moved = 6 + _strikes.KICKS * known  # the index of the first initial position
+        rest = np.repeat(shot.noise / np.sqrt(shot.still), 2)
+        self.start = np.concatenate([kicked[0, : self.moved], np.zeros(len(rest))])
+        sizes = error * _kicks.deviations(met_contacts)[:known].ravel()
+        # 1 over the variance of each parameter before the shot is seen
+        self.held = np.concatenate([_covariance.bounds(strike[0]), sizes, rest]) ** -2.0
+        self.error, self.noise = error, fit.noise
+        self.variance = max(_kicks.PRICE * error**2, fit.noise**2)
 
-        # the constants and initial positions of each draw
+        # the constants of each draw
         changes: Doubles = np.zeros((count, len(fit.fitted)))
         if fit.covariance is not None and fit.fitted:
             changes = random.multivariate_normal(changes[0], fit.covariance, count)
-        shot = fit.recordings[0]
-        rest = shot.noise / np.sqrt(shot.still)[:, np.newaxis]
-        moved = rest * random.normal(size=(count, len(rest), 2))
-        _, layouts = fit._struck(
-            0, np.repeat(fit.strikes, count, axis=0), moved, fit.changed(changes)
-        )
-        layouts["state"]["v"], layouts["state"]["w"] = 0.0, 0.0
+        strikes = np.repeat(fit.strikes, count, axis=0)
+        _, self.layouts = fit._struck(0, strikes, 0.0, fit.changed(changes))
+        self.layouts["state"]["v"], self.layouts["state"]["w"] = 0.0, 0.0
         self.plays = _strikes.Plays(
             fit.recordings * count, fit.table, fit.radius, fit.constants, fit.cushion_model
         )
-        self.plays.layouts = layouts[np.newaxis]
+
+    def equations(self, numbers: Doubles) -> tuple[float, float, Doubles, Doubles]:
+        """E of a row, the number of samples, J^T W J and J^T W d, with the fitted constants."""
+        play = copy.copy(self.play)
+        play.centres = play.centres + numbers[self.moved :].reshape(play.centres.shape)
+        varied, sign = _kicks.with_positions(play)
+        sums = varied.misfit(
+            np.zeros(1, np.int32), numbers[np.newaxis, : self.moved], varied.ends, np.inf
+        )
+        square, gradient = _strikes.normal(sums)
+        turn = np.concatenate([np.ones(self.moved), sign[0]])
+        return sums[0, 0], sums[0, 2], square[0] * np.outer(turn, turn), gradient[0] * turn
+
+    def top(self) -> tuple[Doubles, Doubles]:
+        """The maximum of P, and a root of the covariance of the normal distribution about it.
+
+        Raises
+        ------
+        ValueError
+            The best play is too far from the known rows.
+        """
+        numbers, damping = self.start, 1e-3
+        cost, count, square, gradient = self.equations(numbers)
+        price = self.variance * self.held
+        for _ in range(_DESCENT):
+            whole = square + np.diag(price)
+            whole += np.diag(damping * whole.diagonal() + 1e-12)
+            tried = numbers - np.linalg.solve(whole, gradient + price * numbers)
+            new = self.equations(tried)
+            drop = cost + price @ numbers**2 - (new[0] + price @ tried**2)
+            if drop > 0.0:
+                numbers, (cost, count, square, gradient) = tried, new
+                damping = max(0.2 * damping, 1e-9)
+                if drop < 1e-4 * self.variance:
+                    break
+            else:
+                damping *= 6.0
+        off = np.sqrt(cost / count)
+        if off > max(_NOISES * np.sqrt(2.0) * self.noise, _FAR * self.error):
+            raise ValueError(
+                f"shot: its strike was not found: the best one misses the known rows by "
+                f"{1e3 * off:.1f} mm, {off / self.noise / np.sqrt(2.0):.0f} times the noise; "
+                f"use a longer or shorter time, or leave the shot out"
+            )
+        self.variance = max(self.variance, cost / count - self.noise**2)
+        whole = square + np.diag(self.variance * self.held)
+        scale = 1.0 / np.sqrt(whole.diagonal())
+        scaled = whole * np.outer(scale, scale) + 1e-11 * np.eye(len(scale))
+        root = scale[:, np.newaxis] * np.linalg.inv(np.linalg.cholesky(scaled)).T
+        return numbers, np.sqrt(self.variance) * root
 
     def costs(self, numbers: Doubles) -> Doubles:
-        """- 2 V log P, of a row for each draw; infinite where a play ends in an error."""
-        rows = np.arange(len(numbers), dtype=np.int32)
-        found = self.plays.misfit(rows, numbers, self.plays.ends, -np.inf)
-        misfit = np.where(np.isfinite(found[:, 0]), found[:, 0], np.inf)
-        return np.asarray(misfit + numbers**2 @ self.held)
-
-    def drawn(self, random: np.random.Generator) -> tuple[_strikes.Plays, Doubles]:
-        """Draws of P, and their plays."""
-        plays, count = self.plays, len(self.plays.ends)
-        top, sums = _strikes.descend(
-            plays,
-            np.arange(count, dtype=np.int32),
-            np.repeat(self.start, count, axis=0),
-            plays.ends,
-            _STEPS,
-            held=np.repeat(self.held[np.newaxis], count, axis=0),
+        """- 2 log P of a row for each draw; infinite where a play ends in an error."""
+        rows, moved = np.arange(len(numbers), dtype=np.int32), numbers[:, self.moved :]
+        self.layouts["state"]["r"][..., :2] = self.play.centres + moved.reshape(len(numbers), -1, 2)
+        self.plays.layouts = self.layouts[np.newaxis]
+        found = self.plays.misfit(
+            rows, np.ascontiguousarray(numbers[:, : self.moved]), self.plays.ends, -np.inf
         )
-        least = float(np.min(sums[:, 0] / np.maximum(sums[:, 2], 1.0)))
-        variance = max(self.variance, least - self.noise, self.noise)
+        cost = found[:, 0] / self.variance + numbers**2 @ self.held
+        return np.asarray(np.where(np.isfinite(cost), cost, np.inf))
 
-        # one root of the covariance serves all: that of the best draw
-        best = int(np.argmin(sums[:, 0]))
-        square = _strikes.normal(sums[[best]])[0][0] + np.diag(self.held)
-        scale = 1.0 / np.sqrt(square.diagonal())
-        scaled = square * np.outer(scale, scale) + 1e-11 * np.eye(len(scale))
-        root = (
-            np.sqrt(variance) * scale[:, np.newaxis] * np.linalg.inv(np.linalg.cholesky(scaled)).T
-        )
-
-        # drawn again by their weights, of which none has more than that of a share of the draws
-        normal = random.normal(size=top.shape)
-        numbers = top + normal @ root.T
+    def drawn(self, random: np.random.Generator) -> tuple[_strikes.Plays, Doubles, float]:
+        """The plays, strikes and kicks of draws of P, and the effective number of draws."""
+        top, root = self.top()
+        shape = len(self.plays.ends), len(top)
+        numbers = top + random.normal(size=shape) @ root.T
         cost = self.costs(numbers)
-        logarithms = 0.5 * ((normal**2).sum(axis=1) - (cost - cost.min()) / variance)
-        most = np.quantile(logarithms, 1.0 - _ALIKE * self.error, method="lower")
-        weights = np.exp(np.minimum(logarithms - most, 0.0))
-        chosen = random.choice(count, count, p=weights / weights.sum())
-        plays.layouts = plays.layouts[:, chosen]
-        return plays, numbers[chosen]
+        numbers[~np.isfinite(cost)] = top
+        cost, first = self.costs(numbers), numbers.copy()
+        for step in range(_CHAIN):
+            length = _STEP / np.sqrt(len(top)) * (_SHORTER if step % 3 == 0 else 1.0)
+            tried = numbers + length * (random.normal(size=shape) @ root.T)
+            new = self.costs(tried)
+            taken = np.log(random.uniform(size=len(cost))) < 0.5 * (cost - new)
+            numbers[taken], cost[taken] = tried[taken], new[taken]
+        self.costs(numbers)  # the layouts of the plays are those of the last steps that were taken
+
+        # how much of a draw follows from where its chain began
+        begun, ended = (part - part.mean(axis=0) for part in (first, numbers))
+        sizes = (begun**2).sum(axis=0) * (ended**2).sum(axis=0)
+        memory = (begun * ended).sum(axis=0) ** 2 / np.maximum(sizes, 1e-300)
+        effective = float(len(cost) * (1.0 - memory.mean()))
+        return self.plays, numbers[:, : self.moved], effective

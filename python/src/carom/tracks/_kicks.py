@@ -14,6 +14,7 @@ them as in `_covariance`.
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -116,24 +117,33 @@ class Quadratic:
         )
 
 
-def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
-    """The quadratics of the shots that are played to their ends and have contacts."""
-    balls = plays.centres.shape[1]
-    variations = plays.some(range(len(numbers)))
-    # here the constants are the initial positions, each moved towards the middle of the table
+def with_positions(plays: Plays) -> tuple[Plays, Doubles]:
+    """The plays with the initial positions as the constants that `misfit` differentiates by, and the
+    signs, (shots, 2 balls), that make its derivatives those by the positions.
+
+    A position is moved towards the middle of the table, and never into a cushion.
+    """
+    varied = copy.copy(plays)
     steps = np.where(plays.centres < 0.5 * np.array(plays.table_size), _REST, -_REST)
-    moved = [plays.layouts[0]]
-    for ball in range(balls):
+    base = plays.layouts[0].copy()
+    base["state"]["r"][..., :2] = plays.centres
+    moved = [base]
+    for ball in range(plays.centres.shape[1]):
         for axis in range(2):
-            layouts = plays.layouts[0].copy()
+            layouts = base.copy()
             layouts["state"]["r"][:, ball, axis] += steps[:, ball, axis]
             moved.append(layouts)
-    variations.layouts, variations.steps = np.array(moved), np.full(2 * balls, _REST)
-    variations.tables = np.repeat(plays.tables[:1], len(moved))
+    varied.layouts, varied.steps = np.array(moved), np.full(len(moved) - 1, _REST)
+    varied.tables = np.repeat(plays.tables[:1], len(moved))
+    return varied, np.sign(steps).reshape(len(steps), -1)
+
+
+def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
+    """The quadratics of the shots that are played to their ends and have contacts."""
+    variations, sign = with_positions(plays)
     rows = np.arange(len(numbers), dtype=np.int32)
     sums = variations.misfit(rows, numbers, plays.ends, np.inf)
     square, gradient = _strikes.normal(sums)
-    sign = np.sign(steps).reshape(len(numbers), -1)
     found = []
     for k in rows:
         met_contacts = contacts(plays, int(k), numbers[k])

@@ -128,9 +128,11 @@ def _stroke(fit: Any, shot: int) -> tuple[Doubles, Doubles, float]:
 
 
 def groups_of(fit: Any) -> list[list[int]]:
-    """Groups of usable shots with similar layouts and strikes."""
+    """Groups of usable shots, except doubtful ones, with similar layouts and strikes."""
     groups: list[list[int]] = []
     for shot in np.flatnonzero(fit.counts).tolist():
+        if fit.status[shot].startswith("doubtful"):
+            continue  # the strike may be another than the player's
         for group in groups:
             first = group[0]
             here, there = fit.recordings[shot], fit.recordings[first]

@@ -28,6 +28,7 @@ from carom._rows import unknown_value
 from carom.dtypes import Doubles
 from carom.tracks import _constants
 from carom.tracks._recordings import ON_TABLE, Recording, TrackError, exchanged, is_inside
+from carom.tracks._spans import spans
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inches": 0.0254}
 _UNIT_NAMES = {"in": "inches", "inch": "inches", "metres": "m", "meters": "m", "pixels": "px"}
@@ -117,6 +118,7 @@ _PRESENT = {
 }
 _WIDE = 0.3  # share of an extent that places of a right unit reach, at least
 _RADIUS = 0.028  # m: of a ball where none is given
+_USUAL_RATE = 30.0  # frames per second, to cut a film whose rate is not known
 _ORDERED = 0.8  # share of a ball's rows in order, below which all are sorted
 
 
@@ -137,6 +139,7 @@ class _Notes:
 
     unit: str = ""  # of the positions, from the titles
     picture: str = ""  # the column of frame numbers, if they are the times
+    is_film: bool = False  # whether no column says which shot a row belongs to
     sentences: list[str] = field(default_factory=list)
     rows: dict[str, list[str]] = field(default_factory=dict)
 
@@ -296,7 +299,8 @@ def _say_columns(columns: _Columns, notes: _Notes) -> None:
         labels = ", ".join(label for label, _, _ in columns.balls)
         parts.append(f"balls {labels} from pairs of columns")
     if "shot" not in places:
-        parts.append("all rows as one shot")
+        parts.append("all rows as one film")
+        notes.is_film = True
     notes.sentences.append(f"columns: {'; '.join(parts)}")
 
 
@@ -571,6 +575,35 @@ def _recordings_of(
     return found
 
 
+def _shots_of(film: Recording, second: float, notes: _Notes) -> list[Recording]:
+    """The shots of a film, 1, 2, ..., where all balls rest in between or are put elsewhere; the film
+    itself if there is one shot. `second` is the length of a second on its clock.
+    """
+    scale = np.array([second, 1.0, 1.0])
+    tracks = [track / scale for track in film.tracks if len(track) > 1]
+    times = np.unique(np.concatenate([track[:, 0] for track in film.tracks])) / second
+    if not tracks:
+        return [film]
+    steps = np.concatenate([np.diff(track[:, 1:], axis=0).ravel() for track in tracks])
+    found = spans(tracks, times, float(np.median(np.abs(steps))))
+    if len(found) < 2:
+        return [film]
+    shots = []
+    for number, (begin, end) in enumerate(found, 1):
+        rows = [
+            track[(track[:, 0] >= second * begin) & (track[:, 0] <= second * end)]
+            for track in film.tracks
+        ]
+        seen = [k for k, part in enumerate(rows) if len(part)]
+        balls = tuple(film.balls[k] for k in seen)
+        shots.append(Recording(number, balls, tuple(rows[k] for k in seen)))
+    notes.sentences.append(
+        f"the film is cut into {len(shots)} shots, where all balls rest or are put elsewhere"
+        + ("" if second == 1.0 else f"; times are taken as {second:g} pictures a second for this")
+    )
+    return shots
+
+
 def _unit_of(unit: float | str | None) -> float | None:
     """The length of a unit, m; None if it is inferred from the file."""
     if unit is None or unit == "px":
@@ -621,8 +654,8 @@ def read(
         accepted too: separated by commas, semicolons, tabs or spaces; with decimal commas; with
         other column names, such as frame, track_id, cx, x_in or "x (mm)"; with a pair of columns
         for each ball (x1, y1, ... or cue_x, cue_y, ...); with a state (visible, hidden, pocketed);
-        and exports of Tracker, whose first line names the track. Without a column of shots, all
-        rows belong to one shot.
+        and exports of Tracker, whose first line names the track. Without a column of shots, the
+        rows are those of a film, which is cut into shots where all balls rest or are put elsewhere.
     table, radius : optional
         A built-in table, such as "9ft", or the extents (W, L) of x and y, and the radius of the
         balls, m. With a table, centres more than 60 mm outside its bounds are skipped, and the
@@ -691,4 +724,8 @@ def read(
         notes.sentences.append(
             f"times are numbers of pictures (column {notes.picture}): rate says how many a second"
         )
-    return Reading(_recordings_of(rows, places, rate or 1.0, notes), notes.lines())
+    recordings = _recordings_of(rows, places, rate or 1.0, notes)
+    if notes.is_film:
+        second = _USUAL_RATE if rate is None and notes.picture else 1.0
+        recordings = _shots_of(recordings[0], second, notes)
+    return Reading(recordings, notes.lines())

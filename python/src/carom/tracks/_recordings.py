@@ -153,6 +153,9 @@ class Recording:
         rest, most = track[0, 1:], max(MOVED, 1.5 * _NOISES * self.noise)
         for _ in range(3):
             away = np.hypot(*(track[:, 1:] - rest).T) > most
+            # motion needs two rows in sequence: a single one is noise, which is larger at the far
+            # end of a camera's view
+            away[:-1] &= away[1:]
             still = max(int(np.argmax(away)), 1) if away.any() else len(track)
             rest, most = track[: min(still, 12), 1:].mean(axis=0), self.away
         return still

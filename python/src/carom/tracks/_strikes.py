@@ -136,7 +136,7 @@ class Plays:
             shots, self.kind, self.radius, self.constants, self.cushion_model, self.threads
         )
 
-    def _of_c(self, strikes: Doubles, stride: int = 1, huber: float = HUBER) -> Any:
+    def _of_c(self, strikes: Doubles, huber: float = HUBER) -> Any:
         """The recordings for C, for strikes with a number of parameters."""
         return ffi.new(
             "carom_python_tracks *",
@@ -153,7 +153,6 @@ class Plays:
                 "shots": self.layouts.shape[1],
                 "constants": len(self.steps),
                 "kicks": (strikes.shape[-1] - _NUMBERS) // KICKS,
-                "stride": stride,
                 "step": STEP,
                 "huber": huber,
             },
@@ -199,23 +198,22 @@ class Plays:
         most: Doubles | float,
         *,
         huber: float = HUBER,
-        stride: int = 1,
     ) -> Doubles:
         """Costs of n plays, with normal equations if the cost is below `most`; see loops.h.
 
-        Shape (n, 3 + m + m (m + 1)/2), where m is 6 plus the number of steps. Play k is recording
+        Shape (n, 4 + m + m (m + 1)/2), where m is 6 plus the number of steps. Play k is recording
         of[k] with strikes[k] and the samples up to until[k], s. Kicks of contacts follow each
         strike and add five to m each.
         """
         numbers = strikes.shape[1] + len(self.steps)
-        sums = np.empty((len(shots), 3 + numbers + numbers * (numbers + 1) // 2))
+        sums = np.empty((len(shots), 4 + numbers + numbers * (numbers + 1) // 2))
         shots, strikes, end = (
             np.ascontiguousarray(shots, np.int32),
             np.ascontiguousarray(strikes),
             np.ascontiguousarray(end),
         )
         most = np.ascontiguousarray(np.broadcast_to(most, len(shots)), np.float64)
-        tracks = self._of_c(strikes, stride, huber)
+        tracks = self._of_c(strikes, huber)
 
         def part(rows: slice) -> int:
             # at most some milliseconds of C at a time, so that Ctrl-C is heard
@@ -492,11 +490,11 @@ def at_bound(strike: Doubles) -> str:
 
 def normal(sums: Doubles) -> tuple[Doubles, Doubles]:
     """J^T W J, (n, m, m), and J^T W d, (n, m), of the sums of n plays."""
-    m = (int(math.isqrt(9 + 8 * (sums.shape[1] - 3))) - 3) // 2
+    m = (int(math.isqrt(9 + 8 * (sums.shape[1] - 4))) - 3) // 2
     lower = np.tril_indices(m)
     square = np.zeros((len(sums), m, m))
-    square[:, lower[0], lower[1]] = square[:, lower[1], lower[0]] = sums[:, 3 + m :]
-    return square, sums[:, 3 : 3 + m]
+    square[:, lower[0], lower[1]] = square[:, lower[1], lower[0]] = sums[:, 4 + m :]
+    return square, sums[:, 4 : 4 + m]
 
 
 def descend(
@@ -507,7 +505,6 @@ def descend(
     iterations: int,
     *,
     huber: float = HUBER,
-    stride: int = 1,
     held: Doubles | None = None,
     sums: Doubles | None = None,
 ) -> tuple[Doubles, Doubles]:
@@ -523,7 +520,7 @@ def descend(
     n, numbers = strikes.shape
     held = np.zeros((n, numbers)) if held is None else held
     if sums is None:
-        sums = plays.misfit(shots, strikes, end, np.inf, huber=huber, stride=stride)
+        sums = plays.misfit(shots, strikes, end, np.inf, huber=huber)
     sums = sums.copy()
     costs = sums[:, 0] + (held * strikes**2).sum(axis=1)
     damping, failed = np.full(n, 1e-2), np.zeros(n, int)
@@ -544,9 +541,7 @@ def descend(
         tried = allowed(strikes[rows] + step)
         # taken where the cost falls; else a shorter one next time, up to six times
         price = (held[rows] * tried**2).sum(axis=1)
-        new = plays.misfit(
-            shots[rows], tried, end[rows], costs[rows] - price, huber=huber, stride=stride
-        )
+        new = plays.misfit(shots[rows], tried, end[rows], costs[rows] - price, huber=huber)
         cost = new[:, 0] + price
         better = cost < costs[rows]
         drop = 1.0 - cost / costs[rows]

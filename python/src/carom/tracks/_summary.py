@@ -37,7 +37,7 @@ BANDS, _CONTACTS = (
     (0, 1, 2, 3, 4, 6, 8, 11),
 )  # shares of the samples, and contacts from which a row of bands holds
 # of `model_error`: the least share of a kick that a track tells, how many kicks tell it, and its least
-_KNOWN, _KICKS_LEAST, _ERROR_LEAST = 0.3, 20, 0.01
+_KNOWN, _KICKS_LEAST, _ERROR_LEAST = 0.3, 20, 1e-3
 _WIDTH, _HEIGHT, _LEFT, _BELOW, _ABOVE = 460.0, 300.0, 60.0, 45.0, 12.0  # of a chart, pixels
 _INK, _MARK, _LINE = "#333333", "#1f5fae", "#c0392b"
 _STYLE = (
@@ -294,7 +294,7 @@ class Fit:
         Raises
         ------
         ValueError
-            No strike was found, or there are no rows after the first.
+            No strike explains the known rows, or there are no rows after the first.
         """
         whole = self.recordings[shot] if isinstance(shot, int) else shot
         whole = until_pocketed(whole, self.ground.table)

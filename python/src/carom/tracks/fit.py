@@ -199,14 +199,10 @@ class _Job:
             self.progress(what, part)
 
 
-def _strike(
-    job: _Job, played: list[int], values: dict[str, float]
-) -> tuple[_strikes.Plays, Doubles, Doubles]:
-    """The strikes of these shots with these constants, and their RMSE."""
-    plays = job.plays(played, values)
-    strikes, _ = _search.find(plays, progress=job.progress, squares=True)
-    rmse = plays.rmse(strikes)
-    return plays, strikes, rmse
+def _median(job: _Job, shots: Sequence[int], values: dict[str, float]) -> float:
+    """The median RMSE of shots with constants, by the strikes of a quick search, m."""
+    plays = job.plays(shots, values)
+    return float(np.median(plays.rmse(_search.find(plays)[0])))
 
 
 def _fit_to_events(
@@ -454,22 +450,19 @@ def fit(
             outcome = _Told(*_fit_to_events(job, fitted, values, remarks))
         if free[0] not in ("none", "events") and fitted:
             outcome = _fit_to_shots(job, fitted, outcome.values, outcome.spread, remarks)
-        plays, strikes[played], rmse[played] = _strike(job, played, outcome.values)
         if outcome.values != values and fitted:
             # constants that play the shots worse than those that were given are not taken
-            begun = _strike(job, played, values)
-            medians = [
-                float(np.median(rmses[np.isin(played, fitted)]))
-                for rmses in (begun[2], rmse[played])
-            ]
-            if _WORSE * medians[0] < medians[1]:
-                plays, strikes[played], rmse[played] = begun
+            given, told = (_median(job, fitted, each) for each in (values, outcome.values))
+            if told > _WORSE * given:
                 outcome = _Told(values, {})
                 remarks.append(
                     f"the constants that were found play the shots worse, to a median RMSE of "
-                    f"{1e3 * medians[1]:.2f} mm, than those that were given, {1e3 * medians[0]:.2f} mm: "
+                    f"{1e3 * told:.2f} mm, than those that were given, {1e3 * given:.2f} mm: "
                     f"these are kept"
                 )
+        plays = job.plays(played, outcome.values)
+        strikes[played], _ = _search.find(plays, progress=progress, squares=True)
+        rmse[played] = plays.rmse(strikes[played])
         for k in played:
             if not np.isfinite(rmse[k]):
                 status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
