@@ -128,7 +128,7 @@ typedef struct carom_tangent {
  * event to event, on the cloth and in flight. Only clusters are played again, once for each
  * direction. All events of a cluster have the flags and the time derivative of its first event, and
  * CAROM_TANGENT_CLUSTER. A touch inside a cluster that begins to stick has no flag. Nothing is
- * allocated. Stack: 66 KiB; a batch 68 KiB. Cost: docs/using/derivatives.md.
+ * allocated. Stack: 69 KiB; a batch 72 KiB. Cost: docs/using/derivatives.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS;
  * CAROM_ERROR_DIRECTIONS if there are not 1 to 64; CAROM_ERROR_EVENTS_LOST if shot->room was too

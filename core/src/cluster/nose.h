@@ -29,7 +29,7 @@
 #ifndef CAROM_SRC_CLUSTER_NOSE_H
 #define CAROM_SRC_CLUSTER_NOSE_H
 
-#include "cluster/cluster.h"
+#include "carom_shot.h"
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
 #include "platform/ranges.h"

@@ -22,6 +22,7 @@
  * time, though the clock of the shot stands still: where the tip is against the ball counts. If it
  * presses the ball in the nose, both are one event of the shot, a push. Otherwise the cushion gives
  * what it gives without a cue, to the bit. */
+#include "cluster/cluster.h"
 #include "cluster/cue.h"
 #include "cluster/nose.h"
 #include "motion/gap.h"

@@ -115,7 +115,7 @@ def test_errors_can_be_pickled():
                 error.value,
             )
             if error.shot is not None:
-                assert copy.shot.count == error.shot.count == 15  # the break is one cluster
+                assert copy.shot.count == error.shot.count == 14  # the break is one cluster
                 assert_array_equal(
                     copy.shot.positions([0.0, 0.1]), error.shot.positions([0.0, 0.1])
                 )
