@@ -67,7 +67,8 @@ def test_second_derivatives_are_those_of_hessian():
     assert_allclose(found, expected, rtol=1e-9)
     vectors = np.array([[0.1, 0.2, 0.3, 0.4]])
     along = shots.along(x, vectors)
-    assert_allclose(along[..., 0], shots.second(x) @ vectors[0], rtol=1e-6, atol=1e-9)
+    # both are differences, of other steps: the friction of pool's balls is steep at slow slips
+    assert_allclose(along[..., 0], shots.second(x) @ vectors[0], rtol=1e-5, atol=1e-9)
 
 
 def test_numbers_of_layouts_and_of_all_balls_are_broadcast():
