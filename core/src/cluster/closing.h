@@ -9,7 +9,7 @@
  * limit of a raised one. Then only what touches within the recovery of the tip belongs to the push,
  * and balls above the slate fall to it. A tip that would close without the impulse of the slate too
  * touches again as it follows through (shot/follow_through.c). All else is met in flight, from
- * positions that make both the same: places.c. After a further touch the push goes on until the
+ * positions that make both the same: places.c. After a further touch the push lasts until the
  * shaft is straight, and in a nose until the ball has left it. */
 #ifndef CAROM_SRC_CLUSTER_CLOSING_H
 #define CAROM_SRC_CLUSTER_CLOSING_H
@@ -76,7 +76,7 @@ static inline bool slate_ends(carom_cluster_state *cluster, double step) {
 }
 
 /* Whether the end of the shaft, bent after a further touch, may touch the ball once more: so long
- * the push goes on. It does not where the axis recedes, farther away than the end may swing. */
+ * the push lasts. It does not where the axis recedes, farther away than the end may swing. */
 static inline bool shaft_straightens(const carom_cluster_state *cluster) {
   const carom_cluster_tip *tip = &cluster->tip;
   const carom_cluster_ball *ball = &cluster->ball[tip->ball];

@@ -288,8 +288,8 @@ void carom_cluster_find_places(carom_cluster_state *cluster);
 /* Reduces the shifts so that no two balls start too deep in each other; find_places() does so. */
 void carom_cluster_limit_shifts(carom_cluster_state *cluster);
 double carom_cluster_tip_lead(const carom_cluster_state *cluster);
-/* The same of a further touch, which takes no time of the shot's clock, in m: the tip goes on from
- * `travel` along its axis, beside which it has `moved` against the ball; and the arm from `arm`. */
+/* The same of a further touch, which takes no time of the shot's clock. In m: the tip continues
+ * from `travel` along its axis, and has `moved` against the ball; the arm continues from `arm`. */
 typedef struct carom_next_tip {
   double travel, arm, moved[3];
 } carom_next_tip;

@@ -7,7 +7,7 @@
  * cloth: phi grows by min(1, F_down / (mu F)). So a cue that is raised by a hair pushes as a level
  * one. A ball that nothing else touches has the same law in phases: shot/raised.c.
  *
- * A ball that a nose throws down (nose.h), or that comes down to one, lands afterwards, as its own
+ * A ball that a nose throws down (nose.h), or that comes down to one, lands afterwards, as another
  * event, as it does where no tip is. So the slate does not see what it `falls` by: the speed that
  * closes here is -(v_z - falls). */
 #ifndef CAROM_SRC_CLUSTER_SLATE_H

@@ -72,7 +72,7 @@ typedef struct carom_push_nose {
 } carom_push_nose;
 /* The nearest one within reach of a push; false: none is. */
 bool carom_find_nose(carom_sim *sim, const carom_ball_state *ball, carom_push_nose *nose);
-/* That of a part, as an event names it: its plane. */
+/* The plane of the nose that an event names. */
 void carom_nose_of_part(carom_sim *sim, const carom_ball_state *ball, const carom_due *event,
                         carom_push_nose *nose);
 /* The one that is due to be touched. */
@@ -107,11 +107,11 @@ void carom_follow_find(carom_play *play);
 /* *moved_cue becomes the cue with the position of its tip and its speed; tip_place the way from the
  * centre to the tip. Returns whether that is a touch. */
 bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue, double tip_place[3]);
-/* The tip is moved against the ball, beside what the cue travels: as if the cue had struck that
- * much aside. */
+/* The tip is moved against the ball, in addition to what the cue travels, as if the cue had struck
+ * elsewhere. */
 void carom_follow_moved(carom_play *play, const double moved[3]);
 /* Whether the tip may reach the struck ball while that touches a nose; and, behind one that the tip
- * has not reached, which took the ball from one state to another, the cue goes on. */
+ * has not reached, which took the ball from one state to another, the cue continues. */
 bool carom_tip_is_near(const carom_play *play, const carom_ball_state *ball);
 void carom_follow_nose(carom_play *play, const carom_ball_state *start,
                        const carom_ball_state *end);
