@@ -13,7 +13,7 @@ for (let k = 0; k < strokes && !ended && game.phase !== "over"; k++) {
   const me = game.seat;
   const player = players[me];
   const opponent = players[1 - me];
-  const [best] = game.plan({ player, opponent, shots: 300 });
+  const [best] = game.plan({ player, opponent, shots: 300, best: 1 });
   game.take(best, carom.withErrors(best.cue, player, 9, game.shots));
   console.log(`${me + 1}: ${game.ruling.words}`);
   if (game.phase === "over") ended = game.end();

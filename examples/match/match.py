@@ -14,7 +14,7 @@ else:
     game = carom.Match("eightball", carom.tables.pool_9ft(), seed=5)
 while strokes > 0 and game.phase != "over":
     me = game.seat
-    best = game.plan(player=players[me], opponent=players[1 - me], shots=300)[0]
+    best = game.plan(player=players[me], opponent=players[1 - me], shots=300, best=1)[0]
     game.take(best, carom.with_errors(best["cue"], players[me], 9, game.shots))
     print(f"{me + 1}: {game.ruling.words}")
     strokes -= 1

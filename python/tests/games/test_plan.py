@@ -147,7 +147,7 @@ def test_aim_by_a_way():
     )
     for places, ball, pocket, via in ways:
         layout = carom.balls([[0.6, 0.8], *places])
-        pot = carom.aim(TABLE, layout, carom.cue(speed=3.0), ball=ball, pocket=pocket, via=via)
+        pot = carom.aim(TABLE, layout, carom.cue(speed=4.0), ball=ball, pocket=pocket, via=via)
         events = carom.simulate(TABLE, layout, pot.cue).events
         fallen = next(
             k
@@ -280,8 +280,9 @@ def test_sequence():
 
 def test_run_out():
     """A turn that ends before the game is won is worth nothing to a plan to run out."""
+    layout = carom.balls([[0.4, 0.9], [0.3, 1.9], [0.9, 1.7], [0.7, 0.5], [0.2, 0.3]])
     wins, runs = (
-        carom.plan(TABLE, LAYOUT, rules="nineball", shots=300, best=1, run_out=out)["value"][0]
+        carom.plan(TABLE, layout, rules="nineball", shots=300, best=1, run_out=out)["value"][0]
         for out in (False, True)
     )
     assert runs < wins - 0.02

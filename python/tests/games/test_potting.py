@@ -749,7 +749,7 @@ def test_the_opponent_is_stopped_by_shots(monkeypatch, game):
 def test_the_planner_plays_the_level_cue_of_the_game():
     """The stroke is that of the plan, whose cue would be raised over the cushion behind the ball."""
     rules = Potting(1, 1)
-    layout = rules.layout([[0.04, 1.0], [0.3, 0.6]])
+    layout = rules.layout([[0.04, 1.0], [0.5, 0.7]])
     raised, level = (
         carom.plan(
             rules.table, layout, rules="potting", player=rules.player(), shots=200, best=1, level=k

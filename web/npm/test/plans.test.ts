@@ -144,7 +144,7 @@ test.runIf(thereIsACommand)(
       const balls = [[0.6, 0.8], ...corner].map(([x, y]) => carom.ball(x!, y!));
       for (const [places, ball, pocket, via] of request) {
         const balls = [[0.6, 0.8], ...places].map(([x, y]) => carom.ball(x!, y!));
-        const aimed = carom.aim(table, balls, { speed: 3 }, { ball, pocket, via });
+        const aimed = carom.aim(table, balls, { speed: 4 }, { ball, pocket, via });
         expect(aimed.outcome).toBe("falls");
         const words = [
           "shoot",
@@ -153,7 +153,7 @@ test.runIf(thereIsACommand)(
           "--balls",
           places.map((place) => place.join(",")).join(":"),
           "--speed",
-          "3",
+          "4",
           "--pocket",
           `${ball}:${pocket}`,
           ...(via.length > 0 ? ["--via", via.join(",")] : []),

@@ -39,7 +39,7 @@ test("the package has the library's version, and no dependency at run time", () 
   expect(lock).not.toMatch(/"resolved": "(?!https:\/\/registry\.npmjs\.org\/|npm"|page")/);
 });
 
-test("the compressed size is at most 395 kB", async () => {
+test("the compressed size is at most 400 kB", async () => {
   const { gzipSync } = await import("node:zlib");
   const { readdirSync } = await import("node:fs");
   const size = (names: string[]) =>
@@ -53,6 +53,6 @@ test("the compressed size is at most 395 kB", async () => {
   for (const { name: build } of builds) {
     const bytes = size([...common, `generated/${build}.js`]);
     console.log(`what a user of the build ${build} loads: ${bytes} bytes compressed`);
-    expect(bytes).toBeLessThan(395_000);
+    expect(bytes).toBeLessThan(400_000);
   }
 });
