@@ -2,8 +2,8 @@
  *
  * Its tip continues along the axis c at the speed V that the push has left it, for the length
  * cue.follow from where it struck. That length is a convention: the arm, which takes the cue away,
- * is not computed. It goes on at a tenth of the first speed at least, also where the ball has
- * stopped the cue or thrown it back: the cue stays in the way until then. With p from the centre of
+ * is not computed. It moves at a tenth of the first speed at least, also where the ball has stopped
+ * the cue or thrown it back: the cue stays in the way until then. With p from the centre of
  * the struck ball to the tip, the next touch is where
  *
  *     |p| = R,   p = p0 + t V c - v t - a t^2
@@ -18,7 +18,7 @@
  * stops. A tip that closes slower than CAROM_LEAST_TOUCH is at the ball until the next event; a tip
  * that passes its middle misses: there the follow-through ends.
  *
- * NOSE. A cushion that the ball meets meanwhile lasts (cluster/nose.h), and the cue goes on by that
+ * NOSE. A cushion that the ball meets meanwhile lasts (cluster/nose.h), and the cue moves for that
  * time, though the clock of the shot stands still: where the tip is against the ball counts. If it
  * presses the ball in the nose, both are one event of the shot, a push. Otherwise the cushion gives
  * what it gives without a cue, to the bit. */

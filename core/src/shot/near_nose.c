@@ -1,6 +1,6 @@
 /* The nose of a cushion near a ball, as a plane: the nearest of all rails and jaws.
  *
- * On the cloth its normal is level, and the gap is that of the ball and the wall; in flight it goes
+ * On the cloth its normal is level, and the gap is between ball and wall; in flight it points
  * from the nose to the centre, table/nose.c. A jaw is taken for the plane that touches it. */
 #include "cluster/cluster.h"
 #include "platform/vectors.h"

@@ -635,7 +635,7 @@ touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
 }
 
 /* The struck ball, as it is now, meets a cushion while the cue follows through. Returns whether the
- * tip presses it meanwhile: then both are over, and *status is that of the shot. */
+ * tip presses it meanwhile: then both are over, and the shot has *status. */
 __attribute__((noinline, cold)) static bool push_in_nose(carom_play *play, const carom_due *event,
                                                          carom_ball_state *ball,
                                                          carom_status *status) {

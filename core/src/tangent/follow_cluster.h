@@ -48,7 +48,7 @@ typedef struct carom_tangent_cluster {
   /* written: of a push the speed of the cue after it, and the lead of its tip, with their
      tangents */
   double V, V_rate, lead, lead_rate;
-  /* how far its arm has gone, and where the tip is moved beside its way */
+  /* how far its arm has moved, and by what the tip is moved in addition */
   double arm, arm_rate, moved[3], moved_rate[3];
 } carom_tangent_cluster;
 
