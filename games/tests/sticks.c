@@ -229,9 +229,9 @@ TEST(noses_under_the_stick) {
 /* The elevation where it begins: balls next to a level stick, which they just touch or do not, and
  * the end of the stick over a cushion. Below the middle it jumps there. */
 TEST(where_the_stick_begins_to_touch) {
-  enum { PLACES = 120, STRIDE = 7 }; /* without a common factor, so that few are all over them */
+  enum { PLACES = 120, STRIDE = 47 }; /* without a common factor, so that few are all over them */
   int jumps = 0, held = 0;
-  for (int n = 0; n < draws_of_test(PLACES / 3, PLACES); n++) {
+  for (int n = 0; n < draws_of_test(PLACES / 2, PLACES); n++) {
     const int k = n * STRIDE % PLACES;
     make_layout(1, 2);
     place_ball(8, 0.4, 2.2);
