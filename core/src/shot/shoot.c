@@ -305,7 +305,7 @@ static bool is_none(const carom_cluster_state *cluster, push_kind kind, int coun
   case PUSH_OF_SEVERAL:
     return count == 0;
   case PUSH_IN_NOSE:
-    return count == 0 && !(cluster->tip.impulse > 0.0);
+    return count >= 0 && !(cluster->tip.impulse > 0.0);
   default:
     return false;
   }
@@ -375,8 +375,8 @@ static carom_status note_push(carom_play *play, const carom_cluster_state *clust
 }
 
 /* Resolves the push of a cue together with the contacts of balls that last meanwhile, and with a
- * nose; their events follow the event of the strike. Returns false, with nothing changed, where it
- * is none. *contact becomes the first contact of the struck ball with another one. */
+ * nose; the events of balls follow those of tip and nose. Returns false, with nothing changed,
+ * where it is none. *contact becomes the first contact of the struck ball with another one. */
 __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_cue_push *task,
                                                  push_kind kind, carom_due *contact,
                                                  carom_status *status) {

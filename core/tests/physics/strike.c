@@ -917,6 +917,36 @@ TEST(cues_that_have_stopped) {
   ck_assert_int_lt(3 * past, touches);
 }
 
+/* Strokes next to a cushion and other balls: a touch of the tip that is told has an impulse. Where
+ * only the balls act in a nose, the tip has not touched. */
+TEST(touches_have_an_impulse) {
+  random_source r = {test_seed()};
+  carom_table table;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  int touches = 0, noses = 0;
+  for (int n = 0; n < draws_of_test(400, 2000); n++) {
+    carom_cue cue = cue_at(random_between(&r, 0.5, 6.0), 180.0 + random_between(&r, -70.0, 70.0));
+    cue.theta = n % 2 == 0 ? 0.0 : random_between(&r, 0.0, 50.0);
+    balls[0] = ball_at(R + random_between(&r, 0.0, 0.02), random_between(&r, 0.4, 0.9));
+    balls[1] = ball_at(2.0, 2.0);
+    beside(1, 0, random_between(&r, 0.0, 0.02), random_between(&r, -90.0, 90.0));
+    for (int k = 0; k < 2; k++)
+      balls[k].kind = carom_ball_kind_of(CAROM_GAME_POOL);
+    carom_shot shot = empty_shot();
+    shot.facts = &facts;
+    expect_ok(carom_shoot(&table, balls, 2, &cue, NULL, &shot));
+    for (int64_t k = 1; k < shot.count; k++) {
+      if (events[k].type != CAROM_EVENT_STRIKE)
+        continue;
+      ck_assert_double_gt(events[k].impulse, 0.0);
+      touches++;
+      noses += events[k].cluster > 1;
+    }
+  }
+  printf("%d further touches, %d with other contacts\n", touches, noses);
+  ck_assert_int_gt(noses, touches / 10);
+}
+
 /* A cue without a follow-through touches once, level and raised. */
 TEST(no_follow_through) {
   random_source r = {test_seed()};
