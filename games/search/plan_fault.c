@@ -1,5 +1,5 @@
 /* Which part of a job carom_plan() rejects with CAROM_ERROR_OPTIONS, as a text: the member, its
- * value and its range. The order is that of the checks in prepare.c. */
+ * value and its range. The order follows the checks in prepare.c. */
 #include "goals.h"
 #include "plan_options.h"
 #include "player.h"

@@ -330,7 +330,7 @@ static void turn(double cosine, double sine, double x[3]) {
   x[0] = along;
 }
 
-/* Two balls on the cloth, in the plane y = 0, by the law between that of equal balls and that of
+/* Two balls on the cloth, in the plane y = 0, by the law between the laws of equal balls and of
  * spheres: (1 - phi) of carom_collide() with its plane turned through the line of centres and
  * R_b w_b for the second ball, phi of carom_impact3(), phi = (n_z / 0.1)^2. */
 static carom_result between_the_laws(const carom_impact *in) {

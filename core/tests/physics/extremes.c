@@ -143,8 +143,8 @@ static double gain_of_cluster(const extreme *x, const carom_event *event, int64_
   return (after - before) / fmax(before, 1e-12);
 }
 
-/* Whether a cue pushes the balls of a cluster: its strike is the first event, or the second, behind
- * that of a nose. */
+/* Whether a cue pushes the balls of a cluster: its strike is the first event, or the second after
+ * a nose. */
 static bool is_push(const carom_event *first) {
   return first[0].type == CAROM_EVENT_STRIKE || first[1].type == CAROM_EVENT_STRIKE;
 }
