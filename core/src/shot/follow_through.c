@@ -14,9 +14,10 @@
  *
  * (gap.c). There it pushes as tip.h has it, with the (a, b) of p, and continues at the speed that
  * is left. It is looked for from the first contact of the cue ball with another ball or a cushion
- * after a touch on: before that the ball runs away from the cue, but in slow draws, in which an arm
- * stops. A tip that closes slower than CAROM_LEAST_TOUCH is at the ball until the next event; a tip
- * that passes its middle misses: there the follow-through ends.
+ * after a touch on, and from a further touch on that throws the cue back: before that the ball runs
+ * away from the cue, but in slow draws, in which an arm stops. A tip that closes slower than
+ * CAROM_LEAST_TOUCH stays at the ball until the next event; a tip that passes its middle misses:
+ * there the follow-through ends.
  *
  * NOSE. A cushion that the ball meets meanwhile lasts (cluster/nose.h), and the cue moves for that
  * time, though the clock of the shot stands still: where the tip is against the ball counts. If it

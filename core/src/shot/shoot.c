@@ -616,11 +616,12 @@ touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
   const bool pushes = touches && push(play, &task, PUSH_AGAIN, pending_event, &status);
   *lies = touches && !pushes;
   if (pushes) {
-    sim->turned = nose_near && nose.touches;
+    const bool in_nose = nose_near && nose.touches;
+    sim->turned = in_nose || f->V < 0.0; /* it may follow a cue that it has thrown back */
     carom_detect_all(sim);
     const carom_due strike_event = {sim->time, CAROM_EVENT_STRIKE, sim->struck, -1};
     bool stops = stops_at(sim, &strike_event, false);
-    if (sim->turned)
+    if (in_nose)
       stops |= stops_at(sim, &nose.event, false);
     if (status == CAROM_OK && stops)
       status = CAROM_STOPPED_AT_EVENT;

@@ -869,9 +869,40 @@ static double depth_of_tip(const carom_play *play, const carom_cue *cue, const d
                   tip_place[2] * tip_place[2]);
 }
 
+/* How deep the tip comes in the ball between its touches: the stroke is stopped each half
+ * millisecond as long as the cue continues. The tip loses the side of the ball, so only a tip whose
+ * ball is ahead of it counts. */
+static double depth_on_the_way(const carom_table *table, carom_shot_ball *ball,
+                               const carom_cue *cue) {
+  static carom_shot_state state;
+  static carom_play play;
+  carom_shot shot = empty_shot();
+  shot.state = &state;
+  carom_shot_options options = {.time_most = 5e-4};
+  double deepest = 0.0;
+  for (carom_status status = carom_shoot(table, ball, 1, cue, &options, &shot);
+       status == CAROM_STOPPED_AT_TIME;
+       status = carom_shot_continue(table, ball, 1, &options, &shot)) {
+    memcpy(&play, &state, sizeof play);
+    const carom_follow *follow = &play.follow;
+    if (!(shot.time <= follow->end))
+      break;
+    const carom_ball_state *now = &shot.final[0];
+    double axes[3][3], tip_place[3], offset[3];
+    carom_tip_from(cue, R, follow->origin, follow->along + follow->V * (shot.time - follow->start),
+                   now->r, axes, tip_place);
+    carom_tip_on(axes, tip_place, offset);
+    if (offset[0] < -0.3)
+      deepest = fmax(deepest, R - carom_space_size(tip_place));
+    options.time_most = shot.time + 5e-4;
+  }
+  return deepest;
+}
+
 /* Strokes of a ball that is frozen to a cushion or next to it, into it, stopped at each touch. A
  * cue that the ball has stopped or thrown back is still there: no touch leaves its tip deep in the
- * ball, unless the ball has slid past it, and none comes late. */
+ * ball, unless the ball has slid past it, none comes late, and the ball does not pass through the
+ * tip between them. */
 TEST(cues_that_have_stopped) {
   static carom_shot_state state;
   static carom_play play;
@@ -902,6 +933,7 @@ TEST(cues_that_have_stopped) {
       status = carom_shot_continue(&table, &ball, 1, &options, &shot);
     }
     ck_assert_int_eq(status, CAROM_OK);
+    deepest = fmax(deepest, depth_on_the_way(&table, &ball, &cue));
     touches += facts.touches;
     most = facts.touches > most ? facts.touches : most;
     if (n % 2 == 0)
