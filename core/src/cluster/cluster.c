@@ -549,11 +549,12 @@ static inline void rub_all(bool flat, cluster_state *cluster, const pushes *push
     rub(flat, contact, contact->friction);
   }
 
-  /* the cloth, and all contacts from the same velocities, alternately; the cloth is the last */
+  /* the cloth, and all contacts from the same velocities, alternately; the cloth is the last, and
+     acts once where it is alone */
   for (int iteration = 0; iteration <= ITERATIONS; iteration++) {
     for (int index = 0; index < pushed->balls; index++)
       rub_on_cloth(&cluster->ball[pushed->pushed[index]]);
-    if (iteration == ITERATIONS)
+    if (iteration == ITERATIONS || pushed->contacts == 0)
       return;
     for (int index = 0; index < pushed->contacts; index++)
       iterate(flat, &cluster->contact[pushed->push[index]], change[index]);
