@@ -130,20 +130,23 @@ TEST(told_chances_are_of_drawn_places) {
   for (size_t k = 0; k < COUNT_OF(eyes); k++) {
     const double told = tried(&stroke, eyes[k], 600).keep, eye = fmax(eyes[k], 0.0);
     double came = 0.0;
-    const int layouts = draws_of_test(50, 100);
+    const int layouts = draws_of_test(120, 240);
     for (int n = 0; n < layouts; n++) {
-      put_combination(0.02);
-      for (int ball = 0; ball < 10; ball++)
-        for (int x = 0; x < 2 && (ball == 0 || ball > 7); x++)
-          balls[ball].state.r[x] += eye * sqrt(-2.0 * log(random_between(&r, 1e-9, 1.0))) *
-                                    cos(6.283185307 * random_between(&r, 0.0, 1.0));
+      do { /* balls do not lie in each other */
+        put_combination(0.02);
+        for (int ball = 0; ball < 10; ball++)
+          for (int x = 0; x < 2 && (ball == 0 || ball > 7); x++)
+            balls[ball].state.r[x] += eye * sqrt(-2.0 * log(random_between(&r, 1e-9, 1.0))) *
+                                      cos(6.283185307 * random_between(&r, 0.0, 1.0));
+      } while (hypot(balls[9].state.r[0] - balls[8].state.r[0],
+                     balls[9].state.r[1] - balls[8].state.r[1]) < 2.0 * balls[0].kind.radius);
       options.seed = (uint64_t)n;
       came += tried(&stroke, -1.0, 50).keep / layouts;
     }
     put_combination(0.02);
     options.seed = 0;
     printf("eye of %g mm: told %.3f, came %.3f\n", 1e3 * eye, told, came);
-    ck_assert_double_eq_tol(told, came, 0.1);
+    ck_assert_double_eq_tol(told, came, 1.5 / sqrt(layouts)); /* three standard errors at most */
     ck_assert_double_lt(told, last);
     last = told - 0.02;
   }
