@@ -1,7 +1,8 @@
 import { defineConfig } from "vitest/config";
 
-// The package's tests, and one look at each view of the page; with CAROM_PAGE=whole all of its tests.
-const page = process.env.CAROM_PAGE === "whole" ? "**/*" : "smoke";
+// The package's tests, those of the page without a browser, and one look at each of its views; with
+// CAROM_PAGE=whole all of its tests.
+const page = process.env.CAROM_PAGE === "whole" ? "**/*" : "{schema,smoke}";
 
 export default defineConfig({
   test: {

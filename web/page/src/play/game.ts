@@ -33,6 +33,7 @@ import { atHead, isWithin } from "../table/head.js";
 import { placesOf, placesText, pocketed } from "../table/places.js";
 import { wrong } from "../ui.js";
 import { type Act, actsOf, type Line, perform } from "./acts.js";
+import { membersOf } from "./schema.js";
 import { texts } from "../texts/texts.js";
 
 /** Whom one plays against: a Fargo rating, a person at this page, one by link, or nobody. */
@@ -141,13 +142,16 @@ export function tableOf({
 }
 /** The balls of a game on its cloth, with its cushions. Throws where there are no such ones. */
 function kindOf(carom: Carom, game: Game, { cloth, cushion }: Setup): BallKind {
-  const numbers = cushion?.includes(",") ? cushion.split(",").map(Number) : undefined;
+  const isNumber = (part: string): boolean => part.trim() !== "" && Number(part) >= 0;
+  const numbers = cushion?.includes(",")
+    ? cushion.split(",").map((part) => (isNumber(part) ? Number(part) : NaN))
+    : undefined;
   const named = [cloth, numbers ? undefined : cushion].filter((name) => name !== undefined);
   if (game !== "pool" && (named.length > 0 || numbers)) throw new TypeError(texts.onlyTablesOfPool);
   const kind = carom.kind(game, OPTIONS.cushionModel, named as Condition[]);
   if (!numbers) return kind;
   const [restitutionCushion, muCushion] = numbers as [number, number];
-  if (!(numbers.length === 2 && restitutionCushion <= 1 && muCushion <= 1 && muCushion >= 0))
+  if (!(numbers.length === 2 && restitutionCushion <= 1 && muCushion <= 1))
     throw new TypeError(texts.twoNumbersAreNeeded(cushion!));
   return { ...kind, restitutionCushion, muCushion };
 }
@@ -232,8 +236,11 @@ export class Play {
     if (!base || (!this.practice && !this.played))
       throw new TypeError(texts.gameThereIsNo(setup.game));
     if (typeof lines[0] === "string" && !this.practice) this.#match = matchRead(carom, lines);
-    this.table = this.#match?.table ?? tableNamed(carom, base, setup.table);
-    this.balls = this.#match?.balls ?? this.#laid(base);
+    // A table or layout that there is not is refused, even where the lines have another one.
+    const named = tableNamed(carom, base, setup.table);
+    this.table = this.#match?.table ?? named;
+    const laid = this.#laid(base);
+    this.balls = this.#match?.balls ?? laid;
     this.names = this.balls.map((_, k) => base.names(k));
     const rules = this.practice && this.hasPockets ? "potting" : this.played!.rules;
     this.#practised = { rules, group: "open", opening: isOpening(rules, setup) };
@@ -477,7 +484,12 @@ export class Play {
 
 /** The parts of a text. Throws where an older page saved it. */
 function parsed(text: string): { setup: Setup; lines: Line[]; aims: string } {
-  const { lines = [], aims = "", entries = [], ...setup } = JSON.parse(text) as Setup & Kept;
+  const {
+    lines = [],
+    aims = "",
+    entries = [],
+    ...setup
+  } = membersOf(text) as unknown as Setup & Kept;
   if (entries.length > 0) throw new TypeError(texts.anOlderPageKept);
   return { setup, lines, aims };
 }
