@@ -1,5 +1,5 @@
-// The page without a network: this worker keeps what was loaded, and requests it again whenever
-// there is a network.
+// The page without a network, and with one that does not answer: this worker answers with what it
+// keeps, and asks the network for the next time. What it does not keep comes from the network.
 const KEPT = "carom-explorer";
 self.addEventListener("install", (event) => {
   event.waitUntil(
@@ -8,17 +8,21 @@ self.addEventListener("install", (event) => {
   self.skipWaiting();
 });
 self.addEventListener("activate", (event) => event.waitUntil(self.clients.claim()));
-async function answer(request) {
-  const cache = await caches.open(KEPT);
-  try {
-    const response = await fetch(request);
-    if (response.ok) await cache.put(request, response.clone());
-    return response;
-  } catch (error) {
-    return (await cache.match(request)) ?? Promise.reject(error);
-  }
+async function fromNetwork(request) {
+  const response = await fetch(request);
+  if (response.ok) await (await caches.open(KEPT)).put(request, response.clone());
+  return response;
 }
 self.addEventListener("fetch", (event) => {
-  if (event.request.method === "GET" && new URL(event.request.url).origin === location.origin)
-    event.respondWith(answer(event.request));
+  const { request } = event;
+  if (request.method !== "GET" || new URL(request.url).origin !== location.origin) return;
+  const fresh = fromNetwork(request);
+  const kept = caches.open(KEPT).then((cache) => cache.match(request));
+  event.respondWith(kept.then((response) => response ?? fresh));
+  event.waitUntil(
+    fresh.then(
+      () => undefined,
+      () => undefined,
+    ),
+  );
 });

@@ -11,6 +11,23 @@ export const CLOCKS = ["0", "30", "40", "60"];
 const TICK_MS = 200;
 /** From how many seconds on the clock is marked. */
 const WARNED = 10;
+/** Where a tab keeps for which stroke the clock runs, and how long it has run, ms: a reload goes on. */
+const KEY = "carom-clock";
+function usedFor(stroke: string): number {
+  try {
+    const [of, used] = JSON.parse(sessionStorage.getItem(KEY) ?? "[]") as [string?, number?];
+    return of === stroke && Number(used) > 0 ? Number(used) : 0;
+  } catch {
+    return 0; // the reader has forbidden it
+  }
+}
+function keepUsed(stroke: string, used: number): void {
+  try {
+    sessionStorage.setItem(KEY, JSON.stringify([stroke, used]));
+  } catch {
+    // As above: such a browser gives the whole time again.
+  }
+}
 
 export function shotClock(s: Session): { root: HTMLElement; close(): void } {
   const root = el("p#clock", { role: "timer", hidden: "" });
@@ -23,9 +40,11 @@ export function shotClock(s: Session): { root: HTMLElement; close(): void } {
     s.plates.root.style.setProperty("--time-left", "0");
     if (!runs) return;
     const next = `${s.id} ${s.play.strokes}`;
-    if (next !== stroke) begun = performance.now();
+    if (next !== stroke) begun = performance.now() - usedFor(next);
     stroke = next;
-    const rest = Math.max(clock - (performance.now() - begun) / 1000, 0);
+    const used = performance.now() - begun;
+    keepUsed(stroke, used);
+    const rest = Math.max(clock - used / 1000, 0);
     const left = Math.ceil(rest);
     s.plates.root.style.setProperty("--time-left", String(rest / clock));
     root.textContent = texts.secondsLeft(left);

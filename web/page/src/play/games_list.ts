@@ -6,7 +6,7 @@ import { imported, recordingOf } from "./game.js";
 import { countGame, isRated } from "./ladder.js";
 import { goOnWith, openGame } from "./opening.js";
 import type { Session } from "./parts.js";
-import { deleteGame, type SavedGame, savedGames } from "./saved.js";
+import { deleteGame, type ListedGame, listedGames, type SavedGame, savedGame } from "./saved.js";
 import { says } from "./session.js";
 import { texts } from "../texts/texts.js";
 
@@ -15,17 +15,17 @@ const OPPONENTS: Record<string, string> = {
   person: texts.twoPlayersAtThis,
   link: texts.byLink,
 };
-function titleOf({ setup }: SavedGame): string {
+function titleOf({ setup }: ListedGame): string {
   const game = (PLAYED[setup.game] ?? GAMES[setup.game])?.text ?? setup.game;
   return `${game}, ${OPPONENTS[setup.against] ?? texts.againstA(setup.against)}`;
 }
-function detailsOf({ when, strokes, score, isOver }: SavedGame): string {
+function detailsOf({ when, strokes, score, isOver }: ListedGame): string {
   const date = new Date(when).toISOString().slice(0, 16).replace("T", " ");
   const count = texts.strokesCounted(strokes);
   return [date, count, score, isOver ? texts.over : ""].filter((part) => part !== "").join(" · ");
 }
 /** A game against a rating that is left for good counts as lost. */
-const isLostByLeaving = (game: SavedGame): boolean =>
+const isLostByLeaving = (game: ListedGame): boolean =>
   isRated(game) && !game.isOver && game.strokes > 0;
 
 function download(s: Session, { setup, text, when }: SavedGame): void {
@@ -46,7 +46,7 @@ export function gamesList(
   const open = button(texts.openFile, () => file.click());
   const root = el("section", el("h3", texts.yourGames), list, open, file);
 
-  async function goOn(game: SavedGame): Promise<void> {
+  async function goOn(game: ListedGame): Promise<void> {
     close();
     try {
       if (game.id !== s.id) await openGame(s, game.id);
@@ -67,7 +67,7 @@ export function gamesList(
     file.value = "";
   }
   /** The first press shows what the second one does. */
-  function deleteButton(game: SavedGame): HTMLButtonElement {
+  function deleteButton(game: ListedGame): HTMLButtonElement {
     const question = isLostByLeaving(game) ? texts.deleteItCountsAs : texts.deleteForGood;
     const deletion = button(texts.deleteWord, async () => {
       if (deletion.textContent !== question) {
@@ -80,15 +80,17 @@ export function gamesList(
     });
     return deletion;
   }
-  function save(game: SavedGame): void {
+  async function save({ id }: ListedGame): Promise<void> {
     try {
+      const game = await savedGame(id);
+      if (!game) throw new TypeError(texts.thatGameIsNo);
       download(s, game);
     } catch (error) {
       close();
       says(s, texts.theGameWasNotSaved(wrong(error)));
     }
   }
-  function rowOf(game: SavedGame): HTMLElement {
+  function rowOf(game: ListedGame): HTMLElement {
     const isOpen = game.id === s.id;
     const title = titleOf(game);
     // Practice has no recording, and the game on the table is not deleted under the player's hands.
@@ -98,7 +100,7 @@ export function gamesList(
     });
     const buttons = [
       ...(isOpen ? [] : [goes]),
-      ...(isPractice ? [] : [button(texts.saveFile, () => save(game))]),
+      ...(isPractice ? [] : [button(texts.saveFile, () => void save(game))]),
       ...(isOpen ? [] : [deleteButton(game)]),
     ];
     const mark = isOpen ? texts.onTheTable : "";
@@ -110,7 +112,7 @@ export function gamesList(
   }
   async function refresh(): Promise<void> {
     try {
-      const games = await savedGames();
+      const games = await listedGames();
       list.replaceChildren(...games.map(rowOf));
     } catch (error) {
       list.replaceChildren(el("li", texts.thisBrowserShowsNo(wrong(error))));

@@ -10,8 +10,8 @@ import {
   idOfLink,
   idOfTab,
   newId,
+  listedGames,
   savedGame,
-  savedGames,
   takeOver,
 } from "./saved.js";
 import { aimAt, cueOf, mine, NONE, says } from "./session.js";
@@ -139,7 +139,7 @@ export async function resume(s: Session): Promise<void> {
     async () => packed && query.has("watch") && watchLink(s, packed),
     async () => packed && openLink(s, packed, query.get("seat") === "1" ? 1 : 0),
     async () => {
-      const id = idOfTab() ?? (await savedGames())[0]?.id;
+      const id = idOfTab() ?? (await listedGames())[0]?.id;
       if (id !== undefined) await openGame(s, id);
     },
   ];

@@ -1,6 +1,7 @@
-// The saved games: each has an id in IndexedDB, with what the list shows of it. A tab has one game
-// open and holds a lock on its id, so that no other tab plays the same game.
-import { createStore, del, get, set, values } from "idb-keyval";
+// The saved games: each has an id in IndexedDB. What the list shows of them is kept apart, because
+// the games are long. A tab has one game open and holds a lock on its id, so that no other tab plays
+// the same game.
+import { createStore, del, get, keys, set, values } from "idb-keyval";
 import type { Aimer, Setup } from "./game.js";
 import { stored, keepText } from "./keep.js";
 
@@ -18,7 +19,11 @@ export interface SavedGame {
   when: number;
 }
 
+/** A game as the list shows it. */
+export type ListedGame = Omit<SavedGame, "text">;
+
 const store = createStore("carom", "games");
+const list = createStore("carom-list", "games");
 /** The key under which a tab remembers which game it has open. */
 const OPEN = "carom-open";
 /** Where version 0.3 kept its only game. */
@@ -29,13 +34,35 @@ export const newId = (): string => crypto.randomUUID();
 export const idOfLink = ({ game, seed }: Setup, seat: 0 | 1): string =>
   `link-${game}-${seed}-${seat}`;
 
-export const saveGame = (game: SavedGame): Promise<void> => set(game.id, game, store);
-export const deleteGame = (id: string): Promise<void> => del(id, store);
+function listed({ text: _, ...shown }: SavedGame): ListedGame {
+  return shown;
+}
+export async function saveGame(game: SavedGame): Promise<void> {
+  await set(game.id, game, store);
+  await set(game.id, listed(game), list);
+}
+export async function deleteGame(id: string): Promise<void> {
+  await del(id, store);
+  await del(id, list);
+}
 export const savedGame = (id: string): Promise<SavedGame | undefined> => get(id, store);
-/** All games, the last saved one first. */
-export async function savedGames(): Promise<SavedGame[]> {
-  const games = await values<SavedGame>(store);
-  return games.sort((a, b) => b.when - a.when);
+/**
+ * All games as the list shows them, the last saved one first. Games that an older page has saved
+ * are read whole once.
+ */
+export async function listedGames(): Promise<ListedGame[]> {
+  const ids = new Set<IDBValidKey>(await keys(store));
+  const games = await values<ListedGame>(list);
+  const known = new Set<IDBValidKey>(games.map(({ id }) => id));
+  for (const { id } of games) if (!ids.has(id)) await del(id, list);
+  const added: ListedGame[] = [];
+  for (const id of ids) {
+    const game = known.has(id) ? undefined : await savedGame(id as string);
+    if (!game) continue;
+    added.push(listed(game));
+    await set(id, listed(game), list);
+  }
+  return [...games.filter(({ id }) => ids.has(id)), ...added].sort((a, b) => b.when - a.when);
 }
 
 /** Which game the tab had open before it was loaded again. */

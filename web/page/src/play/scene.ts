@@ -326,6 +326,7 @@ export class Scene {
 
   close(): void {
     this.#renderer.dispose();
-    this.#renderer.forceContextLoss();
+    // One that the browser took away is lost already.
+    if (!this.#renderer.getContext().isContextLost()) this.#renderer.forceContextLoss();
   }
 }

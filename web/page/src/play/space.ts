@@ -40,6 +40,9 @@ const TOO_SLOW = 70;
 /** If so many frames of a film take longer than this on average, the scene becomes coarser, ms. */
 const PICTURES = 40;
 const SLOW = 30;
+/** After this many losses the table stays drawn; and how soon after one the scene is made again, ms. */
+const MOST_LOSSES = 3;
+const AGAIN = 1000;
 /** How high the eye may be behind the cue, m. */
 const LOW = 0.16;
 const HIGH = 1.3;
@@ -56,6 +59,8 @@ export class Space implements SpaceView {
   #isBelow = false;
   #isClosed = false;
   readonly #hasGraphics = hasGraphics();
+  /** How often the browser took the scene away. */
+  #losses = 0;
   /** Whether the cue ball is being moved. */
   #moves = false;
   /** The cue that strikes; `next` follows its contact. */
@@ -101,11 +106,17 @@ export class Space implements SpaceView {
   async toggle(): Promise<void> {
     if (!this.isOn) await this.#start();
     this.isOn = !this.isOn;
-    this.s.film.canvas.classList.toggle("behind", this.isOn);
+    this.#press();
     this.#name();
     if (!this.isLive) this.#end();
     this.draw();
     this.s.film.draw();
+  }
+  /** The flat view and its button follow whether the scene is on. */
+  #press(): void {
+    const { film, buttons } = this.s;
+    film.canvas.classList.toggle("behind", this.isOn);
+    buttons.space.setAttribute("aria-pressed", String(this.isOn));
   }
   /** Rejects where the browser has no WebGL. */
   async #start(): Promise<void> {
@@ -123,6 +134,30 @@ export class Space implements SpaceView {
   close(): void {
     this.#isClosed = true;
     this.#end();
+  }
+  /**
+   * The browser took the graphics processor away, as phones do with pages in the background. The
+   * drawn table is there at once; the scene returns when the page is next visible.
+   */
+  #lose(scene: Scene): void {
+    if (this.#scene !== scene) return; // it was ended here
+    const wasOn = this.isOn;
+    this.isOn = this.#isBelow = false;
+    this.#end();
+    this.#press();
+    this.s.film.draw();
+    if (++this.#losses > MOST_LOSSES || this.#isClosed) return;
+    const again = async (): Promise<void> => {
+      await this.prepare();
+      if (wasOn && !this.isOn && !this.#isClosed) await this.toggle();
+    };
+    const whenVisible = (): void => {
+      if (document.hidden) return;
+      document.removeEventListener("visibilitychange", whenVisible);
+      window.setTimeout(() => void again(), AGAIN);
+    };
+    document.addEventListener("visibilitychange", whenVisible);
+    whenVisible();
   }
 
   /** The scene of the game that is played. */
@@ -142,6 +177,7 @@ export class Space implements SpaceView {
     this.#parts = parts;
     const { canvas } = scene;
     canvas.id = "scene";
+    canvas.addEventListener("webglcontextlost", () => this.#lose(scene));
     this.#name();
     this.#handle(scene);
     canvas.addEventListener("keydown", (event) => {

@@ -156,7 +156,6 @@ async function toggle(s: Session): Promise<void> {
   } catch (error) {
     says(s, texts.thisBrowserDoesNotShow(wrong(error)));
   }
-  s.buttons.space.setAttribute("aria-pressed", String(s.space.isOn));
 }
 
 /** The dialogs of a game: a new one with its settings, the log of strokes, diagrams. */
