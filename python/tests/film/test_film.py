@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip("cv2", reason="opencv-python-headless is not installed")
+pytest.importorskip("scipy", reason="scipy is not installed")
 
 import cv2
 import draw

@@ -3,8 +3,8 @@
 Use `python -m carom.film CLIP --table snooker -o tracks.csv`, or in Python
 `carom.film.track("clip.mp4", "snooker")`. Each step is a module: `_cloth` finds the table,
 `_camera` the camera's position, `_clock` the new frames and their times, `_balls` the balls in a
-frame, `_paths` their identities over time, and `_names` their names. Needs OpenCV: `pip install
-opencv-python-headless`.
+frame, `_paths` their identities over time, and `_names` their names. Needs OpenCV and SciPy: `pip
+install opencv-python-headless scipy`.
 
 Not supported are moving cameras, tables with fewer than three visible sides, grey cloths and
 rolling shutters. Balls of the same colour are distinguished only by the continuity of their paths.
@@ -22,8 +22,11 @@ from typing import TextIO
 
 try:
     import cv2  # noqa: F401
+    import scipy.optimize  # noqa: F401
 except ImportError as missing:
-    raise ImportError("carom.film needs OpenCV: pip install opencv-python-headless") from missing
+    raise ImportError(
+        "carom.film needs OpenCV and SciPy: pip install opencv-python-headless scipy"
+    ) from missing
 import numpy as np
 from numpy.typing import NDArray
 
