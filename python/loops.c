@@ -630,6 +630,15 @@ static void place(const way *w, double time, int *index, double r[2]) {
     r[k] = p->c[0][k] + s * (p->c[1][k] + s * (p->c[2][k] + s * p->c[3][k]));
 }
 
+/* Multiplies a vector by a matrix of two rows; NULL is unity. */
+static void even(const double *matrix, double v[2]) {
+  if (!matrix)
+    return;
+  const double x = v[0], y = v[1];
+  v[0] = matrix[0] * x + matrix[1] * y;
+  v[1] = matrix[2] * x + matrix[3] * y;
+}
+
 /* Adds up the sums of a play. ways[0 ... count - 1] are those of the play itself, with start[0]
  * the strike's time; with `plays` above 1, the next `count` are those with the first number
  * changed by step[0], which changes nothing before onset[0] on the play's clock, and so on. */
@@ -645,6 +654,7 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
     int indices[PLAYS_MOST] = {0};
     for (int64_t m = first[0]; m < first[1]; m++) {
       const double *sample = &tracks->samples[3 * m];
+      const double *matrix = tracks->evening ? &tracks->evening[4 * m] : NULL;
       if (sample[0] > end)
         break;
 
@@ -653,10 +663,11 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
       place(&ways[i], sample[0] - start[0], &indices[0], r);
       for (int k = 0; k < 2; k++)
         d[k] = r[k] - sample[1 + k];
+      sums[1] += d[0] * d[0] + d[1] * d[1];
+      even(matrix, d);
       const double size = d[0] * d[0] + d[1] * d[1];
       const double root = c2 > 0.0 ? sqrt(1.0 + size / c2) : 1.0;
       sums[0] += c2 > 0.0 ? 2.0 * c2 * (root - 1.0) : size;
-      sums[1] += size;
       sums[2] += 1.0;
 
       /* The derivatives by the numbers that count here, and what they add to J^T W d and
@@ -670,6 +681,7 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
         place(&ways[(a + 1) * count + i], sample[0] - start[a + 1], &indices[a + 1], moved);
         for (int k = 0; k < 2; k++)
           J[a][k] = (moved[k] - r[k]) / step[a];
+        even(matrix, J[a]);
       }
       for (int p = 0; p < lives; p++) {
         const int a = live[p];

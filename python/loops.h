@@ -104,6 +104,8 @@ typedef struct carom_python_tracks {
   const carom_shot_ball *balls;
   const int32_t *struck, *counts;
   const double *samples;
+  const double *evening; /* of each sample a matrix of two rows by which d is multiplied for the
+                            cost, or NULL: unity */
   const int64_t *first;
   const double *steps; /* of the constants */
   int32_t count;       /* the most balls of a shot */

@@ -414,7 +414,7 @@ def _shots(
     noise = float(np.median(np.concatenate([np.abs(step).ravel() for step in rest])))
     recordings, begins, merged = [], [], 0
     tracks_of = [np.column_stack([times[path.numbers], path.places]) for path in paths]
-    spans_of = spans(tracks_of, times, noise)
+    spans_of = spans(tracks_of, times, [np.full(len(rows), noise) for rows in tracks_of])
     for number, (begin, end) in enumerate(spans_of, 1):
         present = [
             path

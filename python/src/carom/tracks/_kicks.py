@@ -333,7 +333,7 @@ def _contacts(play: Quadratic, plays: Plays, number: int) -> tuple[Records, Doub
     records["angle"] = np.degrees(np.arctan2(np.abs(along), into))
     # how the noise moves the kicks, and the fraction of them that the track determines
     inverse = play.inverse(play.price)
-    still = np.repeat(shot.still, 2)
+    still = np.repeat(shot.still, 2) * (shot.noise / shot.deviations(shot.rest).ravel()) ** 2
     spread = inverse @ (play.H + (play.rest / still) @ play.rest.T) @ inverse
     seen = play.H[6:, 6:] - play.H[6:, :6] @ np.linalg.pinv(play.H[:6, :6]) @ play.H[:6, 6:]
     y = play.kicks.reshape(n, KICKS)
