@@ -476,6 +476,9 @@ static void kick(const carom_table *table, const carom_event *e, const double k[
   if (two) {
     for (int x = 0; x < 2; x++)
       n[x] = partner_state->r[x] - ball_state->r[x];
+  } else if (e->type == CAROM_EVENT_JAW) {
+    for (int x = 0; x < 2; x++)
+      n[x] = table->jaw[e->b].centre[x] - ball_state->r[x];
   } else {
     const carom_rail *rail = &table->rail[e->b];
     n[0] = rail->q[1] - rail->p[1];
@@ -542,7 +545,8 @@ static bool follow(const carom_table *table, const carom_event *events, int many
 }
 
 static bool is_contact(const carom_event *e) {
-  return e->type == CAROM_EVENT_BALL_BALL || e->type == CAROM_EVENT_RAIL;
+  return e->type == CAROM_EVENT_BALL_BALL || e->type == CAROM_EVENT_RAIL ||
+         e->type == CAROM_EVENT_JAW;
 }
 
 /* Plays a shot by a strike, and kicks, until a time on the play's own clock, and finds the events,
@@ -576,8 +580,9 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
   *many = 0;
   for (int contact = 0;;) {
     const bool parts = contact < tracks->kicks;
-    options.stop_at =
-        parts ? CAROM_STOP_AT(CAROM_EVENT_BALL_BALL) | CAROM_STOP_AT(CAROM_EVENT_RAIL) : 0;
+    options.stop_at = parts ? CAROM_STOP_AT(CAROM_EVENT_BALL_BALL) |
+                                  CAROM_STOP_AT(CAROM_EVENT_RAIL) | CAROM_STOP_AT(CAROM_EVENT_JAW)
+                            : 0;
     options.events_most = EVENTS_MOST;
     options.time_most = end - begin;
     carom_event *first = &events[*many];

@@ -159,8 +159,8 @@ def test_strikes_are_nearer_by_the_noise_of_each_row():
     errors = [np.sqrt(((found.strikes - strikes) ** 2).mean(axis=0))[told] for found in fits]
     print("errors over those with one noise:", errors[0] / errors[1])
     assert np.exp(np.log(errors[0] / errors[1]).mean()) < 0.95
-    off, chi2 = fits[0].strikes[:, :2] - strikes[:, :2], []
-    for k, away in enumerate(off):
+    offsets, chi2 = fits[0].strikes[:, :2] - strikes[:, :2], []
+    for k, away in enumerate(offsets):
         chi2.append(away @ np.linalg.solve(fits[0].strike_covariance(k)[:2, :2], away))
     print("chi^2 of velocities, of 2:", np.mean(chi2))
     assert 1.3 < np.mean(chi2) < 3.0

@@ -59,14 +59,14 @@ def quadrilateral(picture: Picture) -> Doubles:
     vivid = middle[np.hypot(*(middle[:, 1:].astype(np.float64) - 128.0).T) > 12.0]
     is_grey = len(vivid) < _VIVID * len(middle)
     channels = [0, 1, 2] if is_grey else [1, 2]
-    known = (middle if is_grey else vivid)[:, channels].astype(np.float64)
+    colours = (middle if is_grey else vivid)[:, channels].astype(np.float64)
     bins = [np.arange(0.0, 257.0, 4.0)] * len(channels)
-    counts, _ = np.histogramdd(known, bins=bins)
+    counts, _ = np.histogramdd(colours, bins=bins)
     peak = 4.0 * np.array(np.unravel_index(counts.argmax(), counts.shape)) + 2.0
     reach = np.array([45.0, 14.0, 14.0])[channels]
-    close = known[(np.abs(known - peak) < reach).all(axis=1)]
-    off = np.abs(lab[..., channels] - np.median(close, axis=0)) / reach
-    away = 14.0 * off.max(axis=2)
+    close = colours[(np.abs(colours - peak) < reach).all(axis=1)]
+    distance = np.abs(lab[..., channels] - np.median(close, axis=0)) / reach
+    away = 14.0 * distance.max(axis=2)
     mask = cv2.morphologyEx((away < 14).astype(np.uint8), cv2.MORPH_OPEN, np.ones((5, 5), np.uint8))
     # a dark line under a nose does not part its cushion from the bed
     wide = np.ones((height // 60, height // 60), np.uint8)
@@ -270,23 +270,23 @@ class Cloth:
         pixels = np.column_stack([columns, rows]) + self.low
         places = self.camera.places(pixels, self.bed.nose)
         noses = np.array([self.bed.nose_of(side) for side in range(4)])
-        out = places @ NORMALS.T - noses
-        side = out.argmax(axis=1)
-        out = out.max(axis=1)
+        depth = places @ NORMALS.T - noses
+        side = depth.argmax(axis=1)
+        depth = depth.max(axis=1)
         # parts of a side, so that a ball at the nose is not what most of a part's pixels show
         along = np.where(side % 2 == 0, places[:, 1], places[:, 0])
         extent = np.where(side % 2 == 0, self.bed.length, self.bed.width)
         part = np.clip(along / extent * _NOSE_PARTS, 0, _NOSE_PARTS - 1).astype(int)
         # a bin has the width of a pixel
         step = float(np.sqrt(self.bed.width * self.bed.length / max(len(rows), 1)))
-        bins = np.floor((out + _NOSE_REACH) / step).astype(int)
-        near = np.flatnonzero(out > -_NOSE_REACH)
-        keys = (side[near] * _NOSE_PARTS + part[near]) * (bins.max() + 1) + bins[near]
+        bins = np.floor((depth + _NOSE_REACH) / step).astype(int)
+        strip = np.flatnonzero(depth > -_NOSE_REACH)
+        keys = (side[strip] * _NOSE_PARTS + part[strip]) * (bins.max() + 1) + bins[strip]
         order = np.argsort(keys, kind="stable")
-        near, keys = near[order], keys[order]
-        left = (ratios(picture[self.part]) - self.own)[rows[near], columns[near]]
+        strip, keys = strip[order], keys[order]
+        residue = (ratios(picture[self.part]) - self.own)[rows[strip], columns[strip]]
         cuts = np.flatnonzero(np.diff(keys)) + 1
-        for group, values in zip(np.split(near, cuts), np.split(left, cuts)):
+        for group, values in zip(np.split(strip, cuts), np.split(residue, cuts)):
             if len(group) >= _NOSE_LEAST:
                 self.own[rows[group], columns[group]] += np.median(values, axis=0)
 

@@ -590,8 +590,8 @@ def _shots_of(film: Recording, second: float, notes: _Notes) -> list[Recording]:
         return [film]
     steps = [film.evened(track[1:, 1:], np.diff(track[:, 1:], axis=0)) for track in tracks]
     noise = float(np.median(np.abs(np.concatenate(steps))))
-    known = replace(film, noise=noise)
-    found = spans(tracks, times, [known.noises(track[:, 1:]) for track in tracks])
+    noisy_film = replace(film, noise=noise)
+    found = spans(tracks, times, [noisy_film.noises(track[:, 1:]) for track in tracks])
     if len(found) < 2:
         return [film]
     shots = []

@@ -310,8 +310,8 @@ def noise_of(recordings: Sequence[Recording]) -> Noise:
         for track, still in zip(known.tracks, known.still):
             if still >= 8:
                 rows = track[:still, 1:]
-                off = (rows - np.median(rows, axis=0)) * math.sqrt(still / (still - 1.0))
-                lain.append(shot.evened(rows, off))
+                offsets = (rows - np.median(rows, axis=0)) * math.sqrt(still / (still - 1.0))
+                lain.append(shot.evened(rows, offsets))
     at_rest = np.concatenate(lain)
     rest = _spread(at_rest) if len(at_rest) >= 30 else 0.0
     if rest > 0.0:
