@@ -476,6 +476,9 @@ static void kick(const carom_table *table, const carom_event *e, const double k[
   if (two) {
     for (int x = 0; x < 2; x++)
       n[x] = partner_state->r[x] - ball_state->r[x];
+  } else if (e->type == CAROM_EVENT_JAW) {
+    for (int x = 0; x < 2; x++)
+      n[x] = table->jaw[e->b].centre[x] - ball_state->r[x];
   } else {
     const carom_rail *rail = &table->rail[e->b];
     n[0] = rail->q[1] - rail->p[1];
@@ -542,7 +545,8 @@ static bool follow(const carom_table *table, const carom_event *events, int many
 }
 
 static bool is_contact(const carom_event *e) {
-  return e->type == CAROM_EVENT_BALL_BALL || e->type == CAROM_EVENT_RAIL;
+  return e->type == CAROM_EVENT_BALL_BALL || e->type == CAROM_EVENT_RAIL ||
+         e->type == CAROM_EVENT_JAW;
 }
 
 /* Plays a shot by a strike, and kicks, until a time on the play's own clock, and finds the events,
@@ -576,8 +580,9 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
   *many = 0;
   for (int contact = 0;;) {
     const bool parts = contact < tracks->kicks;
-    options.stop_at =
-        parts ? CAROM_STOP_AT(CAROM_EVENT_BALL_BALL) | CAROM_STOP_AT(CAROM_EVENT_RAIL) : 0;
+    options.stop_at = parts ? CAROM_STOP_AT(CAROM_EVENT_BALL_BALL) |
+                                  CAROM_STOP_AT(CAROM_EVENT_RAIL) | CAROM_STOP_AT(CAROM_EVENT_JAW)
+                            : 0;
     options.events_most = EVENTS_MOST;
     options.time_most = end - begin;
     carom_event *first = &events[*many];
@@ -630,6 +635,15 @@ static void place(const way *w, double time, int *index, double r[2]) {
     r[k] = p->c[0][k] + s * (p->c[1][k] + s * (p->c[2][k] + s * p->c[3][k]));
 }
 
+/* Multiplies a vector by a matrix of two rows; NULL is unity. */
+static void even(const double *matrix, double v[2]) {
+  if (!matrix)
+    return;
+  const double x = v[0], y = v[1];
+  v[0] = matrix[0] * x + matrix[1] * y;
+  v[1] = matrix[2] * x + matrix[3] * y;
+}
+
 /* Adds up the sums of a play. ways[0 ... count - 1] are those of the play itself, with start[0]
  * the strike's time; with `plays` above 1, the next `count` are those with the first number
  * changed by step[0], which changes nothing before onset[0] on the play's clock, and so on. */
@@ -645,6 +659,7 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
     int indices[PLAYS_MOST] = {0};
     for (int64_t m = first[0]; m < first[1]; m++) {
       const double *sample = &tracks->samples[3 * m];
+      const double *matrix = tracks->evening ? &tracks->evening[4 * m] : NULL;
       if (sample[0] > end)
         break;
 
@@ -653,10 +668,11 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
       place(&ways[i], sample[0] - start[0], &indices[0], r);
       for (int k = 0; k < 2; k++)
         d[k] = r[k] - sample[1 + k];
+      sums[1] += d[0] * d[0] + d[1] * d[1];
+      even(matrix, d);
       const double size = d[0] * d[0] + d[1] * d[1];
       const double root = c2 > 0.0 ? sqrt(1.0 + size / c2) : 1.0;
       sums[0] += c2 > 0.0 ? 2.0 * c2 * (root - 1.0) : size;
-      sums[1] += size;
       sums[2] += 1.0;
 
       /* The derivatives by the numbers that count here, and what they add to J^T W d and
@@ -670,6 +686,7 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
         place(&ways[(a + 1) * count + i], sample[0] - start[a + 1], &indices[a + 1], moved);
         for (int k = 0; k < 2; k++)
           J[a][k] = (moved[k] - r[k]) / step[a];
+        even(matrix, J[a]);
       }
       for (int p = 0; p < lives; p++) {
         const int a = live[p];

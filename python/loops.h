@@ -104,6 +104,8 @@ typedef struct carom_python_tracks {
   const carom_shot_ball *balls;
   const int32_t *struck, *counts;
   const double *samples;
+  const double *evening; /* of each sample a matrix of two rows by which d is multiplied for the
+                            cost, or NULL: unity */
   const int64_t *first;
   const double *steps; /* of the constants */
   int32_t count;       /* the most balls of a shot */
@@ -123,8 +125,9 @@ typedef struct carom_python_tracks {
  * cushion, with n into it and t = (n_y, -n_x): velocity along t and away from it, roll along t and
  * away from it, R w_z; V is the ball's speed. Of balls a and b, with n from a to b, V is the speed
  * of closing: velocity of b along n and of a against it; of a along t and of b against it; R w
- * along t of both; R w_z of a, and of b. Contacts are the CAROM_EVENT_BALL_BALL and
- * CAROM_EVENT_RAIL in the order of the events; of a cluster the last has the kicks.
+ * along t of both; R w_z of a, and of b. Contacts are the CAROM_EVENT_BALL_BALL, CAROM_EVENT_RAIL
+ * and CAROM_EVENT_JAW, a cushion too, in the order of the events; of a cluster the last has the
+ * kicks.
  *
  * With m = 6 + 5 kicks + constants, sums[(4 + m + m (m + 1)/2) k ...] becomes: the cost; the sum
  * of d^2; the number of samples; the basin, an integer that is the same for plays with the same

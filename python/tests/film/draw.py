@@ -9,7 +9,11 @@ slate, the noses' plane and the balls.
 import cv2
 import numpy as np
 
-CLOTHS = {"green": (60, 120, 30), "blue": (175, 130, 40)}  # blue, green, red
+CLOTHS = {
+    "green": (60, 120, 30),
+    "blue": (175, 130, 40),
+    "grey": (110, 115, 113),
+}  # blue, green, red
 INKS = {
     "cue": (225, 235, 240),
     "red": (38, 28, 205),
@@ -38,10 +42,14 @@ def averaged(image):
 
 
 class Film:
-    """A table before a camera at `eye`, m, that looks at `target`; focal in pixels."""
+    """A table before a camera at `eye`, m, that looks at `target`; focal in pixels. The noses' shadow
+    takes a share `shade` of the light.
+    """
 
-    def __init__(self, table, eye, target, focal, k1=0.0, size=(1280, 720), cloth="green", seed=1):
-        self.table, self.cloth = table, np.array(CLOTHS[cloth], float)
+    def __init__(
+        self, table, eye, target, focal, k1=0.0, size=(1280, 720), cloth="green", shade=0.0, seed=1
+    ):
+        self.table, self.cloth, self.shade = table, np.array(CLOTHS[cloth], float), shade
         self.random = np.random.default_rng(seed)
         self.place(eye, target, focal, k1, size)
         self.nose = float(table.rails["height"][0])
@@ -102,6 +110,8 @@ class Film:
         colour = self.cloth * light
         self.depth = bed.copy()
         self.is_bed = (far < 0.0) & (low < 0.0)
+        # the shadow of the noses darkens the cloth by a share `shade`
+        colour[self.is_bed & (low > -0.022)] *= 1.0 - self.shade
         face = (far < 0.0) & (low >= 0.0)
         colour[face] *= 0.7
         self.depth[face | (far >= 0.0)] = top[face | (far >= 0.0)]

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip("cv2", reason="opencv-python-headless is not installed")
+pytest.importorskip("scipy", reason="scipy is not installed")
 
 import cv2
 import draw
@@ -14,7 +15,7 @@ from conftest import run_python
 import carom
 import carom.fit
 from carom import film
-from carom.film import _camera, _clock, _paths
+from carom.film import _balls, _camera, _cloth, _clock, _names, _paths
 from carom.film._balls import blob
 
 SNOOKER, POOL = carom.tables.snooker(), carom.tables.pool_9ft()
@@ -133,6 +134,48 @@ def test_places_names_and_times(name, median, request):
     assert sum(len(rows) > 5 for rows in shot.tracks) == (moved > 0.03).sum()
 
 
+EYE, MIDDLE = (0.8, -2.57, 2.43), (0.635, 1.07, 0.0)
+
+
+def seen_in(cloth, shade, names, centres, spoil=None):
+    """The balls that are found in a picture of balls on a table of pool, those that were drawn, the
+    area of other things, and the bed. `spoil` draws on the picture, from the scene.
+    """
+    scene = draw.Film(POOL, EYE, MIDDLE, 1850.0, cloth=cloth, shade=shade)
+    places = np.column_stack([centres, np.full(len(centres), 0.028575)])
+    balls = [(name, r[None], 0.028575, np.eye(3)[0]) for name, r in zip(names, places)]
+    picture, bed = scene.finished(scene.picture(balls)), film.bed_of("9ft")
+    if spoil:
+        spoil(picture, scene.pixels(places).round().astype(int).tolist())
+    camera, depths, _ = _cloth.calibrated(picture, bed, None, None, None)
+    cloth_seen = _cloth.Cloth(picture, camera, bed, depths)
+    rows, _, foreign = _balls.Finder(cloth_seen).find(picture, cloth_seen.distance(picture))
+    return rows["place"], np.hypot(*(rows["place"][:, None] - centres).transpose(2, 0, 1)), foreign
+
+
+def test_balls_on_grey_cloth_and_with_numbers_of_its_colour():
+    """A white one is told by its brightness alone, so that its shaded side may be missed."""
+    centres = np.array([(0.66, 1.5), (0.3, 1.9), (0.9, 0.9), (0.635, 0.6)])
+
+    def number(picture, pixels):
+        x, y = pixels[1]
+        cv2.circle(picture, (x, y), 3, picture[y, x + 30].tolist(), -1)
+
+    for spoil in (None, number):
+        places, away, foreign = seen_in("grey", 0.0, ["1", "8", "3", "cue"], centres, spoil)
+        assert (away.min(axis=0) < [5e-3, 6e-3, 5e-3, 0.02]).all(), away.min(axis=0)
+        assert len(places) == 4 and foreign == 0.0
+
+
+def test_shadows_of_noses_are_no_balls():
+    """But a ball in the shadow is one."""
+    centres = np.array([(0.635, 0.6), (0.66, 1.5), (0.03, 0.9)])
+    places, away, foreign = seen_in("blue", 0.7, "138", centres)
+    assert (away.min(axis=0) < 5e-3).all() and foreign < 0.5
+    others = places[away.min(axis=1) > 0.02]
+    assert film.bed_of("9ft").near_pocket(others, 0.09).all()
+
+
 def test_hidden_balls_have_no_rows(snooker):
     """Under the arm and its hand, which a disc and a thick line of pixels cover."""
     (begin,), hidden = snooker.film.begins, 0
@@ -242,7 +285,7 @@ def test_refusals(snooker, tmp_path):
     for _ in range(10):
         writer.write(np.full((240, 320, 3), 90, np.uint8))
     writer.release()
-    assert "no cloth found" in error(grey)
+    assert "the cloth reaches the border of the frame" in error(grey)
     near = tmp_path / "near.avi"
     writer = cv2.VideoWriter(str(near), cv2.VideoWriter_fourcc(*"MJPG"), 30, (640, 400))
     for _ in range(10):
@@ -341,3 +384,87 @@ def test_names_belong_to_a_shot_and_a_shot_has_a_cue_ball():
         ("s2", ["1", "cue"]),
     ]
     assert len(begins) == 2 and notes == ["s3: no cue ball was found; the shot is left out"]
+
+
+def test_a_ball_that_a_cue_seems_to_touch_lay_there():
+    """A ball is first seen alone while it moves; before, a cue's blob had a round part."""
+    times, radius = np.arange(60) / 30.0, 0.0286
+    moved = rolled((225.0, 235.0, 240.0), 0.95, 20, 60, [(0.5, 0.5), (0.5, 0.5)])
+    for k, row in enumerate(moved.blobs):
+        row["place"] = 0.55 + 0.05 * k, 0.5
+    found = [np.array([moved.blobs[k - 20]]) if k >= 20 else np.zeros(0, blob) for k in range(60)]
+    lies = np.zeros(1, blob)
+    lies["place"], lies["colour"] = (0.5, 0.5), (225.0, 235.0, 240.0)
+    lies["white"], lies["share"], lies["whole"] = 0.95, 1.0, True
+    hand = lies.copy()
+    hand["place"], hand["colour"], hand["white"] = (0.45, 0.5), (120.0, 150.0, 205.0), 0.0
+    parts = [np.concatenate([hand, lies]) if k < 20 else hand for k in range(60)]
+    (path,) = _paths.linked(found, parts, times, radius)
+    assert path.numbers == list(range(60)) and np.allclose(path.places[:20], [0.5, 0.5])
+    # a part elsewhere, or of another colour, is another thing
+    (path,) = _paths.linked(found, [hand] * 60, times, radius)
+    assert path.numbers == list(range(20, 60))
+
+
+def test_the_struck_ball_is_the_cue_ball():
+    """A striped ball that shows its white looks as white as the cue ball in blue light."""
+    colours = np.array([[67.0, 102.0, 72.0], [134.0, 134.0, 69.0], [61.0, 52.0, 23.0]])
+    whites, lengths = np.array([0.86, 0.81, 0.24]), np.array([152.0, 148.0, 152.0])
+    assert _names.names_of("9ft", colours, whites, lengths, 1)[1] == "cue"
+    assert "cue" not in _names.names_of("9ft", colours, whites, lengths, 2)[2:]
+    # in a shot, the ball that moves first
+    paths = [
+        rolled(colours[0], 0.86, 0, 100, [(0.9, 1.9), (0.9, 1.9)]),
+        rolled(colours[1], 0.81, 0, 100, [(0.3, 0.5), (0.6, 1.2)]),
+    ]
+    clock, notes = _clock.Clock(np.ones(100, bool), np.arange(100) / 25.0, []), []
+    (shot,), _ = film._shots("9ft", paths, clock, film.bed_of("9ft"), notes)
+    assert len(shot.tracks[shot.balls.index("cue")]) > 20
+
+
+def test_a_cue_ball_that_is_first_seen_moving_loses_its_shot():
+    """Also in a film that begins with the strike, 0.2 s before the cue ball is seen."""
+    white, yellow = (225.0, 235.0, 240.0), (10.0, 190.0, 235.0)
+    paths = [
+        rolled(white, 0.95, 0, 100, [(0.3, 0.5), (0.6, 1.2)]),
+        rolled(yellow, 0.1, 0, 100, [(0.9, 1.9), (0.9, 1.5)]),
+    ]
+    for path, first in zip(paths, (30, 25)):
+        path.numbers, path.blobs = list(range(first - 25, 75)), path.blobs[first:]
+    clock, notes = _clock.Clock(np.ones(75, bool), np.arange(75) / 25.0, []), []
+    assert film._shots("9ft", paths, clock, film.bed_of("9ft"), notes)[0] == []
+    assert notes[-2:] == [
+        "s1: cue was first seen moving, and is left out",
+        "s1: no cue ball was found; the shot is left out",
+    ]
+
+
+def test_tables_of_another_size():
+    """Pockets stay at their corners and in the middles of the sides."""
+    usual, bed = film.bed_of("9ft"), film.bed_of("9ft", (1.17, 2.34))
+    assert (bed.width, bed.length, bed.nose) == (1.17, 2.34, usual.nose)
+    for (x, y, radius), (p, q, reach) in zip(bed.pockets, usual.pockets, strict=True):
+        ends = np.round([p / usual.width, 2.0 * q / usual.length])
+        assert np.allclose(
+            [x, y], [p + ends[0] * (1.17 - usual.width), q + ends[1] * 0.5 * (2.34 - usual.length)]
+        )
+        assert radius == reach
+    with pytest.raises(
+        ValueError, match=r"size: \(50, 100\) are not the extents of such a table, m"
+    ):
+        film.bed_of("9ft", (50, 100))
+    clip = ("-m", "carom.film", "missing.mp4", "--table", "9ft")
+    assert "'2' is not a size; use W,L in m" in run_python(*clip, "--size", "2", status=2).stderr
+    assert "of such a table" in run_python(*clip, "--size", "9,9", status=2).stderr
+
+
+def test_a_shot_whose_cue_ball_lies_still_is_left_out():
+    """The ball that was named so by its colour is another."""
+    white, yellow = (225.0, 235.0, 240.0), (10.0, 190.0, 235.0)
+    paths = [
+        rolled(white, 0.95, 0, 100, [(0.3, 0.5), (0.3, 0.5)]),
+        rolled(yellow, 0.1, 0, 100, [(0.9, 1.9), (0.9, 1.5)]),
+    ]
+    clock, notes = _clock.Clock(np.ones(100, bool), np.arange(100) / 25.0, []), []
+    assert film._shots("9ft", paths, clock, film.bed_of("9ft"), notes)[0] == []
+    assert notes == ["s1: what is named cue does not move; the shot is left out"]

@@ -153,7 +153,7 @@ def test_a_start_is_near_the_strike_however_few_rows_tell_it(sample, rows):
         ]
         found = _strikes.starts(
             SimpleNamespace(
-                cue=shot.cue, tracks=shot.tracks, rest=shot.rest, moves=moves, noise=shot.noise
+                cue=shot.cue, tracks=shot.tracks, rest=shot.rest, moves=moves, noises=shot.noises
             ),
             TABLE,
             RADIUS,

@@ -13,7 +13,7 @@ from test_tracks import RADIUS, TABLE, csv_of, struck, synthetic
 import carom
 from carom import tracks
 from carom.results import EventType
-from carom.tracks import _kicks, _strikes, fit
+from carom.tracks import _constants, _kicks, _strikes, fit
 
 
 @pytest.fixture(scope="module")
@@ -182,3 +182,31 @@ def test_the_command_tells_kicks(sample, tmp_path, capsys):
         and re.search(r">away \+\d\.\d %</text>", page)
         and "<h2>Kicks</h2>" in page
     )
+
+
+def test_jaws_have_kicks():
+    """Away from the jaw and along it, over the speed of the ball before."""
+    table = carom.tables.pool_9ft()
+    jaw = next(j for j in table.jaws if j["centre"][0] < 0.1 and 1.0 < j["centre"][1] < 1.27)
+    start = np.array([0.4, 1.27])
+    way = jaw["centre"] - start
+    way /= np.hypot(*way)
+    times = np.arange(0.0, 2.0, 0.02)
+    rows = np.column_stack([times, np.tile(start, (len(times), 1)) + np.outer(times, 0.3 * way)])
+    shot = tracks.Recording(1, (1,), (rows,))
+    ball = carom.balls([start], game="pool")["kind"][0]
+    constants, model = _constants.complete({}, "smooth", game="pool")
+    plays = _strikes.Plays([shot], "9ft", float(ball["radius"]), constants, model)
+    strike = np.array([*(1.5 * way), 0.0, 0.0, 0.0, 0.0])
+    (met, *_) = _kicks.contacts(plays, 0, with_kicks(strike[None])[0])
+    assert met["type"] == EventType.JAW
+    after = [met["time"] + np.array([0.0, 0.01])]
+    speed, ends = np.hypot(*met["before"][0]["v"][:2]), []
+    for kicks in ((0.0,), (0.0, 0.1), (0.1,)):
+        _, places = plays.played(0, with_kicks(strike[None], *kicks)[0], after[0])
+        ends.append(places[0])
+    n = jaw["centre"] - met["before"][0]["r"][:2]
+    n /= np.hypot(*n)
+    apart = (np.array(ends[1:]) - ends[0])[:, 1] / 0.01 / speed
+    assert np.allclose(apart[0], -0.1 * n, atol=2e-3)
+    assert np.allclose(apart[1], 0.1 * np.array([n[1], -n[0]]), atol=2e-3)

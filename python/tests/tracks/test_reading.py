@@ -407,12 +407,14 @@ def test_balls_that_are_put_up_anew_begin_another_shot(gap):
     places[200:, 1] = 1.1  # another place from 4 s on
     numbers = [k for k in range(400) if not 200 - gap < k < 200]
     track = np.column_stack([times, places])[numbers]
-    (first, second) = _spans.spans([track], times, 1e-4)
+    (first, second) = _spans.spans([track], times, [np.full(len(track), 1e-4)])
     assert first[0] < 1.0 and 2.0 < first[1] < 4.0 <= second[0] < 5.0
     # balls that are put up while others still count as moving end the shot as well
     early = track - [0.0, 0.2, 0.0]
     early[numbers.index(200) :, 1] += 0.3
-    assert max(end for _, end in _spans.spans([early], times, 1e-4)[:1]) < 4.0
+    assert (
+        max(end for _, end in _spans.spans([early], times, [np.full(len(early), 1e-4)])[:1]) < 4.0
+    )
 
 
 @pytest.mark.parametrize("rate", [30.0, None])

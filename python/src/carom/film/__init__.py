@@ -3,11 +3,11 @@
 Use `python -m carom.film CLIP --table snooker -o tracks.csv`, or in Python
 `carom.film.track("clip.mp4", "snooker")`. Each step is a module: `_cloth` finds the table,
 `_camera` the camera's position, `_clock` the new frames and their times, `_balls` the balls in a
-frame, `_paths` their identities over time, and `_names` their names. Needs OpenCV: `pip install
-opencv-python-headless`.
+frame, `_paths` their identities over time, and `_names` their names. Needs OpenCV and SciPy: `pip
+install opencv-python-headless scipy`.
 
-Not supported are moving cameras, tables with fewer than three visible sides, grey cloths and
-rolling shutters. Balls of the same colour are distinguished only by the continuity of their paths.
+Not supported are moving cameras, tables with fewer than three visible sides, white balls on light
+grey cloth and rolling shutters. Balls of the same colour are distinguished only by the continuity of their paths.
 Numbers of pool balls are inferred from colours, so poor light can exchange them.
 """
 
@@ -22,8 +22,11 @@ from typing import TextIO
 
 try:
     import cv2  # noqa: F401
+    import scipy.optimize  # noqa: F401
 except ImportError as missing:
-    raise ImportError("carom.film needs OpenCV: pip install opencv-python-headless") from missing
+    raise ImportError(
+        "carom.film needs OpenCV and SciPy: pip install opencv-python-headless scipy"
+    ) from missing
 import numpy as np
 from numpy.typing import NDArray
 
@@ -53,6 +56,8 @@ _PLACED = 0.004  # m: standard deviation of a ball from its spot
 _TURNED = 0.003  # m: standard deviation of a turning point at a cushion
 _JAWS = 0.09  # m around a pocket within which a ball may hit a jaw
 _FALLEN = 0.15  # m around a pocket within which a ball that disappears has fallen
+_TOGETHER = 0.07  # s: balls that begin to move within this may be the struck one
+_RESIZED = 0.7  # of the logarithm of an extent over the usual one, at most
 _FAR = 0.02  # m: a ball that turns farther from a cushion was hit by another
 
 Progress = Callable[[str, float], None]
@@ -92,6 +97,7 @@ def track(
     clip: str | FilePath,
     table: str,
     *,
+    size: tuple[float, float] | None = None,
     corners: Sequence[Sequence[float]] | None = None,
     focal: float | None = None,
     lens: float | None = None,
@@ -109,6 +115,8 @@ def track(
     table : str
         The kind of table, such as "9ft" or "snooker", as for the command's `--table`. It determines
         the size, the noses and the balls.
+    size : (W, L), optional
+        The extents between the noses, m, of a table of this kind with another size.
     corners : four (x, y), optional
         Pixels of the corners of the noses at (0, 0), (W, 0), (W, L), (0, L) on the table,
         counterclockwise in the frame. Default: found from the cloth's colour.
@@ -133,11 +141,11 @@ def track(
     OSError
         The file cannot be read.
     """
-    clip, bed = FilePath(clip), bed_of(table)
+    clip, bed = FilePath(clip), bed_of(table, size)
     known = None if corners is None else _corners(corners)
     first = _first(clip, start, end)
     camera, depths, evidence = calibrated(first, bed, known, focal, lens)
-    if known is None and turned is None and table == "snooker":
+    if known is None and turned is None and table == "snooker" and size is None:
         turned = _spots_turned(first, camera, bed, depths)
     if known is None and _turns_round(camera, bed) != bool(turned):
         camera, depths, evidence = calibrated(first, bed, None, focal, lens, half_turn=True)
@@ -145,7 +153,8 @@ def track(
     seen.read(clip, start, end, progress)
     clock = clock_of(np.array(seen.times), np.array(seen.changes))
     new = np.flatnonzero(clock.new)
-    paths = linked([seen.blobs[k] for k in new], clock.times, bed.radius)
+    blobs, parts = ([rows[k] for k in new] for rows in (seen.blobs, seen.parts))
+    paths = linked(blobs, parts, clock.times, bed.radius)
     paths = [path for path in paths if np.mean(bed.near_pocket(path.places)) < 0.8]
     if not paths:
         where = "" if known is None else " whose noses meet at the given corners"
@@ -155,7 +164,7 @@ def track(
 
     _name(table, paths)
     # turns at cushions and balls on spots measure the camera better than edges of the cloth
-    marks = _marks(table, paths, clock.times, camera, bed)
+    marks = _marks(table if size is None else "", paths, clock.times, camera, bed)
     camera, depths, _ = fit(camera, Evidence.join([*evidence, *marks]), bed.depth, focal, lens)
     for path in paths:
         pixels = np.array([row["pixel"] for row in path.blobs])
@@ -168,15 +177,28 @@ def track(
     return Film(recordings, camera, bed, notes, picture, begins)
 
 
-def bed_of(table: str) -> Bed:
-    """The table of a kind, as a camera sees it."""
+def bed_of(table: str, size: tuple[float, float] | None = None) -> Bed:
+    """The table of a kind, as a camera sees it, with its extents or others (m).
+
+    The pockets keep their distances from the nearest corners, or from the middle of a side.
+    """
     table = f"pool_{table}" if table[:1].isdigit() else table
     measures = tables.measures(table)
     made = getattr(tables, table)()
-    pockets = [(*pocket["centre"], pocket["radius"]) for pocket in made.pockets]
+    usual = np.array([measures["width"], measures["length"]])
+    extents = usual if size is None else as_array(size, "size", np.float64)
+    if extents.shape != (2,) or not (np.abs(np.log(extents / usual)) < _RESIZED).all():
+        raise ValueError(
+            f"size: {size!r} are not the extents of such a table, m; use two numbers from "
+            f"{math.exp(-_RESIZED):.1f} to {math.exp(_RESIZED):.1f} times {usual[0]:g} and {usual[1]:g}"
+        )
+    pockets = []
+    for pocket in made.pockets:
+        sides = np.round(2.0 * pocket["centre"] / usual) / 2.0
+        pockets.append((*(pocket["centre"] + sides * (extents - usual)), pocket["radius"]))
     return Bed(
-        measures["width"],
-        measures["length"],
+        float(extents[0]),
+        float(extents[1]),
         measures["nose_height"],
         measures["cushion_depth"],
         ground(table).radius,
@@ -220,6 +242,7 @@ class _Seen:
         self.times: list[float] = []
         self.changes: list[float] = []
         self.blobs: list[NDArray[np.void]] = []
+        self.parts: list[NDArray[np.void]] = []
         self.notes: list[str] = []
         self.foreign: list[float] = []
 
@@ -229,9 +252,9 @@ class _Seen:
         for t, share, picture in pictures(clip, start, end):
             part = picture[self.cloth.part]
             distance = self.cloth.distance(picture)
-            rows, foreign = np.zeros(0, blob), 0.0
+            rows, parts, foreign = np.zeros(0, blob), np.zeros(0, blob), 0.0
             if self.cloth.is_seen(picture, distance):
-                rows, foreign = self.finder.find(picture, distance)
+                rows, parts, foreign = self.finder.find(picture, distance)
                 hidden, seen = [], t
             else:
                 hidden.append(t)
@@ -239,6 +262,7 @@ class _Seen:
             self.times.append(t)
             self.changes.append(0.0 if previous is None else change(previous, part))
             self.blobs.append(rows)
+            self.parts.append(parts)
             self.foreign.append(foreign)
             previous = part
             if hidden and t - hidden[0] > _AWAY:
@@ -269,7 +293,7 @@ class _Seen:
 
     def _end(self, t: float, count: int) -> None:
         """Drop the last frames after the table disappeared."""
-        for rows in (self.times, self.changes, self.blobs, self.foreign):
+        for rows in (self.times, self.changes, self.blobs, self.parts, self.foreign):
             del rows[-count:]
         self.notes.append(
             f"at {t:.2f} s the camera changes or moves, or the table is hidden: the tracks end there; "
@@ -294,7 +318,7 @@ def _spots() -> dict[str, Doubles]:
 def _spots_turned(first: Picture, camera: Camera, bed: Bed, depths: Doubles) -> bool:
     """Whether more colours are on the spots of the table turned by 180 degrees."""
     cloth = Cloth(first, camera, bed, depths)
-    rows, _ = Finder(cloth).find(first, cloth.distance(first))
+    rows, _, _ = Finder(cloth).find(first, cloth.distance(first))
     names = names_of("snooker", rows["colour"], rows["white"], np.zeros(len(rows)))
     votes = 0
     for name, spot in _spots().items():
@@ -340,12 +364,12 @@ def _marks(
     return marks
 
 
-def _name(table: str, paths: list[Path]) -> None:
-    """Name the paths by their appearance over all their rows."""
+def _name(table: str, paths: list[Path], struck: int | None = None) -> None:
+    """Name the paths by their appearance over all their rows; one may be known to be struck."""
     colours = np.array([np.median([b["colour"] for b in path.blobs], axis=0) for path in paths])
     whites = np.array([np.median([b["white"] for b in path.blobs]) for path in paths])
     lengths = np.array([float(len(path.numbers)) for path in paths])
-    for path, name in zip(paths, names_of(table, colours, whites, lengths)):
+    for path, name in zip(paths, names_of(table, colours, whites, lengths, struck)):
         path.name = name
 
 
@@ -398,6 +422,23 @@ def _is_whole(path: Path, bed: Bed) -> NDArray[np.bool_]:
     return np.asarray(whole & ~bed.near_pocket(path.places))
 
 
+def _struck(
+    paths: list[Path], times: Doubles, begin: float, end: float, least: float
+) -> int | None:
+    """The ball of a shot that moves first by `least`, m: the whitest of those within _TOGETHER."""
+    moves = np.full(len(paths), np.inf)
+    for k, path in enumerate(paths):
+        t, places = times[path.numbers], path.places
+        rows = (t >= begin) & (t <= end)
+        away = np.hypot(*(places[rows] - places[rows][0]).T) > least
+        if away.any():
+            moves[k] = t[rows][int(np.argmax(away))]
+    if not np.isfinite(moves).any():
+        return None
+    whites = [np.median([b["white"] for b in path.blobs]) for path in paths]
+    return int(np.argmax(np.where(moves <= moves.min() + _TOGETHER, whites, -1.0)))
+
+
 def _shots(
     table: str, paths: list[Path], clock: Clock, bed: Bed, notes: list[str]
 ) -> tuple[list[Recording], list[float]]:
@@ -411,14 +452,15 @@ def _shots(
     noise = float(np.median(np.concatenate([np.abs(step).ravel() for step in rest])))
     recordings, begins, merged = [], [], 0
     tracks_of = [np.column_stack([times[path.numbers], path.places]) for path in paths]
-    spans_of = spans(tracks_of, times, noise)
+    spans_of = spans(tracks_of, times, [np.full(len(rows), noise) for rows in tracks_of])
     for number, (begin, end) in enumerate(spans_of, 1):
         present = [
             path
             for path, rows in zip(paths, tracks_of)
             if ((rows[:, 0] >= begin) & (rows[:, 0] <= end)).any()
         ]
-        _name(table, present)
+        least = 0.012 + 6.0 * noise
+        _name(table, present, _struck(present, times, begin, end, least))
         names, tracks, late = [], [], []
         for path in sorted(present, key=lambda path: path.numbers[0]):
             name, whole = path.name, _is_whole(path, bed)
@@ -429,14 +471,13 @@ def _shots(
             rows = rows[(rows[:, 0] >= begin) & (rows[:, 0] <= end)]
             if not len(rows):
                 continue
-            least = 0.012 + 6.0 * noise
             if np.hypot(*np.ptp(rows[:, 1:], axis=0)) < least:
                 # a ball at rest has one row, its mean position
                 rows = np.concatenate([[rows[0, 0]], rows[:, 1:].mean(axis=0)])[None]
             elif rows[0, 0] > begin + 0.1 and len(earlier):
                 # a ball that is hidden when it is hit was at its last visible position
                 rows = np.vstack([[begin, *earlier[:, 1:].mean(axis=0)], rows])
-            elif rows[0, 0] > begin + 0.3:
+            elif rows[0, 0] > begin + 0.1 and path.first_velocity(times).any():
                 late.append(name)
                 continue
             if len(rows) > 1 and rows[-1, 0] < min(end, times[-1]) - _AWAY:
@@ -448,8 +489,11 @@ def _shots(
             tracks.append(np.column_stack([rows[:, 0] - begin, rows[:, 1:]]))
         if late:
             notes.append(f"s{number}: {', '.join(late)} was first seen moving, and is left out")
-        if "cue" in kinds_of(table) and "cue" not in names:
+        cue = [rows for name, rows in zip(names, tracks) if name == "cue"]
+        if "cue" in kinds_of(table) and not cue:
             notes.append(f"s{number}: no cue ball was found; the shot is left out")
+        elif cue and len(cue[0]) == 1:
+            notes.append(f"s{number}: what is named cue does not move; the shot is left out")
         elif tracks:
             recordings.append(Recording(f"s{number}", tuple(names), tuple(tracks)))
             begins.append(begin)

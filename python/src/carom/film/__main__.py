@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from carom._rows import worded
@@ -13,8 +13,8 @@ from carom.film import track
 from carom.film._check import save
 
 _CANNOT = """
-What it cannot do: the camera must stand still and see at least three edges of the cloth, whose
-colour is no grey. A ball that another, a hand or a cue hides has no row then. Which of several
+What it cannot do: the camera must stand still and see at least three edges of the cloth. On grey
+cloth a white ball must be much brighter than the cloth. A ball that another, a hand or a cue hides has no row then. Which of several
 balls of one colour is which is told by their ways alone, so in a pack that opens, names may be
 swapped. A number of pool is told by the colour. The edges of the cloth lie outside the noses by a
 depth that turns at cushions and balls on spots measure; a low camera sees this depth wrongly, and
@@ -23,14 +23,17 @@ outline must lie on the noses, which are not the edges of the cloth.
 """
 
 
-def _pixel(text: str) -> tuple[float, float]:
-    x, _, y = text.partition(",")
-    try:
-        return float(x), float(y)
-    except ValueError:
-        raise argparse.ArgumentTypeError(
-            f"{text!r} is not a pixel; use x,y, such as 212,640"
-        ) from None
+def _pair(what: str, example: str) -> Callable[[str], tuple[float, float]]:
+    """The reader of two numbers with a comma, for an option."""
+
+    def read(text: str) -> tuple[float, float]:
+        x, _, y = text.partition(",")
+        try:
+            return float(x), float(y)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{text!r} is not {what}, such as {example}") from None
+
+    return read
 
 
 def _show(what: str, share: float) -> None:
@@ -54,11 +57,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "--table", required=True, choices=list(worded("TABLE")), help="the kind of table"
     )
+    parser.add_argument(
+        "--size",
+        type=_pair("a size; use W,L in m", "1.17,2.34"),
+        metavar="W,L",
+        help="extents between the noses, m, of a table of this kind with another size",
+    )
     parser.add_argument("-o", "--output", type=Path, metavar="TRACKS.csv", help="default: stdout")
     parser.add_argument(
         "--corners",
         nargs=4,
-        type=_pixel,
+        type=_pair("a pixel; use x,y", "212,640"),
         metavar="X,Y",
         help="pixels of the corners of the noses at (0,0), (W,0), (W,L), (0,L), counterclockwise",
     )
@@ -77,6 +86,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         film = track(
             options.clip,
             options.table,
+            size=options.size,
             corners=options.corners,
             focal=options.focal,
             lens=options.lens,

@@ -34,8 +34,11 @@ _MOST = 1.6  # and more, unless it is long, is more than a ball
 _LONG = 4.0  # of a ball's area: a moving ball is no longer than that in one exposure
 _SOLID = 0.93  # of its hull: a blurred ball, where two balls have a waist
 _BRIGHT, _GREY = 75.0, 0.38  # levels of white at least, and its colours' greatest difference
+_HOLE = 0.3  # of a ball's area: the largest hole in its blob
 _PARTS = 16  # balls that touch
 _LEFT = 0.16  # of a blob that discs do not explain: a hand or a cue
+_CORE = 0.6  # of a ball's radius: of the disc that a stick is too thin to contain
+_ROUND = 0.6, 1.4  # least and greatest area of what such discs cover, over a ball's
 
 
 class Finder:
@@ -47,6 +50,7 @@ class Finder:
         self.y, self.x = np.mgrid[:height, :width].astype(np.float64)
         # lines of the cloth and cues are thinner than balls
         smallest = cloth.camera.radii(cloth.bed.corners, cloth.bed.radius).min()
+        self.smallest = np.pi * smallest**2
         thick = 2 * max(int(0.4 * smallest), 1) + 1
         self.kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (thick, thick))
 
@@ -56,13 +60,21 @@ class Finder:
         place = camera.places(pixel[None] + self.cloth.low, radius)
         return float(camera.radii(place, radius)[0])
 
-    def find(self, picture: Picture, distance: Doubles) -> tuple[np.ndarray, float]:
-        """The balls, and the area of other objects in units of a ball's area."""
+    def find(self, picture: Picture, distance: Doubles) -> tuple[np.ndarray, np.ndarray, float]:
+        """The balls; round parts of other objects, such as a ball that a cue seems to touch; and the
+        area of these objects in units of a ball's area.
+        """
         mask = ((distance > self.cloth.threshold) & (self.cloth.mask > 0)).astype(np.uint8)
+        # a number or a highlight with the cloth's colour is a part of its ball
+        outlines, parents = cv2.findContours(mask, cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
+        for k, outline in enumerate(outlines):
+            if parents[0, k, 3] >= 0 and cv2.contourArea(outline) < _HOLE * self.smallest:
+                cv2.drawContours(mask, outlines, k, 1, cv2.FILLED)
         mask = cv2.morphologyEx(mask, cv2.MORPH_OPEN, self.kernel)
         count, labels, boxes, centres = cv2.connectedComponentsWithStats(mask, connectivity=4)
         part = picture[self.cloth.part]
         found: list[tuple[object, ...]] = []
+        parts: list[tuple[object, ...]] = []
         foreign = 0.0
         for label in range(1, count):
             x, y, width, height, size = boxes[label]
@@ -90,11 +102,33 @@ class Finder:
             else:
                 discs = self._discs(cover, box, radius, share)
                 foreign += 0.0 if discs else share
+                if not discs:
+                    middles = self._round_parts(labels[box] == label, box, radius)
+                    parts += [self._described(part, c, radius, 1.0, True) for c in middles]
                 found += [self._described(part, c, radius, 1.0, whole) for c, whole in discs]
+        return self._inside(found), self._inside(parts), foreign
+
+    def _inside(self, found: list[tuple[object, ...]]) -> np.ndarray:
+        """The rows of balls on the bed."""
         rows = np.array(found, blob)
         bed, least = self.cloth.bed, 0.3 * self.cloth.bed.radius
         inside = (rows["place"] > least) & (rows["place"] < [bed.width - least, bed.length - least])
-        return rows[inside.all(axis=1)], foreign
+        return np.asarray(rows[inside.all(axis=1)])
+
+    def _round_parts(
+        self, own: np.ndarray, box: tuple[slice, slice], radius: float
+    ) -> list[Doubles]:
+        """The middles of the parts of a blob that are as large and as wide as a ball."""
+        size = 2 * max(round(_CORE * radius), 1) + 1
+        disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (size, size))
+        cores = cv2.morphologyEx(own.astype(np.uint8), cv2.MORPH_OPEN, disc)
+        count, labels, _, _ = cv2.connectedComponentsWithStats(cores)
+        found = []
+        for label in range(1, count):
+            core = (labels == label).astype(np.float64)
+            if _ROUND[0] < core.sum() / (np.pi * radius**2) < _ROUND[1]:
+                found.append(self._middle(core, box))
+        return found
 
     def _cover(self, distance: Doubles, own: np.ndarray) -> Doubles:
         """The fraction of each pixel that a ball covers, from its colour relative to the ball's

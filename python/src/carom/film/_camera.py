@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
+from scipy.optimize import least_squares
 
 from carom.dtypes import Doubles
 
@@ -28,6 +29,7 @@ _HEIGHT = (
     0.008  # m: deviation of the cloth's edge from the noses, which a low camera sees displaced
 )
 _ROUNDS = 30
+_FREE = 2.0  # deviations beyond which a row counts less
 
 
 @dataclass(frozen=True)
@@ -159,8 +161,7 @@ def fit(
 ) -> tuple[Camera, Doubles, float]:
     """Fit the camera and the depths of the four cushions, m; also returns the sum of squares.
 
-    Damped Gauss-Newton with weights that decrease beyond 2 deviations. A given focal length
-    (pixels) or k1 is kept.
+    The weight of a row decreases beyond 2 deviations. A given focal length (pixels) or k1 is kept.
     """
     wanted = np.log(focal or _FOCAL[0] * camera.size[0])
     x = np.concatenate([camera.numbers, np.full(4, depth)])
@@ -177,32 +178,18 @@ def fit(
         found = evidence.residuals(Camera(x[:8], camera.size), x[8:]) / spreads
         return np.concatenate([found, *prior, (x[8:] - mean) / sides])
 
-    # prior knowledge keeps its weight
-    limits = np.full(len(evidence.targets) + 7, 1e9)
-    limits[:-7] = 2.0
+    def loss(squares: Doubles) -> Doubles:
+        """Huber's loss and its weights, of the rows but not of what is known before them.
 
-    def cost(r: Doubles) -> float:
-        size = np.abs(r)
-        return float(np.where(size < limits, size**2, limits * (2.0 * size - limits)).sum())
+        The second derivative is taken as 0, so that a step is one of weighted least squares: with
+        it the search stops far from the minimum if the first camera is far off.
+        """
+        size = np.maximum(np.sqrt(squares), _FREE)
+        size[-7:] = _FREE
+        value = np.where(size > _FREE, _FREE * (2.0 * size - _FREE), squares)
+        return np.stack([value, _FREE / size, np.zeros_like(size)])
 
-    r, damping = residuals(x), 1e-3
-    for _ in range(_ROUNDS):
-        J = np.column_stack(
-            [(residuals(x + h) - residuals(x - h)) / 2e-6 for h in 1e-6 * np.eye(12)]
-        )
-        weights = limits / np.maximum(np.abs(r), limits)
-        A, g = (J.T * weights) @ J, (J.T * weights) @ r
-        # a step that does not lower the cost is tried again, shorter
-        while damping < 1e9:
-            step = np.linalg.solve(A + damping * np.diag(A.diagonal()), g)
-            after = residuals(x - step)
-            if np.isfinite(after).all() and cost(after) <= cost(r):
-                break
-            damping *= 10.0
-        else:
-            break
-        done = cost(r) - cost(after) < 1e-6 * cost(r)
-        x, r, damping = x - step, after, max(0.1 * damping, 1e-9)
-        if done:
-            break
-    return replace(camera, numbers=x[:8]), x[8:], cost(r)
+    found = least_squares(
+        residuals, x, jac="3-point", x_scale="jac", loss=loss, ftol=1e-8, max_nfev=_ROUNDS
+    )
+    return replace(camera, numbers=found.x[:8]), found.x[8:], 2.0 * float(found.cost)

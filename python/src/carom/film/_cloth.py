@@ -19,6 +19,8 @@ from carom.tracks import TrackError
 _DARK = 8.0  # levels added to colours, so that noise in the dark does not count
 # changes of the logarithm of the brightness up to which cloth is cloth: darker and brighter
 _SHADOW, _LIGHT = 0.6, 0.15
+_VIVID = 0.25  # share of the middle of the frame with a colour, at least, or the cloth is grey
+_GREY = 0.12  # of the ratios of a cloth without a colour, at most
 _LEAST = 0.06  # smallest fraction of the frame that a table covers
 # outward normals of the sides x = 0, y = 0, x = W, y = L
 NORMALS = np.array([[-1.0, 0.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0]])
@@ -28,6 +30,10 @@ _REACH = 12  # pixels to each side of the expected edge
 _SEEN = 0.3  # fraction of the points of an edge that must be found, or the side is not in the frame
 _MOUTH = 0.04  # m around a pocket within which a ball is about to fall
 _NEAR = 1.5  # pixels: displacement above which an edge has moved
+
+# of the strips along a side, inwards of its nose, that its shadow may darken: width (m), parts of
+# the side, and pixels that tell what they have in common
+_NOSE_REACH, _NOSE_PARTS, _NOSE_LEAST = 0.05, 6, 24
 
 Picture = np.ndarray[tuple[int, ...], np.dtype[np.uint8]]
 
@@ -47,17 +53,20 @@ def quadrilateral(picture: Picture) -> Doubles:
     """The corners of the cloth, counterclockwise in the frame from the lower left one, (4, 2)."""
     lab = cv2.cvtColor(cv2.GaussianBlur(picture, (5, 5), 0), cv2.COLOR_BGR2LAB)
     height, width = lab.shape[:2]
-    # the cloth is the commonest colour of the middle that is no grey
-    middle = lab[height // 5 : -height // 5, width // 5 : -width // 5, 1:].reshape(-1, 2)
-    vivid = middle[np.hypot(*(middle.astype(np.float64) - 128.0).T) > 12.0]
-    if len(vivid) < 0.1 * len(middle):
-        raise FilmError("no cloth found: the middle of the frame is grey; pass --corners")
-    bins = np.arange(0.0, 257.0, 4.0)
-    a, b = vivid.T.astype(np.float64)
-    counts, _, _ = np.histogram2d(a, b, bins=[bins, bins])
+    # the cloth is the commonest colour of the middle that is no grey, or else the commonest grey,
+    # which its brightness tells from other greys
+    middle = lab[height // 5 : -height // 5, width // 5 : -width // 5].reshape(-1, 3)
+    vivid = middle[np.hypot(*(middle[:, 1:].astype(np.float64) - 128.0).T) > 12.0]
+    is_grey = len(vivid) < _VIVID * len(middle)
+    channels = [0, 1, 2] if is_grey else [1, 2]
+    colours = (middle if is_grey else vivid)[:, channels].astype(np.float64)
+    bins = [np.arange(0.0, 257.0, 4.0)] * len(channels)
+    counts, _ = np.histogramdd(colours, bins=bins)
     peak = 4.0 * np.array(np.unravel_index(counts.argmax(), counts.shape)) + 2.0
-    close = vivid[np.abs(vivid - peak).max(axis=1) < 14]
-    away = np.abs(lab[..., 1:] - np.median(close, axis=0)).max(axis=2)
+    reach = np.array([45.0, 14.0, 14.0])[channels]
+    close = colours[(np.abs(colours - peak) < reach).all(axis=1)]
+    distance = np.abs(lab[..., channels] - np.median(close, axis=0)) / reach
+    away = 14.0 * distance.max(axis=2)
     mask = cv2.morphologyEx((away < 14).astype(np.uint8), cv2.MORPH_OPEN, np.ones((5, 5), np.uint8))
     # a dark line under a nose does not part its cushion from the bed
     wide = np.ones((height // 60, height // 60), np.uint8)
@@ -217,6 +226,8 @@ class Cloth:
                 self.mask[self._filled(hole) > 0] = 0
         self._learn(picture)
         self._find_edges(picture, depths)
+        self._learn_noses(picture)
+        self.usual_edges = self.edge_offsets(picture, self.distance(picture))
 
     def _filled(self, polygon: Doubles) -> Picture:
         mask = np.zeros(self.shape, np.uint8)
@@ -247,11 +258,42 @@ class Cloth:
         self.own = terms @ model
         self.noise = float(np.hypot(*(limits[:2] / 4.0)))
         self.threshold = max(5.0 * self.noise, 0.15)
+        # white balls differ from grey cloth by their brightness alone
+        is_grey = np.hypot(*np.median(b[:, :2], axis=0)) < _GREY
+        self.light = min(_LIGHT, float(limits[2])) if is_grey else _LIGHT
+
+    def _learn_noses(self, picture: Picture) -> None:
+        """Add to the cloth's values what most pixels at the same distance from a side have in
+        common: the shadow of its nose, and the light on its cushion.
+        """
+        rows, columns = np.nonzero(self.mask)
+        pixels = np.column_stack([columns, rows]) + self.low
+        places = self.camera.places(pixels, self.bed.nose)
+        noses = np.array([self.bed.nose_of(side) for side in range(4)])
+        depth = places @ NORMALS.T - noses
+        side = depth.argmax(axis=1)
+        depth = depth.max(axis=1)
+        # parts of a side, so that a ball at the nose is not what most of a part's pixels show
+        along = np.where(side % 2 == 0, places[:, 1], places[:, 0])
+        extent = np.where(side % 2 == 0, self.bed.length, self.bed.width)
+        part = np.clip(along / extent * _NOSE_PARTS, 0, _NOSE_PARTS - 1).astype(int)
+        # a bin has the width of a pixel
+        step = float(np.sqrt(self.bed.width * self.bed.length / max(len(rows), 1)))
+        bins = np.floor((depth + _NOSE_REACH) / step).astype(int)
+        strip = np.flatnonzero(depth > -_NOSE_REACH)
+        keys = (side[strip] * _NOSE_PARTS + part[strip]) * (bins.max() + 1) + bins[strip]
+        order = np.argsort(keys, kind="stable")
+        strip, keys = strip[order], keys[order]
+        residue = (ratios(picture[self.part]) - self.own)[rows[strip], columns[strip]]
+        cuts = np.flatnonzero(np.diff(keys)) + 1
+        for group, values in zip(np.split(strip, cuts), np.split(residue, cuts)):
+            if len(group) >= _NOSE_LEAST:
+                self.own[rows[group], columns[group]] += np.median(values, axis=0)
 
     def distance(self, picture: Picture) -> Doubles:
         """The distance of each pixel's colour from the cloth's, in the cropped frame."""
         blue, red, bright = cv2.split(ratios(picture[self.part]) - self.own)
-        dark = np.maximum(np.maximum(-bright - _SHADOW, bright - _LIGHT), 0.0)
+        dark = np.maximum(np.maximum(-bright - _SHADOW, bright - self.light), 0.0)
         return np.asarray(np.sqrt(blue * blue + red * red + dark * dark))
 
     def _find_edges(self, picture: Picture, depths: Doubles) -> None:
@@ -315,9 +357,9 @@ class Cloth:
 
     def is_seen(self, picture: Picture, distance: Doubles) -> bool:
         """Whether at least three edges have not moved."""
-        moved = np.abs(self.edge_offsets(picture, distance) - self.edges)
+        moved = np.abs(self.edge_offsets(picture, distance) - self.usual_edges)
         close = (moved < _NEAR).sum(axis=1)
-        return int((close >= _SEEN * np.isfinite(self.edges).sum(axis=1)).sum()) >= 3
+        return int((close >= _SEEN * np.isfinite(self.usual_edges).sum(axis=1)).sum()) >= 3
 
     def evidence(self) -> list[Evidence]:
         """The edges as evidence about the camera."""

@@ -38,6 +38,7 @@ _KINDS: dict[str, dict[str, tuple[str, int]]] = {
 _NUMBERED = ["#f2c200", "#1f4fd8", "#d32f2f", "#6a1b9a", "#ef6c00", "#2e9b3a", "#7b1c1c", "#222222"]
 _POOL = {"cue": (_WHITE, 1)} | {str(k): (seen, 1) for k, seen in enumerate(_NUMBERED, start=1)}
 _STRIPED = 0.2, 0.9  # share of white of a ball of pool between which it is striped
+_MOSTLY = 0.5  # share of white of a white ball, at least
 _STRANGE = 75.0  # a colour that is farther from all is named "ball"
 
 
@@ -56,24 +57,30 @@ def kinds_of(table: str) -> dict[str, tuple[str, int]]:
     return _KINDS.get(table, _POOL)
 
 
-def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) -> list[str]:
+def names_of(
+    table: str, colours: Doubles, whites: Doubles, lengths: Doubles, struck: int | None = None
+) -> list[str]:
     """Name the balls that are visible at one time.
 
     Uses their colours (n, 3), fractions of white, and for how long each was seen: of two similar
-    balls, the one seen longer receives the name.
+    balls, the one seen longer receives the name. The struck ball, if it is known and more white
+    than not, is the cue ball: a camera may see a striped ball as white as it.
     """
     if not len(colours):
         return []
     kinds = kinds_of(table)
     brightness = colours.mean(axis=1)
     # the cue ball shows the light
-    plain = (np.ptp(colours, axis=1) < 0.45 * colours.max(axis=1)) & (whites > 0.5)
+    plain = (np.ptp(colours, axis=1) < 0.45 * colours.max(axis=1)) & (whites > _MOSTLY)
     light = np.array([255.0, 255.0, 255.0])
     if plain.any():
         light = colours[np.flatnonzero(plain)[brightness[plain].argmax()]] / 0.93
     seen = _lab(colours / light * 255.0)
     wanted = _lab(np.array([_ink(ink) for ink, _ in kinds.values()]))
     costs = np.sqrt(((seen[:, None] - wanted) ** 2 * [0.35, 1.0, 1.0]).sum(axis=2))
+    if struck is not None and "cue" in kinds and whites[struck] > _MOSTLY:
+        cue = list(kinds).index("cue")
+        costs[:, cue], costs[struck, cue] = np.inf, -np.inf
     short = 40.0 * (1.0 - lengths / max(lengths.max(initial=0.0), 1.0))
     keys = list(kinds)
     if kinds is _POOL:
@@ -93,7 +100,7 @@ def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) ->
 def _pool(costs: Doubles, keys: list[str], whites: Doubles, short: Doubles) -> list[str]:
     """Numbers of pool balls: a stripe contains white and has the colour of the number minus 8."""
     names = [""] * len(costs)
-    striped = (whites > _STRIPED[0]) & (whites < _STRIPED[1])
+    striped = (whites > _STRIPED[0]) & (whites < _STRIPED[1]) & (costs[:, 0] > -np.inf)
     for flat in np.argsort(costs + short[:, None], axis=None):
         ball, kind = divmod(int(flat), len(keys))
         name = keys[kind]

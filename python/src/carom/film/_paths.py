@@ -20,6 +20,7 @@ _LOST = 3.0  # s: longest gap between two paths of one ball
 _ALIKE = 60.0  # largest difference of colours of the same ball, levels
 _MOMENT = 0.25  # s: shortest path of a ball
 _WHOLE = 0.72  # fraction of a ball's area below which a path belongs to a shadow or a mark
+_SOONER = 1.5  # a ball that was just hit was so many times as fast as it is seen to be, at most
 _STRAIGHT = 0.006  # m: largest second difference of rows without an event
 
 
@@ -48,9 +49,26 @@ class Path:
         velocity: Doubles = (self.blobs[-1]["place"] - self.blobs[-2]["place"]) / last
         return velocity
 
+    def first_velocity(self, times: Doubles) -> Doubles:
+        """The velocity by the first rows, m/s; 0 for a ball at rest."""
+        last = min(4, len(self.numbers) - 1)
+        gap = float(times[self.numbers[last]] - times[self.numbers[0]])
+        away = self.blobs[last]["place"] - self.blobs[0]["place"]
+        if last == 0 or np.hypot(*away) < _RESTING * gap + 0.002:
+            return np.zeros(2)
+        velocity: Doubles = (self.blobs[1]["place"] - self.blobs[0]["place"]) / (
+            times[self.numbers[1]] - times[self.numbers[0]]
+        )
+        return velocity
 
-def linked(found: list[NDArray[np.void]], times: Doubles, radius: float) -> list[Path]:
-    """The paths of the blobs of all frames, except very short ones."""
+
+def linked(
+    found: list[NDArray[np.void]], parts: list[NDArray[np.void]], times: Doubles, radius: float
+) -> list[Path]:
+    """The paths of the blobs of all frames, except very short ones.
+
+    `parts` are round parts of hands and cues: a ball that is first seen moving may have been one.
+    """
     live: list[Path] = []
     done: list[Path] = []
     for k, blobs in enumerate(found):
@@ -70,7 +88,47 @@ def linked(found: list[NDArray[np.void]], times: Doubles, radius: float) -> list
             rests = not path.velocity(times).any() and len(path.numbers) > 5
             (alive if hidden < _HIDDEN or rests else done).append(path)
         live = alive + new
-    return _joined(done + live, times)
+    every = done + live
+    paths = _joined(every, times)
+    kept = {(k, id(row)) for path in paths for k, row in zip(path.numbers, path.blobs)}
+    spare: list[list[np.void]] = [list(rows) for rows in parts]
+    for path in every:
+        for k, row in zip(path.numbers, path.blobs):
+            if (k, id(row)) not in kept:
+                spare[k].append(row)
+    for path in paths:
+        _begin_at_rest(path, spare, times, radius)
+    return paths
+
+
+def _begin_at_rest(path: Path, spare: list[list[np.void]], times: Doubles, radius: float) -> None:
+    """Extend a path that begins with motion back to where its ball lay, by spare blobs: of short
+    paths, and round parts of hands and cues.
+    """
+    velocity = path.first_velocity(times)
+    if not velocity.any():
+        return
+    first, found = path.blobs[0], list[tuple[int, np.void]]()
+    for k in range(path.numbers[0] - 1, -1, -1):
+        last = path.numbers[0] if not found else found[-1][0]
+        if times[last] - times[k] > _HIDDEN:
+            break
+        best: tuple[float, np.void] | None = None
+        for part in spare[k]:
+            if found:
+                miss = float(np.hypot(*(part["place"] - found[-1][1]["place"])))
+            else:
+                # on the way back from the first row, not farther than the ball came
+                step, gap = first["place"] - part["place"], float(times[last] - times[k])
+                share = float(np.clip(step @ velocity / (velocity @ velocity), 0.0, _SOONER * gap))
+                miss = float(np.hypot(*(step - share * velocity)))
+            alike = _difference(part, first) < _ALIKE
+            if alike and miss < radius and (best is None or miss < best[0]):
+                best = miss, part
+        if best is not None:
+            found.append((k, best[1]))
+    path.numbers[:0] = [k for k, _ in reversed(found)]
+    path.blobs[:0] = [part for _, part in reversed(found)]
 
 
 def _joined(paths: list[Path], times: Doubles) -> list[Path]:

@@ -57,6 +57,8 @@ def of_strike(
     """
     d, J_p, J_c, J_r = derivatives(plays, row, strike, list(names))
     variance = float(d @ d) / max(len(d) - 6, 1)
+    shot = plays.recordings[row]
+    spread = shot.deviations(shot.rest).ravel()
     # by R of the factorisation Q R, as the product J^T J has the square of its condition number
     root = np.linalg.inv(
         np.linalg.qr(np.vstack([J_p / np.sqrt(variance), np.diag(1.0 / bounds(strike))]), mode="r")
@@ -65,7 +67,7 @@ def of_strike(
     return (
         P,
         -(P / variance) @ J_p.T @ np.hstack([J_c, J_r]),
-        np.sqrt(variance / np.repeat(plays.recordings[row].still, 2)),
+        np.sqrt(variance / np.repeat(shot.still, 2)) * (spread / shot.noise),
     )
 
 

@@ -90,7 +90,8 @@ def _recorded(fit: Any, places: Doubles, stroke: Records) -> tuple[Recording, Do
     seen = shot.positions(np.clip(times - _STILL, 0.0, shot.time))[..., :2]
     tracks = tuple(np.column_stack([times, seen[:, ball]]) for ball in range(2))
     strike = np.array([*moved["v"][:2], *(fit.radius * moved["w"]), _STILL])
-    return Recording("design", (1, 2), tracks, fit.noise), strike
+    view = fit.recordings[0].view
+    return Recording("design", (1, 2), tracks, fit.noise, view), strike
 
 
 def _information(

@@ -183,7 +183,7 @@ def least_squares(
 # ---- Pieces
 
 
-def _sigma(speed: Doubles, noise: float) -> Doubles:
+def _sigma(speed: Doubles, noise: Doubles | float) -> Doubles:
     """Standard deviation of a coordinate of a ball at a speed, m."""
     return np.asarray(np.hypot(_NOISE * noise, _JITTER * np.minimum(speed, 8.0)))
 
@@ -219,14 +219,14 @@ def _free(track: Doubles, moves: float, low: float, high: Doubles) -> Doubles:
     return free_rows
 
 
-def _pieces(shot: int, ball: int, rows: Doubles, noise: float) -> list[Any]:
-    """The pieces of the rows of a track."""
+def _pieces(shot: int, ball: int, rows: Doubles, noises: Doubles) -> list[Any]:
+    """The pieces of the rows of a track, whose noises are given."""
     if len(rows) < 8:
         return []
     time: Doubles = rows[:, 0]
     velocity = np.gradient(rows[:, 1], time), np.gradient(rows[:, 2], time)
     speed: Doubles = np.hypot(velocity[0], velocity[1])
-    sigma = _sigma(speed, noise)
+    sigma = _sigma(speed, noises)
     found: list[Any] = []
     for begin, end in _cuts(rows, 1.0 / sigma**2):
         n = end - begin
@@ -599,7 +599,7 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
     ]
     by_track = [
         [
-            np.array(_pieces(s, b, track, recordings[s].noise), piece)
+            np.array(_pieces(s, b, track, recordings[s].noises(track[:, 1:])), piece)
             for b, track in enumerate(tracks)
         ]
         for s, tracks in enumerate(rows)
@@ -647,7 +647,7 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
                     cut.outgoing,
                     _NORMALS[cut.rail],
                     motion,
-                    shot.noise,
+                    float(shot.noises(_state(cut.incoming, cut.time)[0])),
                 )
                 if numbers is not None:
                     first = ball != shot.cue and not any(
@@ -672,7 +672,7 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
                 (begin, time, ends[0], ends[1]),
                 radius,
                 motion,
-                shot.noise,
+                float(shot.noises(rest[ball])),
             )
             if numbers is not None:
                 hits.append((s, cue, ball, *numbers))

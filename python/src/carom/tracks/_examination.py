@@ -379,7 +379,16 @@ def _noise(
             for shot in recordings
         ]
     low, high = sorted(noise.axes)
-    if high > _UNLIKE * low and high > 3e-4:
+    viewed = [replace(shot, noise=noise.value) for shot in recordings if shot.view]
+    if viewed and viewed[0].view:
+        noises = [shot.noises(track[:, 1:]) for shot in viewed for track in shot.tracks]
+        findings.say(
+            "noise",
+            f"the noise is {1e3 * min(map(min, noises)):.2f} to {1e3 * max(map(max, noises)):.2f} "
+            f"mm, as of {noise.value / viewed[0].view.scale:.2g} pixels by the corners: each row "
+            f"counts by its own",
+        )
+    elif high > _UNLIKE * low and high > 3e-4:
         findings.say(
             "noise",
             f"the noise is {1e3 * noise.axes[0]:.2f} mm along x and {1e3 * noise.axes[1]:.2f} mm "
@@ -436,7 +445,8 @@ def _begins_late(shot: Recording) -> bool:
     first = shot.tracks[shot.cue][:4]
     times, steps = np.diff(first[:, 0]), np.hypot(*np.diff(first[:, 1:], axis=0).T)
     is_regular = np.ptp(times) < 0.1 * times.min()
-    return bool(is_regular and steps.min() > shot.away and 0.97 < steps[0] / steps[1] < 1.3)
+    has_moved = shot.moved(first[1:, 1:], np.diff(first[:, 1:], axis=0)).all()
+    return bool(is_regular and has_moved and 0.97 < steps[0] / steps[1] < 1.3)
 
 
 def _diameters(shot: Recording) -> list[float]:

@@ -97,7 +97,8 @@ class Forecast(Arrays):
         places = self.positions(times)
         middle: Doubles = np.median(places, axis=0)
         camera = np.random.default_rng(len(places)).normal(size=places.shape)
-        off = np.linalg.norm(places + self.recording.noise * camera - middle, axis=-1)
+        noise = self.recording.deviations(middle)
+        off = np.linalg.norm(places + noise * camera - middle, axis=-1)
         levels = np.asarray(shares, np.float64)
         return middle, np.quantile(off, levels, axis=0)
 
@@ -242,7 +243,7 @@ class _Before:
         met_contacts = _kicks.contacts(self.play, 0, kicked[0])
         known = int((met_contacts["time"] + kicked[0, 5] <= end - self.play.origins[0]).sum())
         self.moved = 6 + _strikes.KICKS * known  # the index of the first initial position
-        rest = np.repeat(shot.noise / np.sqrt(shot.still), 2)
+        rest = (shot.deviations(shot.rest) / np.sqrt(shot.still)[:, np.newaxis]).ravel()
         self.start = np.concatenate([kicked[0, : self.moved], np.zeros(len(rest))])
         sizes = error * _kicks.deviations(met_contacts)[:known].ravel()
         # 1 over the variance of each parameter before the shot is seen

@@ -37,6 +37,7 @@ CUSHION, BALLS = (
     np.array([0.01, 0.01, 0.01, 0.02, 0.02]),
 )
 _HORIZONS, _STEPS = (2.0, 4.0, 8.0, np.inf), 8  # samples up to a time, s, and iterations with them
+CONTACT_TYPES = (lib.CAROM_EVENT_BALL_BALL, lib.CAROM_EVENT_RAIL, lib.CAROM_EVENT_JAW)
 _FEWEST = 8  # contacts of a row of a table
 _WORST = 0.02  # m: a shot that is so far off, with kicks, does not count
 _REST = 1e-5  # m: step of the differences by the places of rest
@@ -48,9 +49,7 @@ def contacts(plays: Plays, row: int, numbers: Doubles) -> Records:
         events, _ = plays.played(row, numbers)
     except CaromError:
         events = np.zeros(0, dtypes.event)
-    met_contacts: Records = events[
-        (events["type"] == lib.CAROM_EVENT_BALL_BALL) | (events["type"] == lib.CAROM_EVENT_RAIL)
-    ]
+    met_contacts: Records = events[np.isin(events["type"], CONTACT_TYPES)]
     return met_contacts[:CONTACTS]
 
 
@@ -192,7 +191,7 @@ contact = np.dtype(
 """A contact: index of the recording and the number of the contact, both from 0; when, on the
 recording's clock (s); where ball a was (m); indices of ball a, and of ball b or -1; whether one of
 them is the struck ball; the rail, 0 to 3 for y = 0, x = W, y = L, x = 0, 4 for a pocket's facing,
-or -1. Before it: the speed V that kicks are over, that of ball a at a cushion, that of closing of
+5 for its jaw, or -1. Before it: the speed V that kicks are over, that of ball a at a cushion, that of closing of
 two balls (m/s); the speed into the cushion, or V; the angle to the normal (degrees), and R w_z
 (m/s) of ball a. The kicks, over V: at a cushion velocity along and away from it, roll along and
 away from it, R w_z, where `along` is the direction in which the ball moves along the cushion, and
@@ -307,7 +306,8 @@ def _contacts(play: Quadratic, plays: Plays, number: int) -> tuple[Records, Doub
         np.arange(n),
         play.contacts["time"] + play.start + plays.origins[play.row],
     )
-    cushion = play.contacts["type"] == lib.CAROM_EVENT_RAIL
+    cushion = play.contacts["type"] != lib.CAROM_EVENT_BALL_BALL
+    jaw = play.contacts["type"] == lib.CAROM_EVENT_JAW
     a, b = play.contacts["before"][:, 0], play.contacts["before"][:, 1]
     records["r"], records["a"], records["b"] = (
         a["r"][:, :2],
@@ -316,8 +316,11 @@ def _contacts(play: Quadratic, plays: Plays, number: int) -> tuple[Records, Doub
     )
     records["struck"] = (records["a"] == shot.cue) | (records["b"] == shot.cue)
     into_rails = -_strikes.inward(plays.table)
-    of_rail = into_rails[np.where(cushion, play.contacts["b"], 0)]
-    records["rail"] = np.where(cushion, _side_of(of_rail), -1)
+    of_rail = into_rails[np.where(cushion & ~jaw, play.contacts["b"], 0)]
+    records["rail"] = np.where(cushion, np.where(jaw, _JAW, _side_of(of_rail)), -1)
+    if jaw.any():
+        into = plays.table.jaws["centre"][play.contacts["b"][jaw]] - a["r"][jaw, :2]
+        of_rail[jaw] = into / np.hypot(*into.T)[:, None]
     records["side"] = plays.radius * a["w"][:, 2]
     # the normal, and the direction along it
     line = b["r"][:, :2] - a["r"][:, :2]
@@ -333,7 +336,7 @@ def _contacts(play: Quadratic, plays: Plays, number: int) -> tuple[Records, Doub
     records["angle"] = np.degrees(np.arctan2(np.abs(along), into))
     # how the noise moves the kicks, and the fraction of them that the track determines
     inverse = play.inverse(play.price)
-    still = np.repeat(shot.still, 2)
+    still = np.repeat(shot.still, 2) * (shot.noise / shot.deviations(shot.rest).ravel()) ** 2
     spread = inverse @ (play.H + (play.rest / still) @ play.rest.T) @ inverse
     seen = play.H[6:, 6:] - play.H[6:, :6] @ np.linalg.pinv(play.H[:6, :6]) @ play.H[:6, 6:]
     y = play.kicks.reshape(n, KICKS)
@@ -384,7 +387,8 @@ def _means(
     return mean, np.sqrt((inverted @ left.T @ left @ inverted).diagonal())
 
 
-_RAILS = ("y = 0", "x = W", "y = L", "x = 0", "of a pocket's facing")
+_RAILS = ("y = 0", "x = W", "y = L", "x = 0", "of a pocket's facing", "of a pocket's jaw")
+_JAW = len(_RAILS) - 1
 _NORMALS = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])  # into the first four
 
 

@@ -17,7 +17,7 @@ import lzma
 import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from carom._rows import unknown_value
 from carom.dtypes import Doubles
 from carom.tracks import _constants
-from carom.tracks._recordings import ON_TABLE, Recording, TrackError, exchanged, is_inside
+from carom.tracks._recordings import ON_TABLE, Recording, TrackError, View, exchanged, is_inside
 from carom.tracks._spans import spans
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inches": 0.0254}
@@ -493,8 +493,11 @@ def _found_scale(
 
 def _on_table(
     path: Path, rows: Sequence[_Row], places: Doubles, area: _Area, notes: _Notes
-) -> tuple[list[_Row], Doubles]:
-    """The rows with positions on the table, rotated if the table is along the other axis."""
+) -> tuple[list[_Row], Doubles, Doubles]:
+    """The rows with positions on the table, rotated if the table is along the other axis; and the
+    rotation, (3, 3), of homogeneous positions.
+    """
+    turn = np.eye(3)
     size, radius = area.size, area.radius
     if exchanged(places, size, radius, area.pockets):
         if not area.is_named:
@@ -502,7 +505,8 @@ def _on_table(
                 f"{path}: the positions fit a table of {size[1]:g} x {size[0]:g} m; pass the table's "
                 f"extents in the order of x and y"
             )
-        places = np.column_stack([size[0] - places[:, 1], places[:, 0]])
+        turn = np.array([[0.0, -1.0, size[0]], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+        places = places @ turn[:2, :2].T + turn[:2, 2]
         notes.sentences.append("places are turned by 90 degrees, as their x runs along the table")
     on_table = is_inside(places, size, radius, area.pockets)
     for k in np.flatnonzero(~on_table).tolist():
@@ -517,7 +521,7 @@ def _on_table(
                 f"extents in the order of x and y, all in metres? Pixels need corners"
             )
         notes.leave_out(text, f"{rows[k].place}: {name} = {value:g} m")
-    return [row for row, inside in zip(rows, on_table) if inside], places[on_table]
+    return [row for row, inside in zip(rows, on_table) if inside], places[on_table], turn
 
 
 def _ordered(times: Doubles) -> NDArray[np.intp]:
@@ -541,9 +545,9 @@ def _ordered(times: Doubles) -> NDArray[np.intp]:
 
 
 def _recordings_of(
-    rows: Sequence[_Row], places: Doubles, rate: float, notes: _Notes
+    rows: Sequence[_Row], places: Doubles, rate: float, view: View | None, notes: _Notes
 ) -> list[Recording]:
-    """The recordings of samples, in the order of the file.
+    """The recordings of samples, in the order of the file, by a camera with this view.
 
     Rows out of order of time are skipped, or sorted if there are many.
     """
@@ -569,7 +573,7 @@ def _recordings_of(
                     f"t = {first:g} s",
                 )
             tracks.append(np.column_stack([times[ordered], places[order[ordered]]]))
-        found.append(Recording(_name(shot), tuple(map(_name, balls)), tuple(tracks)))
+        found.append(Recording(_name(shot), tuple(map(_name, balls)), tuple(tracks), view=view))
     if is_sorted:
         notes.sentences.append(f"the rows of {is_sorted} balls are sorted by time")
     return found
@@ -584,8 +588,10 @@ def _shots_of(film: Recording, second: float, notes: _Notes) -> list[Recording]:
     times = np.unique(np.concatenate([track[:, 0] for track in film.tracks])) / second
     if not tracks:
         return [film]
-    steps = np.concatenate([np.diff(track[:, 1:], axis=0).ravel() for track in tracks])
-    found = spans(tracks, times, float(np.median(np.abs(steps))))
+    steps = [film.evened(track[1:, 1:], np.diff(track[:, 1:], axis=0)) for track in tracks]
+    noise = float(np.median(np.abs(np.concatenate(steps))))
+    noisy_film = replace(film, noise=noise)
+    found = spans(tracks, times, [noisy_film.noises(track[:, 1:]) for track in tracks])
     if len(found) < 2:
         return [film]
     shots = []
@@ -596,7 +602,7 @@ def _shots_of(film: Recording, second: float, notes: _Notes) -> list[Recording]:
         ]
         seen = [k for k, part in enumerate(rows) if len(part)]
         balls = tuple(film.balls[k] for k in seen)
-        shots.append(Recording(number, balls, tuple(rows[k] for k in seen)))
+        shots.append(replace(film, id=number, balls=balls, tracks=tuple(rows[k] for k in seen)))
     notes.sentences.append(
         f"the film is cut into {len(shots)} shots, where all balls rest or are put elsewhere"
         + ("" if second == 1.0 else f"; times are taken as {second:g} pictures a second for this")
@@ -669,7 +675,8 @@ def read(
         Frames per second, if t counts frames: 30 or 120.
     corners : four (x, y), optional
         The corners (0, 0), (W, 0), (W, L), (0, L) of the noses in pixels or any other unit.
-        Positions are then mapped to the table by a perspective transformation.
+        Positions are then mapped to the table by a perspective transformation, which also
+        determines how the noise of x and y varies over the table.
 
     Returns
     -------
@@ -698,8 +705,9 @@ def read(
     if not rows:
         raise TrackError("; ".join([f"{path}: no samples are usable", *notes.lines()]))
     places = np.array([(row.x, row.y) for row in rows])
-    if corners is not None and area is not None:
-        q = np.column_stack([places, np.ones(len(places))]) @ _homography(corners, area.size).T
+    matrix = None if corners is None or area is None else _homography(corners, area.size)
+    if matrix is not None:
+        q = np.column_stack([places, np.ones(len(places))]) @ matrix.T
         places = q[:, :2] / q[:, 2:]
         notes.sentences.append(
             "places are mapped by the corners onto the plane of the noses; a centre lies lower by "
@@ -719,12 +727,14 @@ def read(
             length, shift = _found_scale(places, rows, area, notes)
         places = (places - shift) * (length or 1.0)
     if area is not None:
-        rows, places = _on_table(path, rows, places, area, notes)
+        rows, places, turn = _on_table(path, rows, places, area, notes)
+        matrix = None if matrix is None else turn @ matrix
     if rate is None and notes.picture:
         notes.sentences.append(
             f"times are numbers of pictures (column {notes.picture}): rate says how many a second"
         )
-    recordings = _recordings_of(rows, places, rate or 1.0, notes)
+    view = None if matrix is None else View.over(matrix, places)
+    recordings = _recordings_of(rows, places, rate or 1.0, view, notes)
     if notes.is_film:
         second = _USUAL_RATE if rate is None and notes.picture else 1.0
         recordings = _shots_of(recordings[0], second, notes)

@@ -59,13 +59,76 @@ class TrackError(ValueError):
 
 
 @dataclass(frozen=True, eq=False)
+class View:
+    """How a camera sees the table: the noise of a place is a pixel's, spread by the perspective.
+
+    With the pixel u of a place p, the matrix du/dp turns a deviation of a place into one in the
+    picture, where both coordinates have the same noise everywhere.
+    """
+
+    matrix: Doubles  # (3, 3): turns homogeneous pixels into places, m
+    scale: (
+        float  # m a pixel: the root of the mean square over the rows of a file and both coordinates
+    )
+
+    @classmethod
+    def over(cls, matrix: Doubles, places: Doubles) -> View:
+        """The view of a file whose rows are at these places, m, (n, 2)."""
+        steps = np.linalg.inv(cls(matrix, 1.0).evening(places))
+        return cls(matrix, float(np.sqrt(0.5 * (steps**2).sum(axis=(1, 2)).mean())))
+
+    def evening(self, places: Doubles) -> Doubles:
+        """The matrices, (..., 2, 2), that turn deviations of places, m, into ones of equal noise,
+        which are those in the picture times `scale`.
+        """
+        back = np.linalg.inv(self.matrix)
+        q = places @ back[:, :2].T + back[:, 2]
+        pixels, depths = q[..., :2] / q[..., 2:], q[..., 2:, np.newaxis]
+        return np.asarray(
+            self.scale * (back[:2, :2] - pixels[..., np.newaxis] * back[2, :2]) / depths
+        )
+
+
+@dataclass(frozen=True, eq=False)
 class Recording:
     """One recorded shot."""
 
     id: int | str  # As in the file
     balls: tuple[int | str, ...]  # The names of the balls, as in the file
     tracks: tuple[Doubles, ...]  # Of each ball t (s), x and y (m); the first row is at rest
-    noise: float = NOISE  # m: standard deviation of a coordinate
+    noise: float = NOISE
+    """m: standard deviation of a coordinate; with a view, its root of the mean square in the file."""
+    view: View | None = None  # Without: all rows have the same noise
+
+    def evened(self, places: Doubles, offsets: Doubles) -> Doubles:
+        """Deviations from places, m, (..., 2), as ones with the standard deviation `noise`."""
+        if self.view is None:
+            return offsets
+        found: Doubles = (self.view.evening(places) @ offsets[..., np.newaxis])[..., 0]
+        return found
+
+    def deviations(self, places: Doubles) -> Doubles:
+        """The standard deviations of x and y at places, m, (..., 2)."""
+        if self.view is None:
+            return np.full(np.shape(places), self.noise)
+        steps = np.linalg.inv(self.view.evening(places))
+        return np.asarray(self.noise * np.sqrt((steps**2).sum(axis=-1)))
+
+    def noises(self, places: Doubles) -> Doubles:
+        """The standard deviation of a coordinate at places, m, (...): the root of the mean square of
+        x and y.
+        """
+        return np.asarray(np.sqrt((self.deviations(places) ** 2).mean(axis=-1)))
+
+    def moved(
+        self, places: Doubles, offsets: Doubles, noises: float = _NOISES
+    ) -> NDArray[np.bool_]:
+        """Whether balls at places, (..., 2), with these offsets from where they were, m, moved: by
+        more than MOVED and than so many standard deviations.
+        """
+        evened = self.evened(places, offsets)
+        far = np.hypot(offsets[..., 0], offsets[..., 1]) > MOVED
+        return np.asarray(far & (np.hypot(evened[..., 0], evened[..., 1]) > noises * self.noise))
 
     @functools.cached_property
     def still(self) -> list[int]:
@@ -100,7 +163,8 @@ class Recording:
         moves = self.moves
         if not np.isfinite(moves).any():
             raise TrackError(
-                f"shot {self.id}: no ball moves by more than {self.away * 1e3:.3g} mm, so there is no strike to fit"
+                f"shot {self.id}: no ball moves by more than {1e3 * MOVED:g} mm and {_NOISES:g} times the noise, "
+                f"{1e3 * self.noise:.2g} mm, so there is no strike to fit"
             )
         first = np.flatnonzero(moves <= moves.min() + 0.06)
         ways = [self.tracks[k][self.still[k], 1:] - self.rest[k] for k in first]
@@ -123,14 +187,14 @@ class Recording:
 
     @functools.cached_property
     def moving(self) -> list[NDArray[np.intp]]:
-        """The moving rows of each ball: each is farther than `away` from the one before, and the
-        first from the initial position.
+        """The moving rows of each ball: each has `moved` from the one before, and the first from the
+        initial position.
         """
         found = []
         for track, rest_time in zip(self.tracks, self.rest):
             rows = []
             for k, place in enumerate(track[:, 1:]):
-                if np.hypot(*(place - rest_time)) > self.away:
+                if self.moved(place, place - rest_time):
                     rows.append(k)
                     rest_time = place
             found.append(np.array(rows, np.intp))
@@ -141,23 +205,18 @@ class Recording:
         """The time of the last row, s."""
         return float(max(track[-1, 0] for track in self.tracks))
 
-    @property
-    def away(self) -> float:
-        """Distance from the initial position above which a ball has moved, m."""
-        return max(MOVED, _NOISES * self.noise)
-
     def _still(self, track: Doubles) -> int:
         """The number of rows at the initial position: near the first row, then near the mean of the
         first few.
         """
-        rest, most = track[0, 1:], max(MOVED, 1.5 * _NOISES * self.noise)
+        rest, noises = track[0, 1:], 1.5 * _NOISES
         for _ in range(3):
-            away = np.hypot(*(track[:, 1:] - rest).T) > most
+            away = self.moved(track[:, 1:], track[:, 1:] - rest, noises)
             # motion needs two rows in sequence: a single one is noise, which is larger at the far
             # end of a camera's view
             away[:-1] &= away[1:]
             still = max(int(np.argmax(away)), 1) if away.any() else len(track)
-            rest, most = track[: min(still, 12), 1:].mean(axis=0), self.away
+            rest, noises = track[: min(still, 12), 1:].mean(axis=0), _NOISES
         return still
 
 
@@ -192,7 +251,7 @@ class Noise:
     """The noise of recordings, m."""
 
     value: float  # the standard deviation of a coordinate: the root of the mean of both squares
-    axes: tuple[float, float]  # of x and of y
+    axes: tuple[float, float]  # of x and of y, evened
     rest: float  # from the rows at rest; 0 without any
     is_frozen: bool  # whether a film repeats the positions of balls at rest
 
@@ -203,8 +262,8 @@ def _spread(values: Doubles) -> float:
 
 
 def _misfits(recordings: Sequence[Recording]) -> tuple[Doubles, Doubles, Doubles]:
-    """For each row: its residuals in x and y from the quadratic through five rows, relative to
-    noise; the path through these rows relative to a slow ball's; and the distance from the first to
+    """For each row: its residuals in x and y from the quadratic through five rows, evened and
+    relative to noise; the path through these rows relative to a slow ball's; and the distance from the first to
     the last, m.
     """
     misfits, ways, moves = [np.zeros((0, 2))], [np.zeros(0)], [np.zeros(0)]
@@ -222,7 +281,8 @@ def _misfits(recordings: Sequence[Recording]) -> tuple[Doubles, Doubles, Doubles
             A = np.stack([np.ones_like(t), t, t * t], axis=-1)
             hat = (A @ np.linalg.inv(A.transpose(0, 2, 1) @ A)[:, :, :1])[..., 0]
             left = places[..., 2] - (places @ hat[..., None])[..., 0]
-            misfits.append(left / np.sqrt(np.maximum(1.0 - hat[:, 2:3], 1e-9)))
+            left = left / np.sqrt(np.maximum(1.0 - hat[:, 2:3], 1e-9))
+            misfits.append(shot.evened(places[..., 2], left))
             steps = np.hypot(*np.diff(places, axis=2).transpose(1, 0, 2))
             ways.append(steps.sum(axis=1) / (1.0 * span + 0.02))
             moves.append(np.hypot(*(places[..., -1] - places[..., 0]).T))
@@ -250,7 +310,8 @@ def noise_of(recordings: Sequence[Recording]) -> Noise:
         for track, still in zip(known.tracks, known.still):
             if still >= 8:
                 rows = track[:still, 1:]
-                lain.append((rows - np.median(rows, axis=0)) * math.sqrt(still / (still - 1.0)))
+                offsets = (rows - np.median(rows, axis=0)) * math.sqrt(still / (still - 1.0))
+                lain.append(shot.evened(rows, offsets))
     at_rest = np.concatenate(lain)
     rest = _spread(at_rest) if len(at_rest) >= 30 else 0.0
     if rest > 0.0:
@@ -299,12 +360,12 @@ def _reached(
     track: Doubles,
     first: NDArray[np.intp],
     last: NDArray[np.intp],
-    noise: float,
+    noises: Doubles,
     ends: tuple[Any, Any] | None = None,
 ) -> NDArray[np.bool_]:
     """Whether a ball can move from row `first` to row `last` at its speed around the rows `ends`.
 
-    A ball without rows for a long time is at rest.
+    `noises` are those of the rows, m. A ball without rows for a long time is at rest.
     """
     t, r = track[:, 0], track[:, 1:]
     dt = np.diff(t)
@@ -314,7 +375,7 @@ def _reached(
     speed_after = np.where(right < len(speed), speed[np.minimum(right, len(speed) - 1)], 0.0)
     most = (
         _FASTER * np.maximum(speed_before, speed_after) * np.minimum(t[last] - t[first], 0.12)
-        + 8.0 * noise
+        + 8.0 * np.maximum(noises[first], noises[last])
         + 2e-3
     )
     return np.asarray(
@@ -323,42 +384,38 @@ def _reached(
     )
 
 
-def without_false(track: Doubles, noise: float) -> Doubles:
-    """A track without its false rows."""
+def without_false(track: Doubles, shot: Recording) -> Doubles:
+    """A track of a shot without its false rows."""
     for block in (1, 2, 1, _BLOCK, 1):
         n = len(track)
         if n < block + 4:
             break
-        k = np.arange(1, n - block)
+        k, noises = np.arange(1, n - block), shot.noises(track[:, 1:])
         # neither reached from before nor from behind, while these reach each other
         preceding, following = k - 1, k + block
         reached = [
-            _reached(track, *rows, noise, (preceding, following))
+            _reached(track, *rows, noises, (preceding, following))
             for rows in ((preceding, k), (following - 1, following), (preceding, following))
         ]
         false = k[~reached[0] & ~reached[1] & reached[2]]
         track = np.delete(track, np.unique(false[:, None] + np.arange(block)), axis=0)
     # the first row, where those after it are at rest, and the last
     if len(track) >= 5:
-        lie = np.hypot(*(track[1:5, 1:] - track[1:5, 1:].mean(axis=0)).T).max() < max(
-            MOVED, _NOISES * noise
-        )
-        if lie and np.hypot(*(track[0, 1:] - track[1:5, 1:].mean(axis=0))) > max(
-            2.0 * MOVED, 1.5 * _NOISES * noise
-        ):
+        off = track[:5, 1:] - track[1:5, 1:].mean(axis=0)
+        moved = shot.moved(track[1:5, 1:], off[1:])
+        jumped = shot.moved(track[0, 1:], off[0], 1.5 * _NOISES) and np.hypot(*off[0]) > 2.0 * MOVED
+        if jumped and not moved.any():
             track = track[1:]
-        last = np.array([len(track) - 1])
-        if track[-1, 0] - track[-2, 0] < 0.2 and not _reached(track, last - 1, last, noise)[0]:
+        last, noises = np.array([len(track) - 1]), shot.noises(track[:, 1:])
+        if track[-1, 0] - track[-2, 0] < 0.2 and not _reached(track, last - 1, last, noises)[0]:
             track = track[:-1]
     return track
 
 
-def without_swaps(
-    tracks: Sequence[Doubles], noise: float
-) -> tuple[list[Doubles], list[tuple[int, int, float]]]:
-    """Tracks with corrected names, and which two were swapped from which time."""
-    mended, swaps = list(tracks), list[tuple[int, int, float]]()
-    reach = 0.04 + 6.0 * noise
+def without_swaps(shot: Recording) -> tuple[list[Doubles], list[tuple[int, int, float]]]:
+    """The tracks of a shot with corrected names, and which two were swapped from which time."""
+    mended, swaps = list(shot.tracks), list[tuple[int, int, float]]()
+    reach = 0.04 + 6.0 * shot.noise
 
     def place(track: Doubles, k: int, time: float) -> Doubles:
         """The position of a ball at a time, from its row k and the one before."""
@@ -371,7 +428,8 @@ def without_swaps(
         found = None
         for a, track in enumerate(mended):
             k = np.arange(len(track) - 1)
-            for row in (k[~_reached(track, k, k + 1, noise)] + 1).tolist():
+            noises = shot.noises(track[:, 1:])
+            for row in (k[~_reached(track, k, k + 1, noises)] + 1).tolist():
                 time = track[row, 0]
                 for b, partner in enumerate(mended):
                     index = int(np.searchsorted(partner[:, 0], time - 1e-6))
@@ -409,8 +467,9 @@ def sound(recordings: Sequence[Recording], noise: float) -> tuple[list[Recording
     mended: list[Recording] = []
     notes: list[list[str]] = []
     for shot in recordings:
-        tracks, swaps = without_swaps(shot.tracks, noise)
-        tracks = [without_false(track, noise) for track in tracks]
+        shot = replace(shot, noise=noise)
+        tracks, swaps = without_swaps(shot)
+        tracks = [without_false(track, shot) for track in tracks]
         lost = 1.0 - sum(map(len, tracks)) / sum(map(len, shot.tracks))
         remarks = [
             f"balls {shot.balls[a]} and {shot.balls[b]} swapped from {time:.2f} s on"
@@ -418,7 +477,7 @@ def sound(recordings: Sequence[Recording], noise: float) -> tuple[list[Recording
         ]
         if lost > 0.0:
             remarks.append(f"{100.0 * lost:.2g} % false detections, left out")
-        mended.append(replace(shot, tracks=tuple(tracks), noise=noise))
+        mended.append(replace(shot, tracks=tuple(tracks)))
         notes.append(remarks)
     return mended, notes
 

@@ -53,17 +53,19 @@ def _extent(track: Doubles, begin: float, end: float) -> float:
     return float(np.hypot(*np.ptp(places, axis=0))) if len(places) else 0.0
 
 
-def spans(tracks: Sequence[Doubles], times: Doubles, noise: float) -> list[tuple[float, float]]:
+def spans(
+    tracks: Sequence[Doubles], times: Doubles, noises: Sequence[Doubles]
+) -> list[tuple[float, float]]:
     """Beginning and end of each shot, s: the times of motion between new layouts.
 
-    `tracks` are rows (t, x, y) of each ball, `times` those of the frames, and `noise` is the
-    deviation of a coordinate, m.
+    `tracks` are rows (t, x, y) of each ball, `times` those of the frames, and `noises` are
+    the deviations of a coordinate in the rows, m.
     """
     moving = np.zeros(len(times), bool)
-    least = 0.004 + 4.0 * noise
     layouts = _layouts(tracks)
-    for track in tracks:
+    for track, deviations in zip(tracks, noises):
         t, places = track[:, 0], _smoothed(track[:, 1:])
+        least = 0.004 + 4.0 * np.interp(times, t, deviations)
         away = [
             np.interp(times + _WINDOW, t, places[:, axis]) - np.interp(times, t, places[:, axis])
             for axis in (0, 1)

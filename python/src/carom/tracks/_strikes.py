@@ -4,7 +4,7 @@ The unknowns of a shot are six parameters p: v_x, v_y and R w_x, R w_y, R w_z of
 just after the strike (m/s), and the time of the strike (s), on a clock that begins with the last
 sample of the struck ball at rest. The cost is the sum over all samples of all balls of the
 pseudo-Huber loss 2 c^2 (sqrt(1 + d^2/c^2) - 1) of the distance d between recorded and played
-position, c = 1 cm: quadratic for small distances, and linear for large ones, which follow an event
+position, evened if rows have unlike noise (`_recordings.View`), c = 1 cm: quadratic for small distances, and linear for large ones, which follow an event
 that the play misses. Levenberg and Marquardt's step is dp = -(J^T W J + l diag(J^T W J))^-1 J^T W
 d.
 
@@ -96,7 +96,7 @@ class Plays:
         self.struck = np.array([shot.cue for shot in recordings], np.int32)
         self.ends = np.array([shot.end for shot in recordings]) - self.origins
         self.counts = np.array([sum(map(len, shot)) for shot in self.tracks])
-        self.samples, self.first = self._samples(self.tracks)
+        self.samples, self.first, self.evening = self._samples(self.tracks)
         self.cushion_model: ShotCushion = cushion_model
         self.set(constants)
 
@@ -119,15 +119,28 @@ class Plays:
             [_constants.sloped(self.table, constants).record for constants in changed], dtypes.table
         )
 
-    def _samples(self, tracks: Sequence[Sequence[Doubles]]) -> tuple[Doubles, NDArray[np.int64]]:
-        """The concatenated samples of all balls of all shots, and the start of each ball, including
-        balls that a shot does not have.
+    def _samples(
+        self, tracks: Sequence[Sequence[Doubles]]
+    ) -> tuple[Doubles, NDArray[np.int64], Doubles | None]:
+        """The concatenated samples of all balls of all shots; the start of each ball, including
+        balls that a shot does not have; and the matrices that even the samples, (samples, 2, 2), or
+        None if all have the same noise.
         """
         lengths = np.zeros(self.centres.shape[:2], np.int64)
         for shot, row in zip(tracks, lengths):
             row[: len(shot)] = [len(track) for track in shot]
         samples = np.concatenate([track for shot in tracks for track in shot])
-        return np.ascontiguousarray(samples), np.concatenate([[0], np.cumsum(lengths)])
+        first = np.concatenate([[0], np.cumsum(lengths)])
+        if all(shot.view is None for shot in self.recordings):
+            return np.ascontiguousarray(samples), first, None
+        evening = [
+            np.tile(np.eye(2), (len(track), 1, 1))
+            if shot.view is None
+            else shot.view.evening(track[:, 1:])
+            for shot, rows in zip(self.recordings, tracks)
+            for track in rows
+        ]
+        return np.ascontiguousarray(samples), first, np.ascontiguousarray(np.concatenate(evening))
 
     def some(self, rows: ArrayLike) -> Plays:
         """Some of the shots."""
@@ -147,6 +160,7 @@ class Plays:
                 "struck": pointer("int32_t[]", self.struck),
                 "counts": pointer("int32_t[]", self.balls),
                 "samples": pointer("double[]", self.samples),
+                "evening": ffi.NULL if self.evening is None else pointer("double[]", self.evening),
                 "first": pointer("int64_t[]", self.first),
                 "steps": pointer("double[]", self.steps),
                 "count": self.layouts.shape[2],
@@ -247,7 +261,7 @@ class Plays:
         if the play fails.
         """
         moving = copy.copy(self)
-        moving.samples, moving.first = self._samples(
+        moving.samples, moving.first, moving.evening = self._samples(
             [
                 [track[rows] - (begin, 0.0, 0.0) for track, rows in zip(shot.tracks, shot.moving)]
                 for shot, begin in zip(self.recordings, self.origins)
@@ -436,7 +450,8 @@ def starts(shot: Recording, table: tuple[float, float], radius: float) -> Double
     # a few samples before the first hit determine the direction as roughly as their noise, and a single
     # one does not determine the speed
     rough = 0.108 if known <= 2 else 0.016 if known == 3 else 0.0
-    rough = max(rough, 2.0 * min(shot.noise / (max(speed, 0.3) * float(np.sqrt(t @ t))), 0.1))
+    noise = float(shot.noises(rest))
+    rough = max(rough, 2.0 * min(noise / (max(speed, 0.3) * float(np.sqrt(t @ t))), 0.1))
     turns = np.linspace(-rough, rough, 13 if rough > 0.05 else 5) if rough > 0.008 else np.zeros(1)
     faster = np.array([1.0, 1.5, 2.2]) if known == 1 else np.ones(1)
     sides, follows = (
@@ -559,8 +574,8 @@ def descend(
 def derivatives(
     plays: Plays, row: int, strike: Doubles, names: list[str], rest: bool = True
 ) -> tuple[Doubles, Doubles, Doubles, Doubles]:
-    """For one shot: the distances of all samples, (2 n,), and their derivatives by the strike, (2
-    n, 6), by constants, and with `rest` by initial positions.
+    """For one shot: the distances of all samples, evened, (2 n,), and their derivatives by the
+    strike, (2 n, 6), by constants, and with `rest` by initial positions.
 
     The derivatives are tangents of the complete shot in double precision. The time of the strike is
     on the clock of the plays.
@@ -579,14 +594,19 @@ def derivatives(
     found = tangents(played, wrt, times=moments).at["r"]
     states = played.states(moments)
 
-    distances, slopes = [], []
+    distances, slopes, shot = [], [], plays.recordings[row]
     for ball, track in enumerate(tracks):
         when = np.searchsorted(times, track[:, 0])
         J = found[when, ball, :2]
         J[..., 2:5] /= plays.radius  # by R w
         later = np.where((times[when] > strike[5])[:, None], -states["v"][when, ball, :2], 0.0)
-        distances.append(states["r"][when, ball, :2] - track[:, 1:])
-        slopes.append(np.concatenate([J[..., :5], later[..., None], J[..., 5:]], axis=-1))
+        distance = states["r"][when, ball, :2] - track[:, 1:]
+        slope = np.concatenate([J[..., :5], later[..., None], J[..., 5:]], axis=-1)
+        if shot.view is not None:
+            evening = shot.view.evening(track[:, 1:])
+            distance, slope = shot.evened(track[:, 1:], distance), evening @ slope
+        distances.append(distance)
+        slopes.append(slope)
     d, J = np.concatenate(distances).ravel(), np.concatenate(slopes)
     J = J.reshape(len(d), -1)
     return d, J[:, :6], J[:, 6 : 6 + len(names)], J[:, 6 + len(names) :]

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom import pictures
-from carom._carom import lib
 from carom._described import Game
 from carom._rows import Seed, seed_of
 from carom._rows import whole as _whole
@@ -328,9 +327,7 @@ class Fit:
         found = [np.zeros((0, 3))]
         for k in np.flatnonzero(self._counted(train)):
             shot, recording = self.shot(int(k)), self.recordings[k]
-            contacts = shot.events["time"][
-                np.isin(shot.events["type"], (lib.CAROM_EVENT_BALL_BALL, lib.CAROM_EVENT_RAIL))
-            ]
+            contacts = shot.events["time"][np.isin(shot.events["type"], _kicks.CONTACT_TYPES)]
             rows = [
                 (track[moving], ball)
                 for ball, (track, moving) in enumerate(zip(recording.tracks, recording.moving))
