@@ -1,4 +1,5 @@
 /* What plans choose: the same on all machines, with the chances that are told, of what is named. */
+#include "carom_coach.h"
 #include "carom_match.h"
 #include "plan_support.h"
 
@@ -237,6 +238,61 @@ TEST(breaks) {
       ck_assert(best[n].cue.phi > 45.0 && best[n].cue.phi < 135.0);
     }
     ck_assert_msg(best[0].foul < 0.5, "break %d: foul %g", k, best[0].foul);
+  }
+}
+
+/* Breaks of new racks by the player of a plan, and the mean of their values. */
+static double worth_of_breaks(carom_rack_kind rack, const carom_cue *stroke, const double place[2],
+                              carom_break_aim aim) {
+  enum { BREAKS = 800 };
+  carom_break_counts counts = {0};
+  carom_break_job series = {.table = &table,
+                            .balls = balls,
+                            .count = job.count,
+                            .cue = stroke,
+                            .player = &player,
+                            .rack = (int32_t)rack,
+                            .aim = (int32_t)aim,
+                            .gap = 1e-4,
+                            .seed = 1000,
+                            .memory_size = carom_break_memory()};
+  edge space = edge_make(series.memory_size, true);
+  series.memory = space.memory;
+  balls[0].state.r[0] = place[0];
+  balls[0].state.r[1] = place[1];
+  expect_ok(carom_break_play(&series, 0, BREAKS, &counts));
+  edge_free(&space);
+  return counts.wins / BREAKS;
+}
+
+/* Breaks of strong players on the cloth of events: on new racks, the break that a plan chooses is
+ * worth no less than a break as at events, a full hit at 10 m/s from beside the middle of the head
+ * string. The difference of two means of 800 breaks has an error of about 0.01. Nine-ball is left
+ * out: docs/understanding/plan.md states what its planned breaks lose. */
+TEST(breaks_of_events) {
+  static const struct {
+    carom_rules_kind rules;
+    carom_rack_kind rack;
+    double beside; /* m */
+  } event[] = {{CAROM_RULES_EIGHTBALL, CAROM_RACK_EIGHTONSPOT, 0.35},
+               {CAROM_RULES_TENBALL, CAROM_RACK_TENBALL, 0.35}};
+  for (size_t k = 0; k < sizeof event / sizeof *event; k++) {
+    carom_plan_stroke best;
+    make_break(event[k].rules, 1, 750.0);
+    expect_ok(carom_rack(event[k].rack, &table, 1e-4, 1, balls, ROOM_OF_BALLS));
+    for (int64_t ball = 0; ball < job.count; ball++)
+      ck_assert_int_eq(carom_condition_give(CAROM_CONDITION_FAST_CLOTH, &balls[ball].kind), 1);
+    plan(true, &best, 1);
+    const double chosen =
+        worth_of_breaks(event[k].rack, &best.cue, best.place, CAROM_BREAK_DIRECTION);
+
+    carom_cue usual = cue;
+    usual.a = usual.b = usual.theta = 0.0;
+    usual.speed = 7.51; /* m/s: of a cue whose ball leaves at 10 m/s */
+    const double beside[2] = {0.5 * table.width + event[k].beside, 0.25 * table.length};
+    const double as_events = worth_of_breaks(event[k].rack, &usual, beside, CAROM_BREAK_FULL);
+    printf("break %zu: %g by the plan, %g as at events\n", k, chosen, as_events);
+    ck_assert_msg(chosen > as_events - 0.04, "break %zu: %g, %g", k, chosen, as_events);
   }
 }
 
