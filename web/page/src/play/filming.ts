@@ -1,11 +1,13 @@
 // What the player sees of a game: the balls at rest with the aimed stroke, the film of a played
 // stroke, and the messages that go with both.
 import { CaromError } from "carom";
-import { pocketName, product } from "../../../player/words.js";
+import { product } from "../../../player/words.js";
 import { filmOf, lasts, onTable, type Path, pathsOf } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
+import { spoken, wordsOfPocket } from "../table/words.js";
 import { OPTIONS, type Stroke } from "./game.js";
 import { racksOf } from "./keep.js";
+import { wordsOfChoice } from "./named.js";
 import type { Session, Showing } from "./parts.js";
 import {
   aimed,
@@ -88,8 +90,7 @@ function wordsOfCall(s: Session): string {
   const { names, table } = s.play;
   if (!free(s) || !needsCall(s.play)) return "";
   const call = called(s);
-  if (call)
-    return texts.callThe(translate(names[call.ball]!), translate(pocketName(table, call.pocket)));
+  if (call) return texts.callThe(spoken(names[call.ball]!), wordsOfPocket(table, call.pocket));
   if (isSafety(s)) return texts.callASafety;
   return texts.nothingIsCalledAim;
 }
@@ -112,7 +113,7 @@ function showContact(s: Session): void {
   // A stroke may hit only a cushion.
   const meetsBall = free(s) && first !== undefined && first.ball >= 0;
   if (!meetsBall || (!play.practice && linesOf(s) === "none")) return stroke.showContact(undefined);
-  stroke.showContact(first, translate(play.names[first.ball]!));
+  stroke.showContact(first, spoken(play.names[first.ball]!));
 }
 
 /** Shows a button or hides it; one that appears is brought into view. */
@@ -129,10 +130,11 @@ function showButtons(s: Session): void {
   const isFreePractice = play.practice && !play.setup.drill;
   const isOver = play.isOver && s.continuation === undefined;
   const hasSafety = play.played?.calls === true && !play.practice;
-  const hasPockets = play.table.pockets.length > 0;
   const isRolling = film.playing || s.space.isStriking;
-  const spotText = hasPockets ? texts.spotTheNearestBall : texts.spotTheTouchingBalls;
-  for (const [act, button] of choices) if (act === "spot") button.textContent = spotText;
+  for (const [act, button] of choices) {
+    const { text } = wordsOfChoice(play, act);
+    if (button.textContent !== text) button.textContent = text;
+  }
   const visible: (readonly [HTMLElement, boolean])[] = [
     [buttons.hint, play.played !== undefined],
     [buttons.undo, isFreePractice],
