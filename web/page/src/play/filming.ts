@@ -107,12 +107,17 @@ function showWords(s: Session): void {
   s.plates.update();
 }
 
+/** An overlap from which a picture would show one disc. */
+const FULL = 0.97;
 /** The overlap of the balls along the aim, where the setting of lines allows it. */
 function showContact(s: Session): void {
   const { play, first, stroke } = s;
   // A stroke may hit only a cushion.
   const meetsBall = free(s) && first !== undefined && first.ball >= 0;
-  if (!meetsBall || (!play.practice && linesOf(s) === "none")) return stroke.showContact(undefined);
+  // At a break, and where the balls overlap completely, the picture says nothing.
+  const isPlain = play.breaks || (first?.share ?? 0) > FULL;
+  if (!meetsBall || isPlain || (!play.practice && linesOf(s) === "none"))
+    return stroke.showContact(undefined);
   stroke.showContact(first, spoken(play.names[first.ball]!));
 }
 
@@ -139,7 +144,7 @@ function showButtons(s: Session): void {
     [buttons.hint, play.played !== undefined],
     [buttons.undo, isFreePractice],
     [buttons.rack, isFreePractice || isOver],
-    [buttons.push, (mayAim && mayPush) || hasSafety],
+    [buttons.push, (mayAim && mayPush) || (hasSafety && !play.breaks)],
     ...choices.map(([act, button]) => [button, mayAim && play.acts.includes(act)] as const),
     [buttons.skip, isRolling],
     [s.watching.root, s.watched !== undefined],
@@ -147,6 +152,8 @@ function showButtons(s: Session): void {
     [buttons.link, play.setup.against === "link" || s.watched !== undefined],
   ];
   for (const [element, isVisible] of visible) put(element, isVisible);
+  // The button keeps its place before the first stroke, so that the others keep theirs.
+  buttons.replay.style.visibility = play.last?.shot ? "visible" : "hidden";
   enableButtons(s, mayAim, mayPush);
 }
 /**
