@@ -240,9 +240,9 @@ describe.each(Object.keys(LANGUAGES) as Language[])("the words of each state: %s
     for (const game of Object.keys(m.games.PLAYED)) {
       const play = begun(m, game);
       for (const choice of m.named.BUTTONS) {
-        const { text, did } = m.named.wordsOfChoice(play, choice);
+        const { text, deed } = m.named.wordsOfChoice(play, choice);
         expect(text).not.toBe("");
-        expect(did("Anna")).toContain("Anna");
+        expect(deed("Anna")).toContain("Anna");
       }
     }
   });
@@ -255,7 +255,7 @@ test("the plate of a free ball promises what the referee scores", () => {
   expect(m.state.wordsOfTarget(forced(m, "snooker", { on: 1 }))).toBe("ball on: a colour");
 });
 
-test("a choice is told as what it was, also from the lines of a game", () => {
+test("a choice is deed as what it was, also from the lines of a game", () => {
   const m = LANGUAGES.en;
   const play = after(begun(m, "eightball"), { speed: 0.8 });
   play.choose("other_rack");

@@ -24,7 +24,7 @@ import {
   why,
 } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfTurn } from "./state.js";
-import { texts, translate } from "../texts/texts.js";
+import { texts } from "../texts/texts.js";
 
 type Film = NonNullable<Session["filmed"]>;
 function show(s: Pick<Session, "filmed" | "film" | "space">, film: Film): void {

@@ -12,17 +12,17 @@ type ButtonOf = (typeof BUTTONS)[number];
 /** A choice as the text of its button, and as what a player of a name did. */
 interface ChoiceWords {
   text: string;
-  did: (name: string) => string;
+  deed: (name: string) => string;
 }
-const PASS: ChoiceWords = { text: texts.pass, did: texts.passed };
-const PLAY_AGAIN: ChoiceWords = { text: texts.playsAgain, did: texts.askedToPlayAgain };
-const GIVE_BACK: ChoiceWords = { text: texts.giveBack, did: texts.gaveBack };
-const BREAK_AGAIN: ChoiceWords = { text: texts.breakAgain, did: texts.askedToBreakAgain };
-const RACK: ChoiceWords = { text: texts.rackAndBreak, did: texts.hadTheBallsRacked };
-const SPOT: ChoiceWords = { text: texts.spotTheNearestBall, did: texts.spottedTheNearest };
+const PASS: ChoiceWords = { text: texts.pass, deed: texts.passed };
+const PLAY_AGAIN: ChoiceWords = { text: texts.playsAgain, deed: texts.askedToPlayAgain };
+const GIVE_BACK: ChoiceWords = { text: texts.giveBack, deed: texts.gaveBack };
+const BREAK_AGAIN: ChoiceWords = { text: texts.breakAgain, deed: texts.askedToBreakAgain };
+const RACK: ChoiceWords = { text: texts.rackAndBreak, deed: texts.hadTheBallsRacked };
+const SPOT: ChoiceWords = { text: texts.spotTheNearestBall, deed: texts.spottedTheNearest };
 const SPOT_TOUCHING: ChoiceWords = {
   text: texts.spotTheTouchingBalls,
-  did: texts.spottedTheTouching,
+  deed: texts.spottedTheTouching,
 };
 /** The words of each choice: in most games, and in those that call it something else. */
 const CHOICES: Record<ButtonOf, { usual: ChoiceWords; games?: Record<string, ChoiceWords> }> = {
@@ -36,8 +36,8 @@ const CHOICES: Record<ButtonOf, { usual: ChoiceWords; games?: Record<string, Cho
       bank: BREAK_AGAIN,
     },
   },
-  place: { usual: { text: texts.placeInTheD, did: texts.placesTheCueBall } },
-  stay: { usual: { text: texts.leaveTheCueBall, did: texts.leftTheCueBall } },
+  place: { usual: { text: texts.placeInTheD, deed: texts.placesTheCueBall } },
+  stay: { usual: { text: texts.leaveTheCueBall, deed: texts.leftTheCueBall } },
   spot: {
     usual: SPOT,
     games: {
@@ -48,9 +48,9 @@ const CHOICES: Record<ButtonOf, { usual: ChoiceWords; games?: Record<string, Cho
   },
   rack: {
     usual: RACK,
-    games: { billiards: { text: texts.spotAndPlay, did: texts.spottedTheBalls } },
+    games: { billiards: { text: texts.spotAndPlay, deed: texts.spottedTheBalls } },
   },
-  other_rack: { usual: { text: texts.rackTheOtherBreaks, did: texts.letTheOtherBreak } },
+  other_rack: { usual: { text: texts.rackTheOtherBreaks, deed: texts.letTheOtherBreak } },
 };
 /** The words of a choice. Throws for one that has no button, such as "push". */
 export function wordsOfChoice({ setup }: Play, choice: Choice): ChoiceWords {
@@ -59,9 +59,9 @@ export function wordsOfChoice({ setup }: Play, choice: Choice): ChoiceWords {
 }
 
 /** The library's text of a foul against a rule that only one game has. */
-const OTHER_RULE = new Map<string, string>(words.foul).get("other");
+const GAME_RULE = new Map<string, string>(words.foul).get("other");
 /** These fouls, by the game that has the rule. */
-const OTHER_FOULS: Record<string, string> = {
+const GAME_FOULS: Record<string, string> = {
   snooker: texts.snookerBehindFreeBall,
   billiards: texts.tooManyInARow,
   cowboy: texts.pastTheTarget,
@@ -69,26 +69,26 @@ const OTHER_FOULS: Record<string, string> = {
 };
 /** Why a stroke was a foul, in plain words, by the text that the library gives. */
 export function wordsOfReason({ setup }: Play, why: string): string {
-  const other = why === OTHER_RULE ? OTHER_FOULS[setup.game] : undefined;
-  return other ?? translate(why);
+  const foul = why === GAME_RULE ? GAME_FOULS[setup.game] : undefined;
+  return foul ?? translate(why);
 }
 
 /** Whether a player of snooker may name any ball as the ball on. */
 export const isFreeBall = ({ acts }: Play): boolean => acts.includes("free_ball");
 /** The ball on in snooker, a free ball aside: "a red", "a colour", "the yellow". */
-function ballDue({ carom, state, balls, names }: Play): string {
+function ballOn({ carom, state, balls, names }: Play): string {
   if (state.on) return texts.aColour;
-  const [due] = carom.ballsOn({ ...state, may: [] }, balls);
-  if (due === undefined) return texts.none;
-  const name = names[due]!;
+  const [target] = carom.ballsOn({ ...state, may: [] }, balls);
+  if (target === undefined) return texts.none;
+  const name = names[target]!;
   return name.startsWith("red") ? texts.aRed : texts.theBallNamed(spoken(name));
 }
 /** The ball on in snooker, as a plate shows it, and as it follows the name in the turn line. */
 export function wordsOn(play: Play): { plate: string; turn: string } {
-  const due = ballDue(play);
+  const target = ballOn(play);
   return isFreeBall(play)
-    ? { plate: texts.freeBallMeans(due), turn: texts.withFreeBall(due) }
-    : { plate: texts.ballOn(due), turn: texts.onBall(due) };
+    ? { plate: texts.freeBallMeans(target), turn: texts.withFreeBall(target) }
+    : { plate: texts.ballOn(target), turn: texts.onBall(target) };
 }
 
 /** So many fouls in a row are the last ones without a penalty. */

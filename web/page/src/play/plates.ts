@@ -53,10 +53,13 @@ function nextSeat({ points }: Play, atTable: number): number {
   return others.find((player) => points[player]! > 0) ?? -1;
 }
 /** The lives of killer: a dot for each that is left, and a ring for each that is lost. */
-function livesOf({ carom, table }: Play, left: number): string {
-  const [all = left] = carom.match("killer", table).game.user ?? [];
-  return "●".repeat(left) + "○".repeat(all - left);
+function livesOf({ carom, table }: Play, lives: number): string {
+  const [initial = lives] = carom.match("killer", table).game.user ?? [];
+  return "●".repeat(lives) + "○".repeat(initial - lives);
 }
+/** The points of a seat as a plate shows them; "" in a game without points. */
+const wordsOfPoints = (play: Play, points: number): string =>
+  play.played?.points || play.isOwn ? String(points).replace("-", "−") : "";
 /** The most seats of any game. */
 const MOST_SEATS = Math.max(2, ...Object.values(SEATS).flat());
 
@@ -125,11 +128,7 @@ export function plates(s: Session): Plates {
     root.classList.toggle("out", isMany && left <= 0);
     const isLives = game === "killer";
     points.classList.toggle("lives", isLives);
-    points.textContent = isLives
-      ? livesOf(play, left)
-      : play.played?.points || play.isOwn
-        ? String(left).replace("-", "−")
-        : "";
+    points.textContent = isLives ? livesOf(play, left) : wordsOfPoints(play, left);
     racks.textContent = race === undefined ? "" : texts.racksOf(racksOf(play)[player] ?? 0, race);
     balls.show(play, ballsOf(play, player));
   }

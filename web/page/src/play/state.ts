@@ -158,7 +158,7 @@ export function wordsOfStroke(play: Play, stroke: Stroke, seat: number): string 
   const name = nameOf(play, player, seat);
   if (isLate) return wordsOfFoul(play, stroke, seat).trim();
   if (!shot)
-    return stroke.choice ? wordsOfChoice(play, stroke.choice).did(name) : texts.concedes(name);
+    return stroke.choice ? wordsOfChoice(play, stroke.choice).deed(name) : texts.concedes(name);
   const pots = shot.events.flatMap(({ type, a }) =>
     type === "ball_pocket" && (a !== cue.ball || !ruling?.foul) ? spoken(play.names[a]!) : [],
   );
