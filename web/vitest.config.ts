@@ -2,7 +2,7 @@ import { defineConfig } from "vitest/config";
 
 // The package's tests, those of the page without a browser, and one look at each of its views; with
 // CAROM_PAGE=whole all of its tests.
-const page = process.env.CAROM_PAGE === "whole" ? "**/*" : "{devices,schema,smoke}";
+const page = process.env.CAROM_PAGE === "whole" ? "**/*" : "{devices,first,named,schema,smoke}";
 
 export default defineConfig({
   test: {

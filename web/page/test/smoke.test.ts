@@ -10,12 +10,14 @@ import {
   act,
   browserPath,
   comesToCount,
+  comesToShow,
   describePages,
   keptGame,
   linesOf,
   numberIn,
   pages,
   says,
+  shows,
   sizes,
   violations,
 } from "./page.js";
@@ -48,6 +50,18 @@ describePages("smoke", () => {
     await expect.poll(() => text(page, "said")).not.toBe(initial);
     // A break is played hard.
     await expect.poll(async () => await numberIn(page, "power")).toBeGreaterThan(5);
+  });
+
+  test("a new game shows its power in per cent, and no control that says nothing", async () => {
+    const page = await open("");
+    await act(page, "#power=5");
+    expect(await text(page, "power-value")).toBe("50 %");
+    expect(await page.locator("#power").getAttribute("aria-valuetext")).toBe("50 %");
+    expect(await text(page, "speed-value")).toBe("5.00 m/s");
+    // Nothing was played, and a break is met by a rack, of which no part can be chosen.
+    for (const control of ["#replay", "#part", "#push"]) await shows(page, control, false);
+    await act(page, "#shoot", "#skip");
+    await comesToShow(page, "#replay");
   });
 
   test("the balls are listed in words", async () => {

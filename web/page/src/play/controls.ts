@@ -131,7 +131,7 @@ export function controls(s: Session): Controls {
       0.05,
       "",
       s.changed,
-      (x) => `${x.toFixed(1)} m/s`,
+      (x) => `${Math.round((100 * x) / FASTEST)} %`,
     ),
     "tip-ball",
     s.changed,
@@ -157,6 +157,7 @@ export function controls(s: Session): Controls {
     "aria-label": texts.theAimMeetsNo,
   });
 
+  const speedValue = el("output#speed-value");
   return {
     side: el("section.side", { "aria-label": texts.theStroke }, power, part),
     tip,
@@ -165,11 +166,13 @@ export function controls(s: Session): Controls {
     numbers: el(
       "details.numbers-of",
       el("summary", texts.strokeInNumbers),
+      el("div.field", el("span", texts.speedOfTheCue), speedValue),
       ...(["phi", "right", "up", "theta"] as const).map((key) => sliders[key].root),
     ),
     set,
     value,
     showContact(contact, name = "") {
+      speedValue.textContent = `${sliders.speed.value.toFixed(2)} m/s`;
       power.style.setProperty("--power", String(sliders.speed.value / FASTEST));
       part.style.visibility = contact ? "visible" : "hidden";
       if (!contact) return;

@@ -1,11 +1,13 @@
 // What the player sees of a game: the balls at rest with the aimed stroke, the film of a played
 // stroke, and the messages that go with both.
 import { CaromError } from "carom";
-import { pocketName, product } from "../../../player/words.js";
+import { product } from "../../../player/words.js";
 import { filmOf, lasts, onTable, type Path, pathsOf } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
+import { spoken, wordsOfPocket } from "../table/words.js";
 import { OPTIONS, type Stroke } from "./game.js";
 import { racksOf } from "./keep.js";
+import { wordsOfChoice } from "./named.js";
 import type { Session, Showing } from "./parts.js";
 import {
   aimed,
@@ -22,7 +24,7 @@ import {
   why,
 } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfTurn } from "./state.js";
-import { texts, translate } from "../texts/texts.js";
+import { texts } from "../texts/texts.js";
 
 type Film = NonNullable<Session["filmed"]>;
 function show(s: Pick<Session, "filmed" | "film" | "space">, film: Film): void {
@@ -88,8 +90,7 @@ function wordsOfCall(s: Session): string {
   const { names, table } = s.play;
   if (!free(s) || !needsCall(s.play)) return "";
   const call = called(s);
-  if (call)
-    return texts.callThe(translate(names[call.ball]!), translate(pocketName(table, call.pocket)));
+  if (call) return texts.callThe(spoken(names[call.ball]!), wordsOfPocket(table, call.pocket));
   if (isSafety(s)) return texts.callASafety;
   return texts.nothingIsCalledAim;
 }
@@ -106,13 +107,18 @@ function showWords(s: Session): void {
   s.plates.update();
 }
 
+/** An overlap from which a picture would show one disc. */
+const FULL = 0.97;
 /** The overlap of the balls along the aim, where the setting of lines allows it. */
 function showContact(s: Session): void {
   const { play, first, stroke } = s;
   // A stroke may hit only a cushion.
   const meetsBall = free(s) && first !== undefined && first.ball >= 0;
-  if (!meetsBall || (!play.practice && linesOf(s) === "none")) return stroke.showContact(undefined);
-  stroke.showContact(first, translate(play.names[first.ball]!));
+  // At a break, and where the balls overlap completely, the picture says nothing.
+  const isPlain = play.breaks || (first?.share ?? 0) > FULL;
+  if (!meetsBall || isPlain || (!play.practice && linesOf(s) === "none"))
+    return stroke.showContact(undefined);
+  stroke.showContact(first, spoken(play.names[first.ball]!));
 }
 
 /** Shows a button or hides it; one that appears is brought into view. */
@@ -129,15 +135,16 @@ function showButtons(s: Session): void {
   const isFreePractice = play.practice && !play.setup.drill;
   const isOver = play.isOver && s.continuation === undefined;
   const hasSafety = play.played?.calls === true && !play.practice;
-  const hasPockets = play.table.pockets.length > 0;
   const isRolling = film.playing || s.space.isStriking;
-  const spotText = hasPockets ? texts.spotTheNearestBall : texts.spotTheTouchingBalls;
-  for (const [act, button] of choices) if (act === "spot") button.textContent = spotText;
+  for (const [act, button] of choices) {
+    const { text } = wordsOfChoice(play, act);
+    if (button.textContent !== text) button.textContent = text;
+  }
   const visible: (readonly [HTMLElement, boolean])[] = [
     [buttons.hint, play.played !== undefined],
     [buttons.undo, isFreePractice],
     [buttons.rack, isFreePractice || isOver],
-    [buttons.push, (mayAim && mayPush) || hasSafety],
+    [buttons.push, (mayAim && mayPush) || (hasSafety && !play.breaks)],
     ...choices.map(([act, button]) => [button, mayAim && play.acts.includes(act)] as const),
     [buttons.skip, isRolling],
     [s.watching.root, s.watched !== undefined],
@@ -145,6 +152,8 @@ function showButtons(s: Session): void {
     [buttons.link, play.setup.against === "link" || s.watched !== undefined],
   ];
   for (const [element, isVisible] of visible) put(element, isVisible);
+  // The button keeps its place before the first stroke, so that the others keep theirs.
+  buttons.replay.style.visibility = play.last?.shot ? "visible" : "hidden";
   enableButtons(s, mayAim, mayPush);
 }
 /**

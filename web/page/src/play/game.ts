@@ -13,6 +13,7 @@ import {
   type GameState,
   type Match,
   type Choice,
+  choices,
   type Ruling,
   type Shot,
   type ShotBall,
@@ -83,6 +84,8 @@ export interface Stroke {
   balls: ShotBall[];
   cue: Cue;
   call: Call | undefined;
+  /** The choice that was taken instead of a stroke. */
+  choice?: Choice | undefined;
   state: GameState;
   shot: Shot | undefined;
   ruling: Ruling | undefined;
@@ -127,6 +130,14 @@ const isLate = (line: Line): boolean =>
   isAct(line) ? line[0] === "clock" : line.startsWith('{"act":{"act":4,');
 const isStroke = (line: Line): boolean =>
   isAct(line) ? line[0] === "stroke" : line.startsWith('{"shot"');
+
+/** The choice that a line records, if it records one. */
+function choiceOf(line: Line): Choice | undefined {
+  if (isAct(line)) return line[0] === "choose" ? line[1] : undefined;
+  if (!line.startsWith('{"act":{"act":1,')) return undefined;
+  const { act } = JSON.parse(line) as { act: { choice: number } };
+  return choices[Math.log2(act.choice)];
+}
 
 /** The table of a game: what of it is not usual. */
 export function tableOf({
@@ -387,7 +398,7 @@ export class Play {
   choose(what: Choice, aimer: Aimer = "player"): Stroke {
     const situation = this.#situation(this.carom.cue(), what === "pass" ? what : undefined, aimer);
     this.#match!.choose(what);
-    return this.#ruled(situation, false);
+    return this.#ruled({ ...situation, choice: what }, false);
   }
 
   /** The time for a stroke is over, which is a foul. */
@@ -421,7 +432,8 @@ export class Play {
         const ruled = match.lines.length - known - 1;
         // Behind a line those of the ruling follow, which the match has too.
         for (const rest of isAct(line) ? [] : lines.splice(0, ruled)) match.read(rest as string);
-        if (ruled > 0) return this.#ruled({ ...situation, isLate: isLate(line) }, isStroke(line));
+        const rest = { isLate: isLate(line), choice: choiceOf(line) };
+        if (ruled > 0) return this.#ruled({ ...situation, ...rest }, isStroke(line));
       }
     } catch (error) {
       throw new TypeError(texts.strokeIsNotAs(this.strokes + 1, wrong(error)));

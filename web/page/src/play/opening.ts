@@ -1,6 +1,7 @@
 // Which game is on the table: a new one, a saved one, or one from a link.
 import { drop } from "../far.js";
 import { parameters, wrong } from "../ui.js";
+import { firstStroke } from "./first.js";
 import { Play, read, type Setup } from "./game.js";
 import { damaged, unpack } from "./keep.js";
 import type { Session } from "./parts.js";
@@ -55,6 +56,25 @@ function wordsOfStart({ setup, practice }: Play, training: Session["training"]):
   return texts.dragOnTheTable;
 }
 
+/** Sets a legal first stroke, one try at a time, unless somebody aims, plays or leaves first. */
+async function aimLegally(s: Session): Promise<void> {
+  const { play } = s;
+  const isUntouched = (before: string): boolean =>
+    s.play === play && play.strokes === 0 && JSON.stringify(s.stroke.value()) === before;
+  const usual = cueOf(s);
+  const before = JSON.stringify(s.stroke.value());
+  const search = firstStroke(play, usual);
+  let tried = search.next();
+  while (!tried.done) {
+    await new Promise((later) => window.setTimeout(later));
+    if (!isUntouched(before)) return;
+    tried = search.next();
+  }
+  if (tried.value === usual) return;
+  aimAt(s, tried.value);
+  s.showing.rest();
+}
+
 /** Begins a game with a new id; the previous one is saved if a stroke was played in it. */
 export function begin(s: Session, setup: Setup): void {
   const left = { id: s.id, play: s.watched ?? s.play };
@@ -69,6 +89,7 @@ export function begin(s: Session, setup: Setup): void {
     ...(play.played?.begin ?? { speed: 4, phi: 62, a: 0, b: 0 }),
     ...(setup.at === undefined ? {} : { speed: 2, phi: 90 }),
   });
+  if (setup.at === undefined && !play.practice) void aimLegally(s);
   const isUnfinished = isKept && !left.play.isOver;
   const note = isUnfinished ? texts.theGameBeforeIs : "";
   says(s, wordsOfStart(play, s.training) + note);

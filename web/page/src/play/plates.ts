@@ -1,7 +1,7 @@
 // Both seats above the table with the game between them: names, ratings, points, racks of a race,
 // whose turn it is, and which balls are left. A screen reader hears the score as a sentence.
 import { onTable } from "../table/filmed.js";
-import { GAMES } from "../table/games.js";
+import { GAMES, SEATS } from "../table/games.js";
 import { el } from "../ui.js";
 import { isComputer, type Play } from "./game.js";
 import { racksOf } from "./keep.js";
@@ -47,22 +47,31 @@ function sharedBalls(play: Play): number[] {
   return isPool && !hasGroups ? range(1, play.balls.length - 1) : [];
 }
 
-/** The seat at the right: the one at the table, or the next that has something left. */
-function opposite({ points }: Play, left: number, atTable: number): number {
-  if (atTable !== left) return atTable;
-  const others = points.map((_, k) => (left + 1 + k) % points.length);
-  return others.find((player) => points.length === 2 || points[player]! > 0)!;
+/** The seat that plays next: the first one after the seat at the table that has something left. */
+function nextSeat({ points }: Play, atTable: number): number {
+  const others = points.map((_, k) => (atTable + 1 + k) % points.length);
+  return others.find((player) => points[player]! > 0) ?? -1;
 }
+/** The lives of killer: a dot for each that is left, and a ring for each that is lost. */
+function livesOf({ carom, table }: Play, lives: number): string {
+  const [initial = lives] = carom.match("killer", table).game.user ?? [];
+  return "●".repeat(lives) + "○".repeat(initial - lives);
+}
+/** The points of a seat as a plate shows them; "" in a game without points. */
+const wordsOfPoints = (play: Play, points: number): string =>
+  play.played?.points || play.isOwn ? String(points).replace("-", "−") : "";
+/** The most seats of any game. */
+const MOST_SEATS = Math.max(2, ...Object.values(SEATS).flat());
 
 export function plates(s: Session): Plates {
-  const seats = ([0, 1] as const).map((place) => {
+  const seats = Array.from({ length: MOST_SEATS }, (_, place) => {
     const face = el("span.face");
     const name = el("span.name");
     const racks = el("span.racks");
     const points = el("span.points");
     const balls = tray("span.tray");
     const root = el(
-      `div.plate.${place === 0 ? "left" : "right"}` as "div",
+      `div.plate.${place === 1 ? "right" : "left"}` as "div",
       face,
       el("span.who", name, racks, balls.root),
       points,
@@ -74,7 +83,7 @@ export function plates(s: Session): Plates {
   const shared = tray("div.tray");
   note.style.margin = "0";
   const middle = el("div.middle", title, note, shared.root);
-  const root = el("div.plates", seats[0]!.root, middle, seats[1]!.root);
+  const root = el("div.plates", seats[0]!.root, middle, ...seats.slice(1).map((seat) => seat.root));
   for (const { root } of seats) root.setAttribute("aria-hidden", "true");
 
   /** Where the visit to the table began: what it made since is a break. */
@@ -98,22 +107,28 @@ export function plates(s: Session): Plates {
       .filter((part) => part !== "")
       .join(" · ");
   }
-  function showSeat(place: 0 | 1, player: number, atTable: number): void {
+  function showSeat(place: number, player: number, atTable: number): void {
     const { play, seat } = s;
-    const { against, race } = play.setup;
+    const { against, game, race } = play.setup;
     const { face, name, racks, points, balls, root } = seats[place]!;
     const isMachine = isComputer(against) && player !== seat;
     const text = nameOf(play, player, seat);
+    const isMany = play.points.length > 2;
     name.textContent = text[0]!.toUpperCase() + text.slice(1);
     const rating = isComputer(against)
       ? String(s.training.rating(play.setup.game).rating)
       : text[0]!;
-    const own = against === "person" ? String(player + 1) : rating;
-    face.textContent = isMachine ? against : own;
+    const own = against === "person" || isMany ? String(player + 1) : rating;
+    face.textContent = isMachine && !isMany ? against : own;
     face.classList.toggle("machine", isMachine);
     root.classList.toggle("at-table", !play.isOver && player === atTable);
-    points.textContent =
-      play.played?.points || play.isOwn ? String(play.points[player]).replace("-", "−") : "";
+    const left = play.points[player]!;
+    const isNext = isMany && !play.isOver && player === nextSeat(play, atTable);
+    root.classList.toggle("next", isNext);
+    root.classList.toggle("out", isMany && left <= 0);
+    const isLives = game === "killer";
+    points.classList.toggle("lives", isLives);
+    points.textContent = isLives ? livesOf(play, left) : wordsOfPoints(play, left);
     racks.textContent = race === undefined ? "" : texts.racksOf(racksOf(play)[player] ?? 0, race);
     balls.show(play, ballsOf(play, player));
   }
@@ -121,7 +136,10 @@ export function plates(s: Session): Plates {
     const { play, seat } = s;
     const { against, game } = play.setup;
     title.textContent = play.played?.text ?? GAMES[game]!.text;
-    for (const { root } of seats) root.hidden = play.practice;
+    const count = play.points.length;
+    root.classList.toggle("many", count > 2 && !play.practice);
+    root.style.setProperty("--seats", String(count));
+    seats.forEach(({ root }, place) => (root.hidden = play.practice || place >= count));
     note.textContent = play.practice ? translate(texts.practice) : wordsOfVisit(play);
     shared.show(play, sharedBalls(play));
     if (play.practice) return;
@@ -129,8 +147,7 @@ export function plates(s: Session): Plates {
     const atTable = isFilmed ? s.shown!.player : play.turn;
     // Whoever sits here is at the left.
     const left = against === "person" ? 0 : seat;
-    showSeat(0, left, atTable);
-    showSeat(1, opposite(play, left, atTable), atTable);
+    for (let place = 0; place < count; place++) showSeat(place, (left + place) % count, atTable);
   }
   return { root, update };
 }

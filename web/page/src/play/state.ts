@@ -1,8 +1,16 @@
 // The state of a game as sentences: whose turn it is, the balls on, and the score.
 import type { Ruling } from "carom";
 import { onTable } from "../table/filmed.js";
-import { ballOf } from "../table/words.js";
+import { ballOf, spoken } from "../table/words.js";
 import type { Play, Stroke } from "./game.js";
+import {
+  wordsOfBaulk,
+  wordsOfChoice,
+  wordsOfDanger,
+  wordsOfFreeShot,
+  wordsOfReason,
+  wordsOn,
+} from "./named.js";
 import { texts, translate } from "../texts/texts.js";
 
 /** The name of who is at the table: 0 breaks, 1 is the other one. */
@@ -26,7 +34,7 @@ function wordsOfFoul(play: Play, { player, ruling, isLate }: Stroke, seat: numbe
   const name = nameOf(play, player, seat);
   if (isLate) return texts.fouls(name, name === texts.you, texts.theTimeIsOver);
   if (!ruling?.foul) return "";
-  return texts.fouls(name, name === texts.you, translate(ruling.why));
+  return texts.fouls(name, name === texts.you, wordsOfReason(play, ruling.why));
 }
 
 const fell = ({ shot }: Stroke, ball: number): boolean =>
@@ -36,19 +44,20 @@ export const isEight = ({ setup }: Play): boolean =>
   ["eightball", "blackball", "heyball"].includes(setup.game);
 
 /** Why the eight lost the game. */
-function wordsOfEight({ state, ruling, balls, shot, call }: Stroke): string {
+function wordsOfEight(play: Play, { state, ruling, balls, shot, call }: Stroke): string {
   if (shot?.final[8]?.label === "off") return texts.the8LeftThe;
   const [first, last] = state.group === "solids" ? [1, 7] : [9, 15];
   const hasOwn = balls.some((ball, k) => k >= first && k <= last && onTable(ball.state));
   if (state.group === "open" || hasOwn) return texts.the8FellBefore;
-  if (ruling?.foul) return texts.the8FellWith(translate(ruling.why));
+  if (ruling?.foul) return texts.the8FellWith(wordsOfReason(play, ruling.why));
   const isCalled = typeof call === "object" && call.ball === 8;
   return isCalled ? texts.the8FellInto : texts.the8WasNot;
 }
 /** The score that ended a game of points; whoever wins with less of it wins by fouls of the other. */
-function wordsOfFinalScore({ points, winner }: Play, { foul, why }: Ruling): string {
+function wordsOfFinalScore(play: Play, { foul, why }: Ruling): string {
+  const { points, winner } = play;
   const isBehind = winner !== undefined && points[winner]! < Math.max(...points);
-  if (isBehind && foul) return texts.theThirdFoulIn(translate(why));
+  if (isBehind && foul) return texts.theThirdFoulIn(wordsOfReason(play, why));
   return texts.theScoreIs(points.join(" : ").replaceAll("-", "−"));
 }
 /** Why the game ended, if the stroke explains more than the score does. */
@@ -65,8 +74,8 @@ export function wordsOfEnd(play: Play): string {
   }
   if (!hasLost) return fell(last, deciding) ? texts.theFell(deciding) : "";
   const isEightGone = fell(last, 8) || last.shot?.final[8]?.label === "off";
-  if (deciding === 8 && isEightGone) return wordsOfEight(last);
-  return last.ruling.foul ? texts.theThirdFoulIn(translate(last.ruling.why)) : "";
+  if (deciding === 8 && isEightGone) return wordsOfEight(play, last);
+  return last.ruling.foul ? texts.theThirdFoulIn(wordsOfReason(play, last.ruling.why)) : "";
 }
 
 /** Where balls count for whoever plays. */
@@ -74,20 +83,12 @@ function pocketOf(play: Play): string {
   const [pocket = 5] = play.state.pocket ?? [];
   return texts.thePocket(translate(play.carom.pocketNames(play.table)[pocket] ?? "own"));
 }
-/** Of snooker: what is to be met. */
-export function onOf(play: Play): string {
-  const targets = play.carom.ballsOn(play.state, play.balls);
-  if (targets.length === 0) return "nothing";
-  if (targets.every((ball) => ball < 16)) return texts.aRed;
-  return targets.length === 1 ? translate(play.names[targets[0]!]!) : texts.aColour;
-}
-
 /** What is to be met first, where the rules let meet nothing else. */
 export function wordsOfTarget(play: Play): string {
-  if (play.setup.game === "snooker") return texts.ballOn(onOf(play));
+  if (play.setup.game === "snooker") return wordsOn(play).plate;
   const [target, ...others] = play.hasPockets ? play.carom.ballsOn(play.state, play.balls) : [];
   return target !== undefined && others.length === 0
-    ? texts.firstBall(translate(play.names[target]!))
+    ? texts.firstBall(spoken(play.names[target]!))
     : "";
 }
 
@@ -104,12 +105,12 @@ function wordsOfGroup({ setup }: Play, group: string): string {
 function aimOf(play: Play): string {
   const { game } = play.setup;
   if (isLastInning(play)) return texts.equalizingInning;
-  if (game === "snooker") return texts.onBall(onOf(play));
-  if (play.played?.pockets) return texts.intoPocket(pocketOf(play));
-  if (!isEight(play) || play.breaks) return "";
-  return play.state.group === "open"
-    ? texts.openTable
-    : `, ${wordsOfGroup(play, play.state.group!)}`;
+  if (game === "snooker") return wordsOn(play).turn;
+  if (play.played?.pockets) return texts.intoPocket(pocketOf(play)) + wordsOfDanger(play);
+  if (!isEight(play) || play.breaks) return wordsOfBaulk(play) + wordsOfDanger(play);
+  const group =
+    play.state.group === "open" ? texts.openTable : `, ${wordsOfGroup(play, play.state.group!)}`;
+  return group + wordsOfFreeShot(play) + wordsOfDanger(play);
 }
 const PLACES: Record<string, string> = {
   kitchen: texts.behindTheLine,
@@ -156,14 +157,17 @@ export function wordsOfStroke(play: Play, stroke: Stroke, seat: number): string 
   const { player, shot, cue, ruling, isLate } = stroke;
   const name = nameOf(play, player, seat);
   if (isLate) return wordsOfFoul(play, stroke, seat).trim();
-  if (!shot) return texts.passed(name);
-  const fallen = shot.events.flatMap(({ type, a }) =>
-    type === "ball_pocket" && (a !== cue.ball || !ruling?.foul)
-      ? texts.theBallNamed(translate(play.names[a]!))
-      : [],
+  if (!shot)
+    return stroke.choice ? wordsOfChoice(play, stroke.choice).deed(name) : texts.concedes(name);
+  const pots = shot.events.flatMap(({ type, a }) =>
+    type === "ball_pocket" && (a !== cue.ball || !ruling?.foul) ? spoken(play.names[a]!) : [],
   );
+  const fallen = [...new Set(pots)].map((word) => {
+    const count = pots.filter((other) => other === word).length;
+    return count > 1 ? texts.manyOf(count, word) : texts.theBallNamed(word);
+  });
   const { foul = true, points = 0 } = ruling ?? {};
-  const hasScored = play.played?.points && points !== fallen.length;
+  const hasScored = play.played?.points && points !== pots.length;
   const scored = !foul && (hasScored || !play.hasPockets) ? texts.whoScored(name, points) : "";
   if (!play.hasPockets && foul) return wordsOfFoul(play, stroke, seat).trim();
   if (!play.hasPockets || (scored && fallen.length === 0)) return scored;

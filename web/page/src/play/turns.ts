@@ -64,7 +64,7 @@ export function choose(s: Session, what: Choice): void {
   s.searchGeneration++; // a search for a hint ends here
   try {
     const stroke = s.play.choose(what);
-    s.verdict = what === "pass" ? wordsOfStroke(s.play, stroke, s.seat) : "";
+    s.verdict = wordsOfStroke(s.play, stroke, s.seat);
     says(s, "");
     finishTurn(s, stroke);
   } catch (error) {

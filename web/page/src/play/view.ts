@@ -1,6 +1,6 @@
 // The view Play: the table fills the window; around it are both seats, the controls of a stroke,
 // and a drawer for the rest.
-import type { Carom, Choice } from "carom";
+import type { Carom } from "carom";
 import { player as filmPlayer } from "../../../player/player.js";
 import { drop } from "../far.js";
 import { button, eachFrame, el, parameters, wrong } from "../ui.js";
@@ -17,6 +17,7 @@ import { isRaceOver, racksOf } from "./keep.js";
 import { byLink } from "./link.js";
 import { logPage } from "./log.js";
 import { keepSettings, menu, settingsOf } from "./menu.js";
+import { BUTTONS } from "./named.js";
 import { practice } from "./practice.js";
 import type { Session } from "./parts.js";
 import { plates } from "./plates.js";
@@ -87,15 +88,6 @@ function buttonsOf(session: () => Session): Session["buttons"] {
   };
 }
 
-const CHOICES: readonly (readonly [Choice, string])[] = [
-  ["pass", texts.pass],
-  ["place", texts.takeTheCueBall],
-  ["stay", texts.leaveTheCueBall],
-  ["spot", texts.spotTheTouchingBalls],
-  ["rack", texts.rackAndBreak],
-  ["other_rack", texts.rackTheOtherBreaks],
-];
-
 /** The game before it begins, with all that it is played by. */
 function sessionOf(carom: Carom, felt: HTMLElement): Session {
   const coarse = window.matchMedia("(pointer: coarse)").matches;
@@ -122,7 +114,7 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
     sound: new Sound(settings.sound),
     words: wordsOf(),
     buttons: buttonsOf(() => s),
-    choices: CHOICES.map(([act, text]) => [act, button(text, () => choose(s, act), `#${act}`)]),
+    choices: BUTTONS.map((act) => [act, button("", () => choose(s, act), `#${act}`)]),
   });
   const session = Object.assign(s, {
     showing: showing(s),

@@ -160,9 +160,9 @@ const OWN: Record<string, Partial<Played>> = {
   straight: {
     text: texts.straightPoolTo25,
     state: { target: 25 },
-    begin: { ...BREAK, speed: 4 },
+    begin: { ...BREAK, speed: 5.2 },
   },
-  snooker: { calls: false, begin: { ...BREAK, speed: 4 } },
+  snooker: { calls: false, begin: { ...BREAK, speed: 2 } },
   threecushion: {
     text: texts.threeCushionTo10,
     state: { target: 10 },
@@ -171,7 +171,7 @@ const OWN: Record<string, Partial<Played>> = {
   fourball: { text: texts.fourBallTo10, begin: { speed: 3, phi: 97, a: 0, b: 0.2 } },
   // The 1 is in front of the 3, which is hit off a rail.
   cowboy: { begin: { ...BREAK, speed: 3, phi: 53.8 } },
-  billiards: { state: { group: "solids", target: 50 }, begin: { ...BREAK, speed: 3 } },
+  billiards: { state: { group: "solids", target: 50 }, begin: { ...BREAK, speed: 3, phi: 95.16 } },
   straightrail: {
     text: texts.straightRailTo25,
     state: { target: 25 },
@@ -187,7 +187,7 @@ export const PLAYED: Record<string, Played> = Object.fromEntries(
     const { rack, calls, opening } = games[name];
     const points = hasMember(name, "score");
     const pockets = hasMember(name, "pocket");
-    const begin = pockets ? { ...BREAK, speed: 2.5, phi: 79.5, b: -0.3 } : BREAK;
+    const begin = pockets ? { ...BREAK, speed: 2.5, b: -0.3 } : BREAK;
     return LEFT_OUT.includes(name)
       ? []
       : [

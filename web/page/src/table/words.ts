@@ -54,6 +54,24 @@ export const namesBall = (
 /** Whether a stroke passes the turn, and seldom by a foul. */
 export const isSafe = (table: Pick<Table, "pockets">, choice: PlanStroke): boolean =>
   !namesBall(table, choice) && choice.keep < LUCK && choice.foul < RISKY;
+/** A longer table, m, is snooker's, whose pockets have names of their own. */
+const SNOOKER_LENGTH = 3.5;
+/** The pockets of snooker, by the end of the table: from baulk to the black spot. */
+const SNOOKER_POCKETS = [
+  [texts.yellowPocket, texts.greenPocket],
+  [texts.rightCentre, texts.leftCentre],
+  [texts.rightBlack, texts.leftBlack],
+] as const;
+/** The name of a pocket: on a table of snooker "green pocket", else "head-left pocket". */
+export function wordsOfPocket(table: Table, pocket: number): string {
+  const { width, length, pockets } = table;
+  const [x, y] = pockets[pocket]!.centre;
+  if (length <= SNOOKER_LENGTH) return translate(pocketName(table, pocket));
+  const [right, left] = SNOOKER_POCKETS[Math.max(0, Math.min(2, Math.floor((3 * y) / length)))]!;
+  return x > width / 2 ? right : left;
+}
+/** The name of a ball as players say it: nobody sees the numbers of reds and yellows. */
+export const spoken = (name: string): string => translate(name.replace(/^(red|yellow) \d+$/, "$1"));
 /** The name of a pot: "ball 7 into the side-left pocket". */
 export function wordsOfPot(
   table: Table,
@@ -62,10 +80,10 @@ export function wordsOfPot(
   how = "",
 ): string {
   const name = names[ball]!;
-  const into = translate(pocketName(table, pocket));
+  const into = wordsOfPocket(table, pocket);
   return Number(name) > 0
     ? texts.ballNumberInto(name, into, how)
-    : texts.intoThe(translate(name), into, how);
+    : texts.intoThe(spoken(name), into, how);
 }
 interface WhatMayBeStruck {
   table: Table;
@@ -85,7 +103,7 @@ export function wordsOfPlan(
 /** The name of a ball: "ball 7", "the yellow". */
 export function ballOf(names: readonly string[], ball: number): string {
   const name = names[ball]!;
-  return Number(name) > 0 ? texts.ballNumber(name) : texts.theBallNamed(translate(name));
+  return Number(name) > 0 ? texts.ballNumber(name) : texts.theBallNamed(spoken(name));
 }
 /** What a choice is, by which the cue ball may be known to meet a cushion first. */
 function wordsOfChoice(
@@ -97,7 +115,7 @@ function wordsOfChoice(
   const { kind, ball } = choice;
   if (!namesBall(table, choice)) return WITHOUT[kind] ?? wordsWithoutBall(table, choice);
   // A cannon names the ball that is met first.
-  if (choice.pocket < 0) return texts.theBallFirst(translate(names[ball]!));
+  if (choice.pocket < 0) return texts.theBallFirst(spoken(names[ball]!));
   const isNamed = kind === "kick" || kind === "rail_first";
   const first = cushionFirst && !isNamed ? texts.offACushionFirst : "";
   return wordsOfPot(table, names, choice, `${BY[kind] ?? ""}${first}`);
