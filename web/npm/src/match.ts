@@ -193,10 +193,10 @@ export class Match extends MatchActs<Host> {
   ): boolean {
     if (seats === undefined && !alternate && limits === undefined) return false;
     const { memory } = this.#host;
-    const given = typeof seats === "object" ? seats : Array<string>(seats ?? 0).fill("");
-    if (memory.exports.carom_seating_make(rules, given.length, seating) < 0)
-      throw new RangeError(`seats: ${given.length} seats cannot play this game`);
-    for (const [k, one] of given.entries()) {
+    const names = typeof seats === "object" ? seats : Array<string>(seats ?? 0).fill("");
+    if (memory.exports.carom_seating_make(rules, names.length, seating) < 0)
+      throw new RangeError(`seats: ${names.length} seats cannot play this game`);
+    for (const [k, one] of names.entries()) {
       const seat = seating + SEATING.seat + k * SEAT.size;
       const name = `seats[${k}]`;
       const { name: text, cue, ...rest } = typeof one === "string" ? { name: one } : one;

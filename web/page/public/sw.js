@@ -8,21 +8,22 @@ self.addEventListener("install", (event) => {
   self.skipWaiting();
 });
 self.addEventListener("activate", (event) => event.waitUntil(self.clients.claim()));
-async function fromNetwork(request) {
+/** What the network answers; the worker keeps it. */
+async function fetched(request) {
   const response = await fetch(request);
   if (response.ok) await (await caches.open(KEPT)).put(request, response.clone());
   return response;
 }
+/** What the worker has, or else what the network answers. */
+async function answer(request, fresh) {
+  const cache = await caches.open(KEPT);
+  return (await cache.match(request)) ?? fresh;
+}
 self.addEventListener("fetch", (event) => {
   const { request } = event;
   if (request.method !== "GET" || new URL(request.url).origin !== location.origin) return;
-  const fresh = fromNetwork(request);
-  const kept = caches.open(KEPT).then((cache) => cache.match(request));
-  event.respondWith(kept.then((response) => response ?? fresh));
-  event.waitUntil(
-    fresh.then(
-      () => undefined,
-      () => undefined,
-    ),
-  );
+  const fresh = fetched(request);
+  event.respondWith(answer(request, fresh));
+  // Without a network, what the worker has is the answer.
+  event.waitUntil(fresh.catch(() => undefined));
 });

@@ -401,7 +401,7 @@ export const coaching = (s: Session): Coach => ({
     return async (cue, call, aimer, isTold) => {
       s.chancesGeneration++; // chances of this stroke that are computed later do not hide its review
       const { play } = s;
-      const ownStrokes = (): number => play.aims.filter((other) => other !== "opponent").length;
+      const ownStrokes = (): number => play.aims.filter((aimer) => aimer !== "opponent").length;
       const strokes = ownStrokes();
       const review = await reviewOf(request, cue, call);
       // The coach's page sums up what the player aimed.

@@ -90,7 +90,7 @@ const powerOf = (share: number): number =>
 function pullOf(s: Session, speed: () => number, set: (speed: number) => void): HTMLElement {
   const root = el("div.pull", { "aria-hidden": "true" }, el("i"));
   let start = 0;
-  let before = 0; // the power before the pull
+  let initial = 0; // the power before the pull
   let share = 0;
   let isPulled = false;
   const shareOf = (length: number): number =>
@@ -99,7 +99,7 @@ function pullOf(s: Session, speed: () => number, set: (speed: number) => void): 
   drags(root, ({ clientY: y }, first) => {
     if (first) {
       start = y;
-      before = speed();
+      initial = speed();
       isPulled = false;
     }
     share = shareOf(y - start);
@@ -113,7 +113,7 @@ function pullOf(s: Session, speed: () => number, set: (speed: number) => void): 
     share = 0;
     draw();
     if (!isPulled) return set(powerOf(shareOf(y - root.getBoundingClientRect().top)));
-    if (type === "pointercancel" || !isLong) return set(before);
+    if (type === "pointercancel" || !isLong) return set(initial);
     if (s.settings.pull) play(s);
   };
   root.addEventListener("pointerup", release);

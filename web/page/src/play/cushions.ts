@@ -116,9 +116,9 @@ const onMitre = ([x, y]: Point, outward: Point, tangent: Point): Point => [
   x - HIDDEN * (outward[0] + tangent[0]),
   y - HIDDEN * (outward[1] + tangent[1]),
 ];
-function endOf(table: Table, nose: Point, other: Point, outward: Point): End {
-  const long = distance(nose, other);
-  const tangent: Point = [(nose[0] - other[0]) / long, (nose[1] - other[1]) / long];
+function endOf(table: Table, nose: Point, far: Point, outward: Point): End {
+  const long = distance(nose, far);
+  const tangent: Point = [(nose[0] - far[0]) / long, (nose[1] - far[1]) / long];
   const pocket = table.pockets.find(({ centre, radius }) => distance(centre, nose) < 3 * radius);
   const edge = clipped(nose, edgeFrom(table, nose), outward);
   const tip = edge.at(-1) ?? nose;

@@ -59,15 +59,15 @@ function wordsOfStart({ setup, practice }: Play, training: Session["training"]):
 /** Sets a legal first stroke, one try at a time, unless somebody aims, plays or leaves first. */
 async function aimLegally(s: Session): Promise<void> {
   const { play } = s;
-  const isUntouched = (before: string): boolean =>
-    s.play === play && play.strokes === 0 && JSON.stringify(s.stroke.value()) === before;
+  const isUntouched = (initial: string): boolean =>
+    s.play === play && play.strokes === 0 && JSON.stringify(s.stroke.value()) === initial;
   const usual = cueOf(s);
-  const before = JSON.stringify(s.stroke.value());
+  const initial = JSON.stringify(s.stroke.value());
   const search = firstStroke(play, usual);
   let tried = search.next();
   while (!tried.done) {
     await new Promise((later) => window.setTimeout(later));
-    if (!isUntouched(before)) return;
+    if (!isUntouched(initial)) return;
     tried = search.next();
   }
   if (tried.value === usual) return;

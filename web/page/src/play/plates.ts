@@ -13,13 +13,13 @@ import { texts, translate } from "../texts/texts.js";
 /** A row of balls, drawn anew only where they are others than before. */
 function tray(selector: string): { root: HTMLElement; show(play: Play, balls: number[]): void } {
   const root = el(selector as "div");
-  let before = "";
+  let drawn = "";
   return {
     root,
     show({ balls, names }, shown) {
       const key = shown.map((k) => `${names[k]} ${onTable(balls[k]!.state)}`).join();
-      if (key === before) return;
-      before = key;
+      if (key === drawn) return;
+      drawn = key;
       const pictures = shown.map((k) => {
         const ball = ballPicture(names[k]!, k, balls[k]!.kind.radius);
         ball.classList.toggle("gone", !onTable(balls[k]!.state));

@@ -34,9 +34,15 @@ export const newId = (): string => crypto.randomUUID();
 export const idOfLink = ({ game, seed }: Setup, seat: 0 | 1): string =>
   `link-${game}-${seed}-${seat}`;
 
-function listed({ text: _, ...shown }: SavedGame): ListedGame {
-  return shown;
-}
+const listed = ({ id, setup, aims, score, strokes, isOver, when }: SavedGame): ListedGame => ({
+  id,
+  setup,
+  score,
+  strokes,
+  isOver,
+  when,
+  ...(aims && { aims }),
+});
 export async function saveGame(game: SavedGame): Promise<void> {
   await set(game.id, game, store);
   await set(game.id, listed(game), list);

@@ -90,14 +90,13 @@ export function membersOf(gameText: string): Record<string, unknown> {
   }
   if (typeof members !== "object" || members === null || Array.isArray(members))
     throw new TypeError(texts.theLinkIsCut);
-  const all = members as Record<string, unknown>;
-  for (const [name, value] of Object.entries(all)) {
+  for (const [name, value] of Object.entries(members)) {
     const kind = Object.hasOwn(TEXT, name) ? TEXT[name] : undefined;
     if (!kind) throw new TypeError(texts.settingThereIsNo(name, Object.keys(TEXT).join(", ")));
     if (!kind.fits(value)) throw new TypeError(texts.settingMustBe(name, shown(value), kind.right));
   }
-  const missing = NEEDED.find((name) => !(name in all));
+  const missing = NEEDED.find((name) => !Object.hasOwn(members, name));
   if (missing !== undefined)
     throw new TypeError(texts.settingIsMissing(missing, TEXT[missing]!.right));
-  return all;
+  return members as Record<string, unknown>;
 }

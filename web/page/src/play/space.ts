@@ -142,19 +142,20 @@ export class Space implements SpaceView {
   #lose(scene: Scene): void {
     if (this.#scene !== scene) return; // it was ended here
     const wasOn = this.isOn;
-    this.isOn = this.#isBelow = false;
+    this.isOn = false;
+    this.#isBelow = false;
     this.#end();
     this.#press();
     this.s.film.draw();
     if (++this.#losses > MOST_LOSSES || this.#isClosed) return;
-    const again = async (): Promise<void> => {
+    const remake = async (): Promise<void> => {
       await this.prepare();
       if (wasOn && !this.isOn && !this.#isClosed) await this.toggle();
     };
     const whenVisible = (): void => {
       if (document.hidden) return;
       document.removeEventListener("visibilitychange", whenVisible);
-      window.setTimeout(() => void again(), AGAIN);
+      window.setTimeout(() => void remake(), AGAIN);
     };
     document.addEventListener("visibilitychange", whenVisible);
     whenVisible();

@@ -163,7 +163,7 @@ export function wordsOfStroke(play: Play, stroke: Stroke, seat: number): string 
     type === "ball_pocket" && (a !== cue.ball || !ruling?.foul) ? spoken(play.names[a]!) : [],
   );
   const fallen = [...new Set(pots)].map((word) => {
-    const count = pots.filter((other) => other === word).length;
+    const count = pots.filter((pot) => pot === word).length;
     return count > 1 ? texts.manyOf(count, word) : texts.theBallNamed(word);
   });
   const { foul = true, points = 0 } = ruling ?? {};
