@@ -161,8 +161,8 @@ START_TEST(shots_agree_with_differences) {
   int m = read_directions(space ? in_space : directions, by);
   for (int k = 0; k < 2 && kinds[_i].start == SLOPED; k++)
     by[m++] = (direction){OF_NOSES, 0, SLOPE + k, 3e-3};
-  enum { FEWEST = 8 }; /* a median of fewer says little */
-  const int asked = draws_of_test(10, 40), draws = asked < FEWEST ? FEWEST : asked,
+  const double fewest = 8.0; /* a median of fewer says little */
+  const int draws = (int)fmax(draws_of_test(10, 40), fewest),
             most_shots = space ? draws * 4 / 5 : draws;
   random_source random = {space ? 3 : SEED};
   double *const errors = malloc((size_t)(draws * SPACE_DIRECTIONS) * sizeof *errors);
